@@ -4,6 +4,6 @@
 
 #include <stddef.h>
 
-// Returns the one of count words with the smallest edit distance to text, or NULL if all words are
-// too distant for a useful suggestion.
+// Returns the word with the smallest edit distance to text, or NULL if no word is near enough for a
+// useful suggestion.
 const char *word_nearest(const char *text, size_t length, const char *const *words, size_t count);

@@ -47,7 +47,7 @@ ExitCode merge_parts(const Options *options, Error *error);
 // clrt convert: writes a scene or mesh as scene text with binary PLY meshes, or as one PLY mesh.
 ExitCode convert_scene(const Options *options, Error *error);
 
-// The files of a run: those on the command line, and those of the scene once it is read.
+// The files of a run: the command line's, and the scene's once it is read.
 
 // Adds every file that the options name, and the files of scene unless it is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);

@@ -63,8 +63,8 @@ static void note_device(Merging *merging, const StoredImage *image)
     }
 }
 
-// Parts are joined without decoding if the output is an EXR file, whose tile size the parts share,
-// and if no hash of the pixels is needed.
+// Parts are joined without decoding if the output is an EXR file with the parts' tile size, unless
+// a hash of the pixels is needed.
 static bool can_join(const Options *options, const ExrFile *file)
 {
     return image_format_takes_layers(options->format) && file->tile_width == EXR_TILE &&

@@ -8,7 +8,7 @@
 #include "jobs/resume.h"
 #include "render/certifier.h"
 
-// A picture in progress. The frames of a run use one Picture, one after another.
+// A picture in progress. The frames of a run use one Picture in succession.
 typedef struct {
     Run *run;         // the scene, the renderer and the report
     const char *path; // of the output file

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fills the metadata of a picture. The settings in it are only those that can change a pixel, so
-// one device always writes the same file for the same picture.
+// Fills the metadata of a picture. The stored settings are only those that can change a pixel. One
+// device therefore always writes the same file for the same picture.
 #include "cli/picture.h"
 
 #include "image/json_file.h"

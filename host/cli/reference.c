@@ -7,7 +7,7 @@
 //
 // The reference is the picture in fp64, but most passes are in fp32, which is 6 to 9 times faster.
 // Some passes are drawn in both precisions. Their mean difference is added to the mean of all fp32
-// passes, so the sum's expected value is the picture in fp64 (Giles, Multilevel Monte Carlo Path
+// passes. The sum's expected value is the picture in fp64 (Giles, Multilevel Monte Carlo Path
 // Simulation, 2008). The difference is nearly always zero, so few passes suffice to estimate it.
 #include "cli/picture.h"
 

@@ -79,8 +79,8 @@ bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t ind
 // Stores the color of the pixel after all its samples are traced.
 void explainer_mix(const Explainer *explainer, float color[3]);
 
-// A primitive's name for users: a sphere has its number in the scene, and a triangle has a mesh
-// file and its number in that file.
+// A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and its
+// number in that file.
 typedef struct {
     bool is_sphere;
     size_t number;    // spheres from 1, triangles from 0

@@ -43,7 +43,7 @@ bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *e
 typedef bool TileWork(const void *context, const Tile *tile, Error *error);
 
 // Calls work for tiles 0 to count - 1 on all processors. If some fail, returns false and the error
-// of the first one.
+// of the failed tile with the lowest number.
 bool stored_tiles_run(const RenderSettings *settings, uint64_t count, TileWork *work,
                       const void *context, Error *error);
 

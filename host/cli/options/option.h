@@ -87,7 +87,7 @@ bool option_store(const Option *option, Options *options, const char *text, Erro
 bool options_check_conflicts(const Options *options, Error *error);
 
 // Determines whether the picture goes to a file or to the window, and the file's format. Rejects
-// options for the other one.
+// options that do not apply there.
 bool options_check_purpose(Options *options, Error *error);
 
 // Does what options_check_purpose does, for clrt compare, whose picture is optional.

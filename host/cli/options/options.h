@@ -122,7 +122,7 @@ typedef enum {
 #define REFERENCE_SAMPLES_MAX 65536
 
 // The default side of a tile in pixels. The window chooses other sizes. Parts have smaller tiles,
-// so that each part has more of them and takes about as long as the others.
+// so that each part has more tiles and all parts take about equal time.
 #define OPTIONS_TILE      128
 #define OPTIONS_PART_TILE 64
 
