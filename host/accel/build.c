@@ -30,7 +30,7 @@ static BuildRange range_of(const Build *build, const BuildTask *task)
     return range;
 }
 
-// Copies each item to the left or right side of other, in their order.
+// Copies the left items and then the right items to other, each in unchanged order.
 static void move_sides(const BuildRange *range, const Split *split, BuildItem *other)
 {
     BuildItem *left = other, *right = other + split->left;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Divides nodes of a tree, by one of two ways to split a node.
+// Divides the nodes of a tree with one of two functions that choose splits.
 #pragma once
 
 #include "accel/bvh.h"
@@ -116,7 +116,7 @@ static inline float item_center(const BuildItem *item, int axis)
     return item->low[axis] - item->negated_high[axis];
 }
 
-// Chooses how to split a node, with one function per builder.
+// The input of a function that chooses splits: a node.
 typedef struct {
     const BuildItem *items; // the node's triangles
     uint32_t count;
@@ -138,7 +138,7 @@ typedef struct {
     SplitKind kind;
     int axis;
     float origin, scale, limit;
-    uint32_t left; // triangles on the left: at least one, but not all
+    uint32_t left; // SPLIT_PLANE: triangles on the left, at least one but not all
 } Split;
 
 // Return the split of a range. Both functions are deterministic and stateless.
@@ -166,7 +166,7 @@ typedef struct {
     BvhLeaves leaves;
 } Build;
 
-// Sorts a node's triangles into two children, or makes it a leaf.
+// Sorts a node's triangles into two children, or makes the node a leaf.
 void build_divide(const Build *build, BuildTask *task);
 
 // Makes the nodes `child` and `child + 1` the children of a divided node, and stores their tasks.

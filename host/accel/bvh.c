@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Builds the tree top down. Threads divide the large nodes of one level after the other. Each
-// remaining subtree is built by one thread. Every subtree has its own node indices, so the tree
-// does not depend on the schedule.
+// Builds the tree top down. Threads divide the large nodes, level by level. One thread builds each
+// remaining subtree. Every subtree has its own node indices, so the tree does not depend on the
+// schedule.
 #include "accel/bvh.h"
 
 #include "accel/build.h"
@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-// Subtrees have at most this many triangles, unless no plane divides them.
+// The most triangles in a subtree that one thread builds.
 #define SUBTREE_TRIANGLES 65536
 
 typedef struct {
@@ -50,8 +50,8 @@ static bool add_task(Whole *whole, const BuildTask *task, Error *error)
                                            : array_push(&whole->subtrees, *task, error);
 }
 
-// Divides a level of large nodes. Their children have the indices between those of the subtrees on
-// both sides.
+// Divides a level of large nodes. The two children of a node have the indices between the nodes
+// below the left child and the nodes below the right child.
 static bool divide_level(Whole *whole, Error *error)
 {
     const size_t end = whole->large.count;

@@ -36,7 +36,7 @@ typedef struct {
     uint32_t *order;                      // triangle indices, leaf by leaf
     uint32_t node_count, leaf_count;      // nodes in use; leaves among them
     uint32_t largest_leaf, depth;         // in triangles; in levels, at most BVH_MAX_DEPTH
-    uint32_t inner_counts[BVH_MAX_DEPTH]; // inner nodes at every depth, the root's first
+    uint32_t inner_counts[BVH_MAX_DEPTH]; // inner nodes per level, from the root down
 } Bvh;
 
 // Builds the tree. It has no nodes if there are no triangles.

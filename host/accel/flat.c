@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Flattens lights, materials and spheres. flat_looks.c, flat_pair.c and flat_wide.c flatten the
-// triangles and their tree.
+// Flattens lights, materials and spheres, and derives traits. flat_looks.c, flat_pair.c and
+// flat_wide.c flatten the triangles and their tree.
 #include "accel/flat.h"
 
 #include "accel/flat_parts.h"
@@ -121,8 +121,6 @@ void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS])
     memcpy(arrays, all, sizeof all);
 }
 
-// Adds the slack in fp64, where the sum is nearly exact. Rounds the sum outward to float.
-
 static float largest_coordinate(const Box *box)
 {
     float largest = 0;
@@ -142,8 +140,9 @@ static float rounded_up(double value)
     return -rounded_down(-value);
 }
 
-// Grows each plane by BVH_SLACK times the box's largest coordinate, rounded outward. The slack
-// makes the device's culling conservative (kernels/search.cl).
+// Grows each plane by BVH_SLACK times the box's largest coordinate. The sum is nearly exact in fp64
+// and rounded outward to float. The slack makes the device's culling conservative
+// (kernels/search.cl).
 static Box box_grow(const Box *box)
 {
     const double slack = (double)BVH_SLACK * (double)largest_coordinate(box);
@@ -165,8 +164,6 @@ void box_store(float *planes, uint32_t children, uint32_t child, const Box *box)
         planes[(2 * axis + 1) * children + child] = grown.high[axis];
     }
 }
-
-// Most callers need neither the triangles nor the tree afterwards.
 
 bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
                    Error *error)
@@ -195,8 +192,7 @@ void compile_stages_free(CompileStages *stages)
     bvh_free(&stages->bvh);
 }
 
-// Inspects the materials that primitives use. A defined but unused material costs nothing.
-
+// Called only for materials that primitives use. A defined but unused material costs nothing.
 static void add_material(SceneTraits *traits, const Material *material)
 {
     traits->mirrors |= material->reflectivity > 0;

@@ -35,7 +35,7 @@ typedef struct {
     const Bvh *bvh;
     const Normalization *normalization; // of the scene
     NodeLayout layout;
-    ThreadPool *pool; // thread pool; NULL for the caller's thread only
+    ThreadPool *pool; // NULL for the caller's thread only
 } FlatSource;
 
 // Returns the unit in which leaves of this layout are tested.
@@ -48,7 +48,7 @@ void flat_free(FlatScene *flat);
 typedef struct {
     const char *name; // for users
     const void *data;
-    size_t bytes; // 0 if the scene needs none
+    size_t bytes; // 0 if the scene does not need the array
 } FlatArray;
 
 #define FLAT_ARRAYS 7
@@ -57,14 +57,14 @@ typedef struct {
 // triangles, looks and normals.
 void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS]);
 
-// Scene -> FlatScene by all stages: triangles, tree, flattening.
+// The input of scene_compile, which runs all stages: triangles, tree and flattening.
 typedef struct {
     const Scene *scene;
     const Normalization *normalization; // of the scene
     NodeLayout layout;
     BvhBuilder builder;
-    bool has_tree;    // otherwise rays test every triangle
-    ThreadPool *pool; // shares the work; NULL for none
+    bool has_tree;    // false: rays test every triangle
+    ThreadPool *pool; // NULL for the caller's thread only
 } CompileSource;
 
 // The intermediate results of scene_compile.
@@ -78,7 +78,7 @@ bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *
                    Error *error);
 void compile_stages_free(CompileStages *stages);
 
-// Derives SceneTraits, the switches of kernels/config.h, from a FlatScene. A program specialized by
+// The features that a scene uses, as the switches of kernels/config.h. A program specialized by
 // them has no code for unused features. It renders the same picture as the general program.
 typedef struct {
     bool spheres, triangles;

@@ -7,9 +7,9 @@
 typedef struct {
     const MeshObject *object;
     const uint8_t *orders;  // the object's section of Triangles::orders
-    TriangleLook *looks;    // its section of FlatScene::looks
-    CornerNormals *normals; // its section of FlatScene::normals; NULL for flat shading
-    uint32_t first_normals; // index where that section begins
+    TriangleLook *looks;    // the object's section of FlatScene::looks
+    CornerNormals *normals; // and of FlatScene::normals; NULL for flat shading
+    uint32_t first_normals; // index in FlatScene::normals of the section's first element
 } ObjectLooks;
 
 static Vec3 face_normal(const Mesh *mesh, const uint32_t *triangle)
@@ -43,8 +43,8 @@ static double inverse_power(double value)
     return power;
 }
 
-// Stores a triangle's normals, scaled by one power of two that keeps their squares in range. The
-// ratios of their lengths stay unchanged, because they are interpolation weights.
+// Stores a triangle's normals, negated if the stored corners are reversed. One power of two scales
+// all three to keep their squares in range. Their relative lengths stay: they weight interpolation.
 static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {

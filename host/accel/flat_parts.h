@@ -5,16 +5,16 @@
 #include "accel/bvh.h"
 #include "accel/flat.h"
 
-// Fills flat's looks and normals, in file order: materials and normals beside the corners. A look
-// holds its triangle's flags until the layout moves them.
+// Fills flat's looks and normals, in file order. Each look also holds its triangle's flags until
+// flat_pair_make or flat_wide_make moves them.
 bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error);
 
-// Fills the layout of pairs: a node with both children's boxes for every inner node, and the
-// triangles in leaf order. The looks move into the triangles.
+// Fills the pair layout: a BvhPair for every inner node, and the triangles in leaf order. The looks
+// move into the triangles.
 bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error);
 
-// Fills the wide layout: nodes of eight children, and a block for every leaf. The triangles' flags
-// move from the looks to the blocks. Without a tree, blocks hold the triangles in file order.
+// Fills the wide layout: nodes of up to eight children, and blocks of triangles. The triangles'
+// flags move from the looks to the blocks. Without a tree, the triangles are in file order.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);
 
 // Operations on axis-aligned boxes.
@@ -28,6 +28,7 @@ static inline float box_half_area(const Box *box)
     return x >= 0 ? x * y + y * z + z * x : 0;
 }
 
-// Stores the grown planes of a child in a node with `children` children, or, if box is NULL, planes
-// that no ray hits. The low planes of all children precede the high ones, axis by axis.
+// Stores a child's box, grown by BVH_SLACK, in the planes of a node with room for `children`
+// children. If box is NULL, no ray enters the stored box. On each axis, the low planes of all
+// children precede the high ones.
 void box_store(float *planes, uint32_t children, uint32_t child, const Box *box);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Collapses the binary tree into nodes of up to eight children. A wide node starts with a binary
-// node's two children. It then opens children until it has eight: each time, two parts replace the
-// child with the largest surface area, which rays most likely hit. A child with at most eight
-// leaves is opened only if all its leaves fit. Otherwise, a node of only two or three blocks could
-// remain. One thread walks the tree, and then all threads fill the blocks. Nodes and blocks are in
-// depth-first order.
+// node's two children. While it has fewer than eight, two parts replace its child with the largest
+// surface area, which rays hit most often. A child with at most eight leaves is opened only if all
+// its leaves fit. This rule avoids nodes of only two or three blocks. One thread walks the tree,
+// and then all threads fill the blocks. Nodes and blocks are in depth-first order.
 #include "accel/flat_parts.h"
 
 #include <stdlib.h>
@@ -28,8 +27,8 @@ typedef struct {
 typedef struct {
     FlatScene *flat;
     const FlatSource *source;
-    BvhWide *wides; // mostly unused memory
-    Range *blocks;  // by block; mostly unused memory
+    BvhWide *wides; // flat->node_count nodes so far; the rest is unused
+    Range *blocks;  // flat->block_count ranges so far; the rest is unused
 } Collapse;
 
 static bool is_block(const Part *part)
@@ -51,8 +50,8 @@ static Part part_of(const Bvh *bvh, uint32_t number)
     return part;
 }
 
-// Opens *part and stores the result in *part and *second. An inner node becomes its two children, a
-// leaf's triangles become two halves of whole blocks.
+// Opens *part and stores the result in *part and *second. An inner node becomes its two children. A
+// leaf's range is halved between two blocks.
 static void open_part(const Bvh *bvh, Part *part, Part *second)
 {
     const Part whole = *part;
@@ -70,7 +69,7 @@ static void open_part(const Bvh *bvh, Part *part, Part *second)
 }
 
 // Returns whether to open a part of a node that has room for `room` more parts. A node's only part
-// is always opened, unless it is a block.
+// is always opened, unless the part is a block.
 static bool can_open(const Part *part, uint32_t room)
 {
     return !is_block(part) &&
@@ -137,8 +136,8 @@ static uint32_t add_block(const Collapse *collapse, uint32_t first, uint32_t cou
     return WIDE_LEAF | number;
 }
 
-// Writes the part's nodes. Returns the index of the first. The depth of the binary tree bounds the
-// recursion.
+// Writes the wide node of a part and all nodes below. Returns the index of the part's node. The
+// depth of the binary tree bounds the recursion.
 static uint32_t write_node(const Collapse *collapse, const Part *part)
 {
     Part parts[WIDE] = {*part};
@@ -195,8 +194,8 @@ static void unmark_chunk(void *context, uint32_t first, uint32_t end)
         flat->looks[i].material &= ~TRIANGLE_MARKS;
 }
 
-// A leaf of n triangles makes at most n / WIDE + 1 blocks, and a wide node replaces an inner node
-// or parts a leaf's blocks.
+// A leaf of n triangles makes at most n / WIDE + 1 blocks. Each wide node replaces an inner node or
+// divides the blocks of a leaf.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
 {
     const size_t leaves = source->bvh->leaf_count, inner = source->bvh->node_count - leaves;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The course's split: a plane through the middle of the box, across its longest axis first. The
-// split rejects an axis if a side stays empty or a child is hardly smaller than its parent.
+// The midpoint split of the course (docs/scenes.md): a plane through the middle of the box, across
+// its longest axis. If a side is empty or a child is hardly smaller than its parent, the next axis
+// is tried.
 #include "accel/build.h"
 
-#define LEAF_TRIANGLES    4
-#define SMALLEST_PROGRESS 0.9f // largest extent of a child, as a fraction of its parent's
+#define LEAF_TRIANGLES 4
+#define LARGEST_CHILD  0.9f // largest extent of a child, as a fraction of its parent's
 
-// Returns 10 levels more than a balanced tree with four triangles per leaf.
+// Returns the most levels: 10 more than a balanced tree with four triangles per leaf has.
 static uint32_t deepest_level(uint32_t triangle_count)
 {
     const uint32_t leaves = (uint32_t)(triangle_count / 4.0 + 0.5);
@@ -31,7 +32,7 @@ static void axes_by_extent(const Bounds *box, int axes[3])
 
 static bool makes_progress(const BuildRange *range, Split *split)
 {
-    const float largest = SMALLEST_PROGRESS * bounds_extent(&range->box, split->axis);
+    const float largest = LARGEST_CHILD * bounds_extent(&range->box, split->axis);
     Bounds sides[2] = {bounds_empty(), bounds_empty()};
     uint32_t counts[2] = {0};
     for (uint32_t i = 0; i < range->count; i++) {

@@ -28,14 +28,14 @@ uint8_t corner_order(const float *a, const float *b, const float *c)
     return (uint8_t)((b[0] < a[0]) | (c[0] < b[0]) << 1 | (c[0] < a[0]) << 2);
 }
 
-// A mesh, and where its points and triangles begin in the arrays of all meshes.
+// A mesh and its sections of the arrays in Triangles.
 typedef struct {
     const Mesh *mesh;
     const Normalization *normalization;
-    float (*points)[4];     // the mesh's section of Triangles::points
-    uint32_t (*corners)[3]; // the mesh's section of Triangles::corners
-    uint8_t *orders;        // the mesh's section of Triangles::orders
-    uint32_t first_point;   // index of the mesh's first point
+    float (*points)[4];
+    uint32_t (*corners)[3];
+    uint8_t *orders;
+    uint32_t first_point; // index of the mesh's first point
 } Storing;
 
 // Turns -0 into +0, because equal points must have equal bits.
@@ -102,9 +102,10 @@ bool triangles_make(Triangles *triangles, const Scene *scene, const Normalizatio
     *triangles = (Triangles){0};
     // Triangles and spheres share one range of ids; flags take two bits (kernels/shared.h).
     if (count + scene->spheres.count >= 0x3fffffff)
-        return error_set(error, "the scene has %zu triangles, more than 2^30 primitives", count);
+        return error_set(error, "the scene has %zu triangles and %zu spheres, more than 2^30 - 2",
+                         count, scene->spheres.count);
     if (points > UINT32_MAX)
-        return error_set(error, "the scene has %zu vertices, more than 2^32", points);
+        return error_set(error, "the scene has %zu vertices, more than 2^32 - 1", points);
     triangles->points = memory_raw(points, sizeof *triangles->points, error);
     triangles->corners = memory_raw(count, sizeof *triangles->corners, error);
     triangles->orders = memory_raw(count, sizeof *triangles->orders, error);

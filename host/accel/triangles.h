@@ -11,14 +11,14 @@
 
 // The order in which a triangle's corners are stored for the device (kernels/shared.h).
 typedef struct {
-    uint8_t places[3]; // of the corners sorted by x, then y, then z
+    uint8_t places[3]; // corners in file order, 0 to 2, sorted by x, then y, then z
     bool reversed;     // sorting swaps front and back
 } CornerOrder;
 
 extern const CornerOrder corner_orders[8];
 
-// Returns an index into corner_orders. Sorting by it gives the same three points for every order
-// of the arguments.
+// Returns the index of the entry of corner_orders that sorts the corners. The sorted points do not
+// depend on the order of the arguments.
 uint8_t corner_order(const float *a, const float *b, const float *c);
 
 typedef struct {

@@ -40,7 +40,7 @@ bool cache_take_folder(Cache *cache, const char *base, const char *rest)
     return false;
 }
 
-// Sets cache->kernels to the folder that PoCL uses by default.
+// Sets cache->kernels to POCL_CACHE_DIR or, if it is unset, to PoCL's default folder.
 static void find_kernels(Cache *cache)
 {
     const char *chosen = getenv("POCL_CACHE_DIR"), *user = getenv("XDG_CACHE_HOME"),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The folder that holds compiled kernels, and the lock on it. PoCL 3.1 loses builds when several
-// processes share a cold cache. It shows no device if it cannot write a cache. PoCL therefore gets
-// a folder of clrt's own, and each build holds a lock on the folder.
+// processes share a cold cache. PoCL lists no device if it cannot write its cache. clrt therefore
+// gives PoCL a folder of its own and locks the folder during each build.
 #pragma once
 
 #include "base/error.h"
@@ -18,16 +18,16 @@ typedef struct {
     void (*announce)(bool begins);
 } Cache;
 
-// Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt and ~/.cache/clrt that is
-// writable and has free space. If the latter two lie on a file system that hosts share, chooses
-// clrt-hosts/HOST/clrt there. Otherwise chooses a private temporary folder. Sets POCL_CACHE_DIR to
-// a folder in it. If all folders are full, PoCL shows no device. Only main may call cache_open,
+// Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt, ~/.cache/clrt and a private
+// temporary folder that is writable and has free space. If hosts share the file system of the
+// second or third, clrt-hosts/HOST/clrt replaces clrt. Sets POCL_CACHE_DIR to a subfolder of the
+// chosen folder. If all folders are full, PoCL lists no device. Only main may call cache_open,
 // before the first OpenCL call.
 void cache_open(Cache *cache);
 
 // Opens a cache for libraries, which needs no cache_close. Leaves the environment unchanged, so
-// PoCL stores its kernels in its default folder or in POCL_CACHE_DIR, which then holds the lock,
-// too. cache->folder is empty if no folder is writable.
+// PoCL stores its kernels in POCL_CACHE_DIR or in its default folder. The lock and the manifests
+// are in the subfolder clrt/library. cache->folder is empty if no folder is writable.
 void cache_open_for_library(Cache *cache);
 
 // Removes the folder if it is temporary. No OpenCL object may be in use.
@@ -44,10 +44,9 @@ void cache_remove(const char *path);
 int cache_lock(const Cache *cache);
 void cache_unlock(int lock);
 
-// File systems that several machines mount at once.
-
-// Returns whether statfs reports such a file system as f_type. FUSE counts, because it may be one.
+// Returns whether several hosts can mount a file system of this type, f_type of statfs, at once.
+// Returns true for FUSE, because its file system may be one that hosts share.
 bool disk_type_is_shared(unsigned long type);
 
-// Returns whether the folder lies on such a file system; false if the system does not know.
+// Returns whether the folder lies on a file system that hosts can share; false if statfs fails.
 bool disk_is_shared(const char *folder);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Builds a program under the cache's lock. Before the build, clrt compares PoCL's files for the
+// Guards the build of a program: holds the cache's lock, and first compares PoCL's files for the
 // program with a manifest of checksums. PoCL crashes or computes wrong results with damaged files,
 // so clrt removes them, and PoCL compiles again.
 #pragma once
@@ -12,14 +12,16 @@ typedef struct {
     char *manifest;        // lines of the intact manifest; NULL without one; owned
     unsigned loaded_count; // kernels that the process had loaded before the build
     int lock;
-    bool is_announced; // cache->announce waits for the end of the build
+    bool is_announced; // cache->announce(true) was called
 } CacheCheck;
 
-// Waits for the lock, and removes the program's files if some are damaged. Borrows cache and key.
+// Waits for the lock. If some of the program's files are damaged, removes them. If the program has
+// no manifest, also removes all programs that no manifest lists. Borrows cache and key.
 void cache_check_begin(CacheCheck *build, const Cache *cache, const char *key);
 
-// Unlocks the cache. If the program and a first run of its kernels worked, writes its manifest.
+// Ends the build. If `works`, the program and a first run of its kernels succeeded, so this writes
+// the program's manifest. Unlocks the cache.
 void cache_check_end(CacheCheck *build, bool works);
 
-// Returns whether the program with this key has an intact manifest, which means that it was built.
+// Returns whether the program with this key was built before and has an intact manifest.
 bool cache_has_program(const Cache *cache, const char *key);

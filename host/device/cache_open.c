@@ -17,7 +17,7 @@
 #define KERNEL_FOLDER "/pocl"       // in OWN_FOLDER
 #define HOSTS_FOLDER  "/clrt-hosts" // in a cache folder that hosts share
 
-// Returns whether the folder has enough free space, or the file system does not report it.
+// Returns whether the folder has enough free space; true if the file system does not report it.
 static bool has_room(const Cache *cache)
 {
     struct statvfs disk;
@@ -53,8 +53,8 @@ static bool take_chosen(Cache *cache)
     return take(cache, base, OWN_FOLDER);
 }
 
-// Uses the user's cache folder. If hosts share it, uses a folder for this host in it, because a
-// common lock would let one host compile at a time.
+// Uses the user's cache folder. If hosts share that folder, uses a subfolder for this host, because
+// with a common lock only one host could compile at a time.
 static bool take_users(Cache *cache, const char *base, const char *rest)
 {
     Cache users;
@@ -87,7 +87,7 @@ void cache_open(Cache *cache)
     if (!take_chosen(cache) && !take_users(cache, getenv("XDG_CACHE_HOME"), "") &&
         !take_users(cache, getenv("HOME"), "/.cache") && !take_temporary(cache))
         *cache = (Cache){0};
-    // PoCL cannot create a folder in a device file, and then lists no CPU.
+    // Without a usable folder, makes PoCL list no CPU: it cannot create a folder in a device file.
     setenv("POCL_CACHE_DIR", cache->folder[0] != '\0' ? cache->kernels : "/dev/null/clrt", 1);
 }
 

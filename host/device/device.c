@@ -126,7 +126,7 @@ static bool no_match(const DeviceList *list, const char *spec, Error *error)
 {
     char text[DEVICE_TEXT_SIZE];
     device_list_text(list, text);
-    return error_set(error, "no device matches '%s'; there are:\n%s", spec, text);
+    return error_set(error, "no device matches '%s'; the devices are:\n%s", spec, text);
 }
 
 bool device_open(Device *device, const char *spec, Error *error)

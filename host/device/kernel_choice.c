@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// KernelChoice -> compiler switches. A program is specialized by these switches and by the scene's
-// traits (accel/flat.h).
+// Chooses kernels and converts the choice to compiler switches. These switches and the scene's
+// traits (accel/flat.h) specialize a program.
 #include "device/kernel_choice.h"
 
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
-#define RAY_GROUP    8
-#define PACKET_GROUP 2
+// Sides of work-groups, in work-items. With wide nodes, a work-item renders a block of pixels.
+#define PAIR_GROUP 8
+#define WIDE_GROUP 2
 
 void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTIONS_SIZE])
 {
@@ -79,7 +80,7 @@ KernelChoice kernel_choose(const KernelRequest *request, const Device *device)
 
 uint32_t kernel_group_side(const KernelChoice *choice)
 {
-    return choice->nodes == NODES_WIDE ? PACKET_GROUP : RAY_GROUP;
+    return choice->nodes == NODES_WIDE ? WIDE_GROUP : PAIR_GROUP;
 }
 
 bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error)

@@ -7,8 +7,8 @@
 #include "device/device.h"
 
 typedef enum {
-    FAMILY_RAY,   // a work-item renders one pixel
-    FAMILY_PACKET // a work-item renders a block of BLOCK_SIDE x BLOCK_SIDE pixels
+    FAMILY_RAY,   // rays search the tree one by one
+    FAMILY_PACKET // packets of rays search the tree together
 } KernelFamily;
 
 typedef enum {

@@ -72,7 +72,7 @@ static bool create_program(Program *program, const Device *device, const Program
     return cl_succeeded(status, "create the kernel program", error);
 }
 
-static bool report_build_log(const Program *program, const Device *device, cl_int status,
+static void report_build_log(const Program *program, const Device *device, cl_int status,
                              const char *options, Error *error)
 {
     size_t size = 0;
@@ -83,7 +83,6 @@ static bool report_build_log(const Program *program, const Device *device, cl_in
     error_set(error, "the kernels do not build with '%s' on %s: %s\n%s", options, device->name,
               cl_error_name(status), log != NULL ? log : "");
     free(log);
-    return false;
 }
 
 bool program_build(Program *program, const Device *device, const ProgramSource *source,

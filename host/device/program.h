@@ -10,7 +10,7 @@
 extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
-// The kernel to build. Every program also contains the first one.
+// The kernel to build. Every program also contains render_tile.
 typedef enum {
     KERNEL_TILE,    // render_tile
     KERNEL_SAMPLES, // trace_samples
@@ -31,9 +31,9 @@ typedef struct {
 
 const char *program_entry_name(KernelEntry entry);
 
-// Builds the program. The error message contains the compiler's log. Build between
-// cache_check_begin and cache_check_end. Run each kernel once there, because drivers then finish
-// compiling.
+// Builds the program. The error message contains the compiler's log. The caller builds between
+// cache_check_begin and cache_check_end, and also runs each kernel once there, because some drivers
+// only then finish compiling.
 bool program_build(Program *program, const Device *device, const ProgramSource *source,
                    const SceneTraits *traits, Error *error);
 void program_free(Program *program);

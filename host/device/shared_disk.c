@@ -16,7 +16,7 @@ bool disk_type_is_shared(unsigned long type)
         0x19830326, // BeeGFS
         0x00c36400, // Ceph
         0x5346414f, // AFS
-        0x6b414653, // AFS of the kernel
+        0x6b414653, // kAFS
         0x20030528, // OrangeFS
         0xaad7aaea, // PanFS
         0x01021997, // 9P

@@ -93,7 +93,7 @@ class Usage(Work):
 
     def test_a_device_that_is_not_there_is_exit_4_and_lists_the_others(self):
         told = self.clrt(*FILE, "--device", "nosuchdevice", code=4)
-        self.assertIn("no device matches 'nosuchdevice'; there are:", told)
+        self.assertIn("no device matches 'nosuchdevice'; the devices are:", told)
         self.assertIn("Platform #0: ", told)
         self.clrt("--warm", "--device", "9:9", code=4)
 
