@@ -29,7 +29,7 @@ static bool is_below(const char *file, const char *folder)
     return strncmp(file, folder, length) == 0 && file[length] == '/';
 }
 
-// Returns whether path is in the model's folder after links are resolved, because models may
+// Returns whether path is in the model's folder after links are resolved, because that folder may
 // contain hostile links.
 static bool stays_inside(const Files *files, const char *path)
 {
@@ -90,13 +90,13 @@ static bool open_file(Files *files, const char *path, size_t *opened, Error *err
 {
     if (find_opened(files, path, opened))
         return true;
-    OpenedFile file = {.path = strdup(path)};
+    OpenedFile file = {.path = text_copy(path, error)};
     if (file.path != NULL && read_regular(&file.file, path, error) &&
         array_push(&files->opened, file, error))
         return true;
     free(file.path);
     file_free(&file.file);
-    return error_set(error, "cannot be kept");
+    return false;
 }
 
 static Reading *reading_of(struct aiFile *interface)

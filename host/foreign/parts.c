@@ -121,8 +121,7 @@ static void place_normals(const Sender *sender, const struct aiMesh *mesh,
 {
     float(*normals)[3] = sender->part.mesh.normals + sender->part.mesh.vertex_count;
     for (size_t i = 0; i < mesh->mNumVertices; i++) {
-        const struct aiVector3D none = {0, 0, 0};
-        const struct aiVector3D *given = mesh->mNormals != NULL ? &mesh->mNormals[i] : &none;
+        const struct aiVector3D *given = &mesh->mNormals[i];
         if (normal_matrix->is_identity || (given->x == 0 && given->y == 0 && given->z == 0)) {
             normals[i][0] = given->x;
             normals[i][1] = given->y;
