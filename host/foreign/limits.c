@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The soft memory limit rises with each file read, up to a hard limit. Otherwise, a short file
-// whose nodes share children could use memory up to the hard limit.
+// The soft memory limit rises with each file read, up to a hard limit. With the hard limit alone, a
+// short file whose nodes share children could use that much memory.
 #include "foreign/model.h"
 
 #include "base/child_process.h"
@@ -10,9 +10,9 @@
 #define MEMORY_MOST   ((rlim_t)12 << 30)  // bytes beyond the memory already mapped
 #define MEMORY_LEAST  ((rlim_t)512 << 20) // bytes that even the shortest file may use
 #define MEMORY_FACTOR 128                 // bytes of memory per byte of a file
-#define STACK_LIMIT   ((rlim_t)8 << 20)   // bytes; models with too deep trees of nodes crash
+#define STACK_LIMIT   ((rlim_t)8 << 20)   // bytes; too deep a tree of nodes crashes this process
 #define TIME_LIMIT    120                 // seconds of processor and of wall time
-#define FILE_LIMIT    32
+#define FILE_LIMIT    32                  // open files
 
 // AddressSanitizer maps more memory than any limit could allow. gcc defines a macro for it; clang
 // has __has_feature.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Copies material values unchanged from Assimp. The receiver clamps them.
+// Copies material values from Assimp without checks. The receiver clamps them.
 #include "foreign/model.h"
 
 #include <stdio.h>

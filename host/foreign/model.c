@@ -61,7 +61,7 @@ static bool fail(Error *error)
 {
     const char *reason = aiGetErrorString();
     if (strstr(reason, "bad_alloc") != NULL)
-        return error_set(error, "Assimp needs more memory than the limit for a file of its size");
+        return error_set(error, "Assimp needs more memory than the limit for a file of this size");
     return error_set(error, "Assimp cannot read it: %s",
                      reason[0] != '\0' ? reason : "no reason is given");
 }

@@ -11,13 +11,13 @@
 #include <assimp/scene.h>
 #include <stdio.h>
 
-// The files that Assimp may read for a model: the model file, and files in its folder or below.
-// Each file is read completely, once. Assimp cannot write files.
 typedef struct {
     char *path;
     File file;
 } OpenedFile;
 
+// The files that Assimp may read for a model: the model file, and files in its folder or below.
+// Each file is read completely, once. Assimp cannot write files.
 typedef struct {
     struct aiFileIO interface; // passed to Assimp; its UserData points to this struct
     const char *model;         // the model's path, which includes a folder
@@ -32,14 +32,15 @@ void files_init(Files *files, const char *model);
 // Reads the model file. Returns false on failure.
 bool files_open_model(Files *files, Error *error);
 
-// Limits this process: gives up file descriptors, later privileges, file writing, memory and time.
+// Limits this process's memory, stack, time, child processes and open files. From now on, the
+// process gains no privileges and writes no files.
 void limits_take(void);
 
 // Raises the memory limit for a file of `bytes` bytes, up to the overall limit.
 void limits_allow_file(size_t bytes);
 
-// Sends all records except a failure's. Returns false and the reason if the file has no model or
-// the receiver is gone.
+// Sends all records except FOREIGN_FAILURE. Returns false and the reason if the file has no model
+// or the receiver is gone.
 bool model_send(FILE *stream, Files *files, Error *error);
 
 // Materials: the properties that clrt renders are two colors and an exponent.
@@ -52,7 +53,8 @@ ForeignMaterial material_taken(const struct aiMaterial *material);
 // Returns whether the material's color has a texture, which clrt does not render.
 bool material_is_textured(const struct aiMaterial *material);
 
-// Parts: each is a run of triangles of one material, in the coordinates of the whole file.
+// Totals of a model's parts. A part is a run of triangles with one material, in the coordinates of
+// the whole file.
 typedef struct {
     size_t triangles;
     size_t others;    // faces that are points or lines
@@ -60,16 +62,16 @@ typedef struct {
     bool is_colored;  // a part's vertices have colors
 } PartCounts;
 
-// Sends every part after its material. Facet normals are omitted, because the corners already
-// determine them.
+// Sends every part after its material. keeps_normals is false for formats with facet normals, which
+// the corners already determine.
 bool parts_send(FILE *stream, const struct aiScene *scene, bool keeps_normals, PartCounts *counts,
                 Error *error);
 
-// Records. Failures show when the stream is flushed.
+// Functions that write records. Only the stream's error state shows their failures.
 
 void send_bytes(FILE *stream, ForeignKind kind, const void *bytes, size_t size);
 
-// Sends a record of that kind with a text, shortened if too long.
+// Sends a record of this kind with a text, shortened if too long.
 __attribute__((format(printf, 3, 4))) void send_text(FILE *stream, ForeignKind kind,
                                                      const char *format, ...);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes records: a head and its data.
+// Writes records, each a head and data.
 #include "foreign/model.h"
 
 #include "mesh/ply.h"

@@ -80,7 +80,7 @@ bool exr_file_open(ExrFile *file, const char *path, Error *error)
     if ((result == EXR_ERR_FILE_ACCESS || result == EXR_ERR_READ_IO) && errno != 0)
         return error_set(error, "%s: cannot be read: %s", path, strerror(errno));
     if (result != EXR_ERR_SUCCESS || !read_tiling(file) || !read_size(file) || !read_channels(file))
-        return error_set(error, "%s: cannot be read: it is no EXR file of tiles, as clrt writes it",
+        return error_set(error, "%s: cannot be read: it is not a tiled EXR file written by clrt",
                          path);
     read_texts(file);
     return true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A tiled OpenEXR file that clrt wrote -> its texts, and each tile, compressed or as values; and
-// the beginning of such a file. Tiles may be missing. A file may be larger than the memory. Threads
-// may share an open file.
+// Reads tiled OpenEXR files that clrt wrote: their texts, and each tile, compressed or as values.
+// Also writes the header of such files. Tiles may be missing. A file may be larger than the memory.
+// Threads may share an open file.
 #pragma once
 
 #include "image/image_file.h"
@@ -19,8 +19,8 @@ typedef struct {
     uint32_t tile_width, tile_height, tile_count;
 } ExrFile;
 
-// Opens a tiled EXR file. Returns false if path is not one, with an error message that names path.
-// The caller closes the file in both cases.
+// Opens a tiled EXR file. If this fails, returns false with a message that names path. The caller
+// closes the file in both cases.
 bool exr_file_open(ExrFile *file, const char *path, Error *error);
 void exr_file_close(ExrFile *file);
 
@@ -33,8 +33,8 @@ bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
                    unsigned char *scratch);
 
-// Copies the values of a tile into framebuffer and layers, where position is that of its first
-// pixel. Skips channels that both lack. Returns false if the tile is damaged.
+// Copies the values of a tile into framebuffer and layers, from the pixel at position on. Skips
+// channels that both lack. Returns false if the tile is damaged.
 bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const Framebuffer *framebuffer, const Layers *layers,
                      const size_t position[2]);
@@ -53,11 +53,11 @@ typedef struct {
 
 ExrTileHead exr_tile_head(const exr_chunk_info_t *tile, uint64_t size);
 
-// Writes the header of a picture of this size, or of settings->part. The table of the tiles'
-// positions follows it, and then the tiles. Returns false if writing fails. The caller ends the
+// Writes the header of a picture of this size, or of settings->part. The caller then writes the
+// table of the tiles' positions and the tiles. Returns false if writing fails. The caller ends the
 // context with exr_finish in both cases.
 bool exr_file_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
                     uint32_t height, FILE *stream);
 
-// A handler for messages of OpenEXRCore, whose functions also return the failure.
+// An error handler for OpenEXRCore that ignores messages: its functions also return the failure.
 void exr_file_ignore(exr_const_context_t context, exr_result_t code, const char *message);

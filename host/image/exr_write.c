@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenEXRCore writes the header and compresses the tiles. It cannot leave tiles out, as parts do,
-// so this file writes the table of tiles and the tiles.
+// OpenEXRCore writes the header and compresses the tiles. It cannot omit the tiles that a part
+// lacks, so the code here writes the table of tiles and the tiles.
 #include "base/processors.h"
 #include "base/thread_pool.h"
 #include "image/exr_file.h"
@@ -55,7 +55,7 @@ static bool add_channels(exr_context_t context, const Layers *layers)
     return ok;
 }
 
-// clrt merge copies tiles without their values, so files contain no hash of the pixels.
+// clrt merge copies tiles without decoding them, so EXR files contain no hash of the pixels.
 static bool add_texts(exr_context_t context, const ImageSettings *settings)
 {
     bool ok = true;
@@ -89,8 +89,8 @@ typedef struct {
     FILE *stream;
     uint64_t *starts; // the positions of the tiles in the file
     pthread_mutex_t lock;
-    pthread_cond_t turn; // changes with next
-    uint32_t next;       // the number of the tile to be written
+    pthread_cond_t turn; // signaled after each change of next
+    uint32_t next;       // number of the tile to write next
     atomic_bool has_failed;
 } TileWriter;
 
@@ -123,7 +123,7 @@ static bool encode(const TileWriter *writer, const size_t position[2],
     encoder->yield_until_ready_fn = encoder->write_fn = NULL;
     if (exr_encoding_run(writer->context, 0, encoder) != EXR_ERR_SUCCESS)
         return false;
-    // Readers expect uncompressed bytes at this size. OpenEXRCore 3.1 does not check for it.
+    // Readers expect uncompressed bytes at this size, but OpenEXRCore 3.1 keeps compressed ones.
     if (encoder->compressed_bytes == encoder->packed_bytes)
         memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
     return true;
@@ -137,7 +137,7 @@ static bool write_tile(const TileWriter *writer, const exr_encode_pipeline_t *en
            fwrite(encoder->compressed_buffer, encoder->compressed_bytes, 1, writer->stream) == 1;
 }
 
-// Compresses tiles at once, and writes them in turn.
+// Compresses a tile while other threads compress others, and writes the tile in its turn.
 static void run_tile(void *context, uint32_t number)
 {
     TileWriter *writer = context;
@@ -159,7 +159,7 @@ static void run_tile(void *context, uint32_t number)
     exr_encoding_destroy(writer->context, &encoder);
 }
 
-// Leaves a hole for the table of tiles, and fills it after them.
+// Leaves space for the table of tiles, writes the tiles, and then writes the table.
 static bool write_tiles(TileWriter *writer, uint32_t count)
 {
     const off_t table = ftello(writer->stream);

@@ -33,10 +33,10 @@ typedef struct {
     LayerType list[LAYERS_MOST];
     uint32_t count;
     uint32_t width, height;
-    uint32_t *values; // width * height * count values, top row first; floats are stored as their
+    uint32_t *values; // width * height * count values or bits of floats, top row first
 } Layers;
 
-// Allocates zeros as the values. The caller has set list and count.
+// Allocates the values and sets them to zero. The caller has set list and count.
 bool layers_make(Layers *layers, uint32_t width, uint32_t height, Error *error);
 void layers_free(Layers *layers);
 

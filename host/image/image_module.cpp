@@ -130,22 +130,22 @@ bool is_color(const std::string &name)
     return name == "R" || name == "G" || name == "B" || name == "Y" || name == "A";
 }
 
-bool names_things(const OIIO::ImageSpec &spec, int channel)
+bool holds_ids(const OIIO::ImageSpec &spec, int channel)
 {
     return spec.channelformat(channel) == OIIO::TypeDesc::UINT32 &&
            !is_color(spec.channel_name(channel));
 }
 
 // Channels of 32-bit integers hold ids, which are stored unchanged in place of floats. Other
-// channels are converted to type. Each call reads adjacent channels of one kind.
+// channels are converted to type. Each read_image call reads adjacent channels of one kind.
 bool read_channels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
                    void *values)
 {
     const auto size = static_cast<OIIO::stride_t>(type.size());
     bool ok = true;
     for (int first = 0, end = 0; ok && first < spec.nchannels; first = end) {
-        const bool integer = names_things(spec, first);
-        while (end < spec.nchannels && names_things(spec, end) == integer)
+        const bool integer = holds_ids(spec, first);
+        while (end < spec.nchannels && holds_ids(spec, end) == integer)
             end++;
         ok = input.read_image(0, 0, first, end, integer ? OIIO::TypeDesc::UINT32 : type,
                               static_cast<char *>(values) + first * size, spec.nchannels * size);

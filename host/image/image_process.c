@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A child process with limited resources reads the file and sends a header and the values, or a
-// header with a message. The parent validates the header like a file.
+// header with a message. The parent validates every field of the header.
 #include "image/image_process.h"
 
 #include "base/child_process.h"
@@ -14,11 +14,11 @@
 #define MEMORY_LIMIT ((rlim_t)12 << 30) // bytes beyond the memory already mapped
 #define TIME_LIMIT   120                // seconds of processor and of wall time
 
-// The values follow if ok.
+// The header that the child sends, followed by the values if ok.
 typedef struct {
     int ok;
     char message[512];
-    ImageModuleContent content; // whose pointers are the child's
+    ImageModuleContent content; // its pointers are valid only in the child
 } Head;
 
 _Static_assert(STORED_CHANNELS_MAX == IMAGE_MODULE_CHANNELS &&
@@ -81,7 +81,6 @@ static bool take_message(const Head *head, Error *cause)
     return error_set(cause, "%s", message[0] != '\0' ? message : "it is damaged");
 }
 
-// Checks every field before use.
 static bool take_head(StoredImage *image, const Head *head, Error *cause)
 {
     const ImageModuleContent *content = &head->content;
@@ -105,10 +104,10 @@ static bool take_values(StoredImage *image, int socket, bool is_8_bit, Error *ca
 {
     const size_t count = (size_t)image->width * image->height * image->channel_count;
     const size_t size = count * (is_8_bit ? 1 : sizeof(float));
-    // Bytes fill the end of the array, so that none is overwritten before it is converted.
+    // Bytes fill the end of the array, so that no byte is overwritten before it is converted.
     unsigned char *bytes = (unsigned char *)(image->values + count) - size;
     if (!child_receive(socket, bytes, size))
-        return error_set(cause, "reading it ended the process that did");
+        return error_set(cause, "the process that reads it ended too early");
     if (is_8_bit)
         stored_image_values(bytes, count, image->values);
     return true;
@@ -118,7 +117,7 @@ static bool receive_image(StoredImage *image, int socket, Error *cause)
 {
     Head head;
     if (!child_receive(socket, &head, sizeof head))
-        return error_set(cause, "reading it ended the process that did");
+        return error_set(cause, "the process that reads it ended too early");
     return take_head(image, &head, cause) &&
            take_values(image, socket, head.content.is_8_bit != 0, cause);
 }

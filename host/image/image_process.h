@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The module that holds OpenImageIO, and a process that reads files by it, with limited memory and
-// time and without writing, because the file may be hostile.
+// Opens the module that contains OpenImageIO. Reads picture files with the module in a child
+// process that has limited memory and time and cannot write, because the files may be hostile.
 #pragma once
 
 #include "image/image_module.h"
@@ -8,10 +8,11 @@
 
 typedef void ModuleFunction(void);
 
-// Opens the module. Returns its function of that name, to be cast to its type; NULL if the module
-// cannot be opened.
+// Opens the module and returns its function `name`, which the caller casts to the right type.
+// Returns NULL on failure.
 ModuleFunction *open_module(const char *name, Error *cause);
 
 // Reads the file in the given OpenImageIO format, and trusts nothing that the process sends. On
-// failure returns false and the reason alone. The caller frees the image in both cases.
+// failure returns false and the reason without the file name. The caller frees the image in both
+// cases.
 bool image_process_read(StoredImage *image, const char *path, const char *format, Error *cause);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Selects the reader by the file's first bytes. clrt calls only decoders of formats that it writes,
-// because hostile files could attack each further decoder of OpenImageIO.
+// because hostile files could attack every other decoder of OpenImageIO.
 #include "image/stored_image.h"
 
 #include "image/formats.h"
@@ -29,10 +29,10 @@ static const Signature signatures[] = {
     {"P5", 2, "pnm"},
     {"P2", 2, "pnm"},
 };
-#define READABLE "PNG, JPEG, TIFF, PPM, EXR, HDR or PFM"
+#define READABLE "PNG, JPEG, TIFF, PPM, EXR, HDR or PFM file"
 #else
 static const Signature signatures[] = {{"", SIZE_MAX, NULL}};
-#define READABLE "PNG or PFM, which is all that this build reads"
+#define READABLE "PNG or PFM file, and this build reads no other format"
 #endif
 
 static const char *module_format(const char *start, size_t length)
@@ -56,7 +56,7 @@ static bool read_stream(StoredImage *image, FILE *stream, const char *path, Erro
         return pfm_read(image, stream, cause);
     const char *format = module_format(start, length);
     if (format == NULL)
-        return error_set(cause, "it is no %s", READABLE);
+        return error_set(cause, "it is not a %s", READABLE);
     return image_process_read(image, path, format, cause);
 }
 

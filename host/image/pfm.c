@@ -47,7 +47,7 @@ static bool read_header(StoredImage *image, FILE *stream, double *scale, Error *
                           : number_parse(words[i], end, scale) == end && *scale != 0);
     }
     if (!ok)
-        return error_set(cause, "its header is not that of a PFM");
+        return error_set(cause, "it has no valid PFM header");
     const uint32_t channels = kind[1] == 'F' ? 3 : 1;
     if (!stored_image_check_size((uint64_t)sides[0], (uint64_t)sides[1], channels, cause))
         return false;

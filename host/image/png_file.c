@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libpng writes and reads files row by row, and converts every kind of PNG to red, green and blue.
-// It reports faults by a jump, which ends in write_picture or read_picture. Everything to be freed
-// is made above these functions, and nothing below owns memory.
+// It reports faults by a longjmp to write_picture or read_picture, which skips the cleanup of all
+// functions below. Therefore only the callers of these two own memory.
 #include "image/formats.h"
 
 #include <errno.h>

@@ -57,5 +57,5 @@ void stored_image_values(const unsigned char *bytes, size_t count, float *values
 // Reads a picture file. libpng reads PNG and our own reader PFM. OpenImageIO reads the other
 // formats that clrt writes, in a process that may crash without harm. The first bytes determine the
 // format, regardless of the file name. On failure returns false with a message that names the file.
-// The caller frees the image. Only main may call it, before other threads start.
+// The caller frees the image. Only main may call image_read, before other threads start.
 bool image_read(StoredImage *image, const char *path, Error *error);

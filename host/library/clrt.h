@@ -104,7 +104,7 @@ CLRT_API bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtEr
 CLRT_API bool clrt_scene_add_light(ClrtScene *scene, const double position[3], double intensity,
                                    ClrtError *error);
 
-// Adds a point light of that color, each component in [0, 1].
+// Adds a point light with a color, each component in [0, 1].
 CLRT_API bool clrt_scene_add_colored_light(ClrtScene *scene, const double position[3],
                                            double intensity, const double color[3],
                                            ClrtError *error);
@@ -152,10 +152,11 @@ typedef struct ClrtRenderer ClrtRenderer;
 // limit PoCL's threads, the program sets POCL_MAX_PTHREAD_COUNT (later versions:
 // POCL_CPU_MAX_CU_COUNT) before PoCL's first call.
 //
-// A folder holds a lock and checksums: clrt/library in $POCL_CACHE_DIR, $XDG_CACHE_HOME or
-// ~/.cache. The lock keeps processes that compile concurrently from losing PoCL's kernels. The
-// checksums detect damaged kernels, which are then compiled again. PoCL finds no device unless it
-// can write its own cache, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
+// The library stores a lock and checksums in clrt/library, a subfolder of $POCL_CACHE_DIR,
+// $XDG_CACHE_HOME or ~/.cache. The lock keeps processes that compile concurrently from losing
+// PoCL's kernels. The checksums detect damaged kernels, which PoCL then compiles again. PoCL finds
+// no device unless it can write its own cache, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or
+// ~/.cache/pocl.
 CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
 
 // Frees the renderer. Accepts NULL.

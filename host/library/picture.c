@@ -21,7 +21,7 @@ static bool take_settings(ClrtPicture *wanted, const ClrtPicture *picture, const
     return check_number(error, "the width", wanted->width, 1, PICTURE_SIZE_MAX) &&
            check_number(error, "the height", wanted->height, 1, PICTURE_SIZE_MAX) &&
            check_number(error, "the number of samples", wanted->samples, 1, SAMPLES_MAX) &&
-           check_number(error, "the level", wanted->max_level, 0, MAX_LEVEL_LIMIT);
+           check_number(error, "max_level", wanted->max_level, 0, MAX_LEVEL_LIMIT);
 }
 
 static bool take_viewpoint(Viewpoint *viewpoint, const ClrtPicture *wanted, const Scene *scene,
@@ -31,7 +31,7 @@ static bool take_viewpoint(Viewpoint *viewpoint, const ClrtPicture *wanted, cons
     if (wanted->camera != NULL)
         return scene_handle_take_camera(viewpoint, wanted->camera, error);
     if (wanted->view > count)
-        return check_fail(error, CLRT_ARGUMENT, "view %u is not among the scene's %zu",
+        return check_fail(error, CLRT_ARGUMENT, "view %u does not exist: the scene has %zu",
                           wanted->view, count);
     *viewpoint = scene->viewpoints.data[wanted->view - 1];
     return true;

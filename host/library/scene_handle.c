@@ -10,9 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A NaN fails every range check.
-
-// No version of the library has a larger struct; larger sizes come from uninitialized memory.
+// No version of the library has a larger struct. Larger sizes come from uninitialized memory.
 #define LARGEST_STRUCT 4096
 
 bool check_fail(ClrtError *error, ClrtFault fault, const char *format, ...)
@@ -37,6 +35,7 @@ bool check_given(ClrtError *error, const char *what, const void *pointer)
     return pointer != NULL || check_fail(error, CLRT_ARGUMENT, "%s is NULL", what);
 }
 
+// A NaN fails the check.
 bool check_number(ClrtError *error, const char *what, double number, double low, double high)
 {
     return (number >= low && number <= high) ||
@@ -86,7 +85,7 @@ bool check_struct(ClrtError *error, const char *what, const void *given, void *c
     memset(copy, 0, size);
     memcpy(copy, given, known);
     return is_zero((const unsigned char *)given + known, given_size - known) ||
-           check_fail(error, CLRT_ARGUMENT, "%s asks for what libclrt %s does not know", what,
+           check_fail(error, CLRT_ARGUMENT, "%s sets members that libclrt %s does not know", what,
                       clrt_version());
 }
 
@@ -108,11 +107,12 @@ bool scene_handle_changed(ClrtScene *scene, bool ok, const Error *cause, ClrtErr
 bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtError *error)
 {
     const size_t count = scene->scene.materials.count;
-    return number < count || check_fail(error, CLRT_ARGUMENT,
-                                        "material %u is not among the scene's %zu", number, count);
+    return number < count ||
+           check_fail(error, CLRT_ARGUMENT, "material %u does not exist: the scene has %zu", number,
+                      count);
 }
 
-// Returns a new scene, read from path or empty if path is NULL. Returns NULL on failure.
+// Returns a scene read from path, or an empty scene if path is NULL. Returns NULL on failure.
 static ClrtScene *make(const char *path, ClrtError *error)
 {
     Error cause = {0};

@@ -58,8 +58,8 @@ static bool check_triangles(const Mesh *mesh, ClrtError *error)
             const uint32_t vertex = mesh->triangles[triangle][corner];
             if (vertex >= mesh->vertex_count)
                 return check_fail(error, CLRT_ARGUMENT,
-                                  "triangle %zu has vertex %u, and there are %zu", triangle, vertex,
-                                  mesh->vertex_count);
+                                  "triangle %zu has vertex %u, but the mesh has %zu vertices",
+                                  triangle, vertex, mesh->vertex_count);
         }
     return true;
 }

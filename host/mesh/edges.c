@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Welds by an open-addressed hash table of the lowest vertex at each position. Counts sides into a
-// bucket per lower point, then sorts the buckets, of about six sides each. Joins fans by a
-// union-find.
+// Finds the lowest vertex at each position with a hash table with open addressing. Sorts sides into
+// a bucket per lower point by counting, and then sorts each bucket of about six sides. Joins fans
+// with union-find.
 #include "mesh/edges.h"
 
 #include "base/array.h"
@@ -238,7 +238,7 @@ void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t oth
     fans->parents[a > b ? a : b] = a > b ? b : a;
 }
 
-// The parent of a corner is lower, so it has its number already.
+// A corner's parent is lower, so the loop has already numbered the parent.
 uint32_t fans_number(Fans *fans)
 {
     uint32_t count = 0, *parents = fans->parents;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its points, merged vertices, because vertices at the same position are one point to a
-// ray. Points -> edges, each with its triangles, and fans of triangles.
+// Merges the vertices of a mesh at equal positions into points, because a ray cannot distinguish
+// them. Finds the edges between points with their triangles, and joins triangles into fans.
 #pragma once
 
 #include "base/error.h"
@@ -10,8 +10,9 @@
 #define WELD_UNUSED UINT32_MAX
 
 typedef struct {
-    uint32_t *points;                    // by vertex: the lowest used vertex at its position
-    size_t unused_count, repeated_count; // vertices without a point, and vertices with another's
+    uint32_t *points;      // by vertex: the lowest used vertex at its position
+    size_t unused_count;   // vertices that no triangle uses
+    size_t repeated_count; // used vertices at the position of a lower used vertex
 } Weld;
 
 bool weld_make(Weld *weld, const Mesh *mesh, Error *error);
@@ -33,7 +34,7 @@ typedef struct {
     uint32_t *first; // vertex_count + 1 entries
 } Edges;
 
-// Fails if the mesh has more than 2^32 corners.
+// Fails if the mesh has 2^32 corners or more.
 bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error);
 void edges_free(Edges *edges);
 
@@ -44,21 +45,22 @@ typedef struct {
     size_t count;
 } Edge;
 
-// Steps to the next edge, from {0} to the first one. Returns false after the last edge.
+// Advances *edge to the next edge, and {0} to the first one. Returns false after the last edge.
 bool edges_next(const Edges *edges, Edge *edge);
 
-// The corners of triangles, joined at their points across edges that the caller chooses. A corner
+// Fans: sets of corners at one point, whose triangles the caller has joined across edges. A corner
 // is a number: 3 * triangle + 0, 1 or 2.
 typedef struct {
     const Mesh *mesh;
     const Weld *weld;
-    uint32_t *parents; // by corner: a corner of the same fan, not above it
+    uint32_t *parents; // by corner: a lower corner of the same fan, or the corner itself
 } Fans;
 
-// Makes a fan of each corner of a mesh with edges. The caller frees the parents.
+// Makes each corner a fan of its own. edges_make must have succeeded for the mesh. The caller frees
+// the parents.
 bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error);
 
-// Joins the fans of two triangles at a point that both have.
+// Joins the fans of two triangles at one of their common points.
 void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t other);
 
 // Replaces each parent by the number of the corner's fan. Numbers are in the order of the fans'

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs clrt-foreign, and limits the time and size of its output. Uses posix_spawn instead of fork,
-// because other threads may hold locks. The program limits its own resources.
+// Finds and runs clrt-foreign, and limits its time and the size of its output. clrt-foreign itself
+// limits its other resources.
 #include "mesh/foreign_process.h"
 
 #include <errno.h>
@@ -33,8 +33,7 @@ bool foreign_format_is(const char *path)
     return false;
 }
 
-// The time exceeds the program's own limit, so that normally the program's alarm ends the program
-// first.
+// The time exceeds clrt-foreign's own limit, so that clrt-foreign's alarm normally ends it first.
 const ForeignReader foreign_reader = {.limits = {.seconds = 125, .bytes = (size_t)8 << 30}};
 
 #ifdef CLRT_FOREIGN_FOLDER
@@ -76,7 +75,7 @@ static bool judge(ChildFate fate, int signal, const char *model, Error *error)
     case CHILD_FAILED:
         break;
     }
-    return error_set(error, "%s: the program that reads it ended too early", model);
+    return error_set(error, "%s: clrt-foreign, which reads it, ended too early", model);
 }
 
 bool foreign_process_run(File *stream, const ForeignReader *reader, const char *path, Error *error)

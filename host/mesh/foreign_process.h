@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs the program that holds Assimp on a file and collects the stream that it writes
-// (foreign_stream.h). The program is a process of its own. If it crashes, hangs or exhausts
-// memory, clrt prints one error message.
+// Runs clrt-foreign, which contains Assimp, on a file and collects its output (foreign_stream.h).
+// If clrt-foreign crashes, hangs or exhausts memory, clrt prints one error message.
 #pragma once
 
 #include "base/child_process.h"
@@ -11,7 +10,7 @@
 bool foreign_format_is(const char *path);
 
 typedef struct {
-    const char *program; // NULL: the program that belongs to this build
+    const char *program; // NULL for this build's clrt-foreign
     ChildLimits limits;
 } ForeignReader;
 

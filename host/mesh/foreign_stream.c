@@ -22,11 +22,11 @@ typedef struct {
 
 static bool fail_damaged(const Parser *parser)
 {
-    return error_set(parser->error, "%s: the output of the program that reads it is damaged",
+    return error_set(parser->error, "%s: the output of clrt-foreign, which reads it, is damaged",
                      parser->name);
 }
 
-// Replaces control characters, because the text is printed to a terminal.
+// Replaces all but printable ASCII, because a terminal could interpret other characters.
 static void make_printable(char *text, size_t size, char substitute)
 {
     for (size_t i = 0; i < size; i++)

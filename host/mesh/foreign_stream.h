@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The output of clrt-foreign, which runs Assimp (host/foreign): records, each a head and its bytes.
+// The output of clrt-foreign, which runs Assimp (host/foreign): records, each a head and data.
 // The reader validates everything, because a hostile file may have taken over Assimp.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ownership, bounds and faults of a mesh.
+// Bounds, faults and rotation of a mesh.
 #include "mesh/mesh.h"
 
 #include <stdbool.h>
@@ -91,7 +91,7 @@ void mesh_free(Mesh *mesh)
 }
 
 // A rotation by multiples of 90 degrees is three source coordinates with signs. Turns from y and -y
-// keep x, and the others keep y, so that a front toward -y stays there.
+// keep x. The other turns keep y, so that the mesh's front, toward -y, stays there.
 
 const char *const up_axis_names[UP_AXES] = {"auto", "x", "y", "z", "-x", "-y", "-z"};
 

@@ -45,7 +45,7 @@ Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to);
 // zero.
 void mesh_drop_triangles(Mesh *mesh);
 
-// Makes the mesh flat.
+// Removes the normals, so that the mesh is shaded flat.
 void mesh_drop_normals(Mesh *mesh);
 
 // Frees the mesh's memory and leaves a valid empty mesh.
@@ -74,14 +74,14 @@ void mesh_turn_up(Mesh *mesh, UpAxis up);
 
 // Computes the normals that a mesh lacks.
 
-// The crease angle of lone meshes and of scenes that name none.
+// The crease angle of lone mesh files, and of `normals smooth` without an angle.
 #define CREASE_DEGREES 33
 
-// Gives each used vertex without a normal one of length 1: the mean of the faces around it,
-// weighted by their angles. Vertices at one position count as one. Edges with an angle of more than
-// crease_degrees, from 0 to 180, between the normals of their faces stay sharp. The mesh gets new
-// vertices, one for each normal at a position; the triangles keep their order. No computed normal
-// is further than crease_degrees from the normal of its triangle. Corners of triangles without area
-// may stay without a normal. The result depends on the mesh only, bit for bit. On failure, the mesh
-// is unchanged.
+// Computes a unit normal for each used vertex that lacks one: the mean normal of the faces around
+// the vertex, weighted by their angles. Vertices at one position count as one. Edges stay sharp if
+// the normals of their faces differ by more than crease_degrees, from 0 to 180. The mesh gets new
+// vertices, one for each normal at a position. The triangles keep their order. No computed normal
+// differs by more than crease_degrees from the normal of its triangle. Corners of triangles without
+// area may stay without a normal. Equal arguments give equal bits. On failure, the mesh is
+// unchanged.
 bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Corners -> fans across smooth edges -> one vertex per fan. The weights are those of Thuermer and
-// Wuethrich, "Computing Vertex Normals from Polygonal Facets" (1998): they make normals independent
-// of how flat faces are triangulated.
+// Joins corners into fans across smooth edges, and makes one vertex per fan. Weights faces by their
+// angles (Thuermer and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998), so that
+// the triangulation of flat faces does not change normals.
 #include "mesh/mesh.h"
 
 #include "base/array.h"
@@ -14,7 +14,7 @@
 // Edges with more faces than this are sharp, which limits the pairs of faces per edge.
 #define EDGE_FACES_MOST 8
 
-// Keeps rounding from separating coplanar and opposite faces.
+// Rounding must not separate coplanar faces at 0 degrees or opposite faces at 180 degrees.
 #define COSINE_SLACK 0x1p-40
 
 // A face is a sliver if the sines of its angles add up to less. Rounded coordinates can turn the
@@ -38,7 +38,7 @@ typedef struct {
     const Mesh *mesh;
     double cosine; // smallest cosine between the normals of faces that a smooth edge joins
     Face *faces;   // by triangle
-    Fans fans;     // later: by corner, the vertex
+    Fans fans;     // after make_vertices, parents holds the vertex of each corner
     ARRAY(Vertex) vertices;
 } Smoothing;
 
@@ -124,9 +124,9 @@ static bool make_vertices(Smoothing *smoothing, Error *error)
     return vertices != NULL;
 }
 
-// Gives a corner its own vertex if the file has a normal for it, or if the fan's mean normal
-// differs from the face's by more than the crease angle, as at the tip of a cone.
-static bool part_corners(Smoothing *smoothing, Error *error)
+// Gives a corner its own vertex in two cases. Either the file has a normal for the corner, or the
+// fan's mean normal differs from the face's by more than the crease angle, as at the tip of a cone.
+static bool split_corners(Smoothing *smoothing, Error *error)
 {
     for (size_t i = 0; i < 3 * smoothing->mesh->triangle_count; i++) {
         const uint32_t old = smoothing->mesh->triangles[i / 3][i % 3];
@@ -143,7 +143,8 @@ static bool part_corners(Smoothing *smoothing, Error *error)
             return false;
     }
     return smoothing->vertices.count <= (size_t)MESH_COUNT_MOST ||
-           error_set(error, "its normals need %zu vertices", smoothing->vertices.count);
+           error_set(error, "its normals need %zu vertices, more than %zu",
+                     smoothing->vertices.count, (size_t)MESH_COUNT_MOST);
 }
 
 static bool replace_vertices(Mesh *mesh, const Smoothing *smoothing, Error *error)
@@ -176,7 +177,7 @@ bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error)
                            .cosine = cosine_of_degrees(crease_degrees) - COSINE_SLACK};
     const bool ok = is_complete(mesh) ||
                     (make_fans(&smoothing, error) && make_vertices(&smoothing, error) &&
-                     part_corners(&smoothing, error) && replace_vertices(mesh, &smoothing, error));
+                     split_corners(&smoothing, error) && replace_vertices(mesh, &smoothing, error));
     free(smoothing.faces);
     free(smoothing.vertices.memory);
     free(smoothing.fans.parents);

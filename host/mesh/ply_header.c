@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WORD_LIMIT 6 // one more than in the longest statement
+#define WORD_LIMIT 6 // one word more than the longest statement
 
 typedef struct {
     PlyHeader *header;
@@ -143,7 +143,7 @@ static bool read_element(Parser *parser)
     const PlyWord count = parser->words[2];
     const char *end = count.start + count.length;
     if (integer_parse(count.start, end, &element.count) != end || element.count < 0)
-        return ply_reader_fail(parser->reader, "'%s' is no element count",
+        return ply_reader_fail(parser->reader, "'%s' is not an element count",
                                ply_reader_quote(count).text);
     return check_kind(parser, &element) &&
            array_push(&header->elements, element, parser->reader->error);
@@ -157,7 +157,8 @@ static bool find_type(const Parser *parser, PlyWord word, PlyType *type)
             return true;
         }
     }
-    return ply_reader_fail(parser->reader, "'%s' is no property type", ply_reader_quote(word).text);
+    return ply_reader_fail(parser->reader, "'%s' is not a property type",
+                           ply_reader_quote(word).text);
 }
 
 // List lengths and corner indices must be integers. Corners must be a list, and vertex components
@@ -202,7 +203,7 @@ static bool read_property(Parser *parser)
         return ply_reader_fail(parser->reader, "expected 'property TYPE NAME' or 'property list "
                                                "TYPE TYPE NAME'");
     if (header->elements.count == 0)
-        return ply_reader_fail(parser->reader, "a property stands before the first element");
+        return ply_reader_fail(parser->reader, "a property precedes the first element");
 
     PlyElement *element = &header->elements.data[header->elements.count - 1];
     const PlyWord name = parser->words[word_count - 1];
@@ -237,7 +238,7 @@ static bool read_statement(Parser *parser)
         if (word_is(parser->words[0], statements[index].keyword))
             return statements[index].read(parser);
     }
-    return ply_reader_fail(parser->reader, "'%s' is no header keyword",
+    return ply_reader_fail(parser->reader, "'%s' is not a header keyword",
                            ply_reader_quote(parser->words[0]).text);
 }
 

@@ -79,7 +79,7 @@ bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size)
     if ((uint64_t)count <= room / size)
         return true;
     reader->place = reader->next;
-    return ply_reader_fail(reader, "a count of %lld does not fit in what is left of the file",
+    return ply_reader_fail(reader, "a count of %lld does not fit in the rest of the file",
                            (long long)count);
 }
 

@@ -135,8 +135,7 @@ void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t coun
 // layout, a face has one list: its corners, with a 1-byte length and 4-byte indices.
 size_t ply_bulk_triangle_size(const PlyReader *reader, PlyProperties properties);
 
-// Reads at most room triangles from reader->index on. Stops at a face that has another number of
-// corners or a corner outside [0, vertex_count). Advances the reader and returns the number of
-// triangles read.
+// Reads at most room triangles from reader->index on. Stops at a face that does not have three
+// corners in [0, vertex_count). Advances the reader and returns the number of triangles read.
 size_t ply_bulk_triangles(PlyReader *reader, PlyProperties properties, int64_t vertex_count,
                           size_t room, uint32_t (*triangles)[3]);

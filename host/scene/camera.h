@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Converts a Viewpoint to CameraData: the origin of a picture's rays and the step of their
+// Converts a Viewpoint to CameraData: the origin of a picture's rays and the steps between their
 // directions, in the normalized frame. Also turns viewpoints, as on a turntable.
 #pragma once
 
 #include "scene/normalize.h"
 #include "scene/scene.h"
 
-// Returns the course's pinhole camera: an image plane at distance 1, 2 tan(fov / 2) high, or higher
-// if the picture's width would not contain the viewpoint's width. Pixels are square. samples is the
-// number of sub-pixels per pixel and axis.
+// Returns the course's pinhole camera. Its image plane has distance 1 and height 2 tan(fov / 2). In
+// a narrow picture, the plane is larger, so that it spans width_degrees. Pixels are square. samples
+// is the number of sub-pixels per pixel and axis.
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
                        uint32_t width, uint32_t height, uint32_t samples);
 
-// Moves all samples right and down, by fractions of the distance between two.
+// Moves all samples right and down, in units of the distance between adjacent samples.
 void camera_shift(CameraData *camera, double right, double down);
 
-// Returns the viewpoint with its eye turned by degrees about up: around the point it looks at or,
-// for the course's viewpoints, around the origin. At 0 the bits are unchanged.
+// Returns the viewpoint with its eye rotated about an axis parallel to up. The axis passes through
+// look_at or, for the course's viewpoints, through the origin. 0 degrees change no bit.
 Viewpoint turn_viewpoint(const Viewpoint *viewpoint, bool is_course, double degrees);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts, allocates once and copies.
+// Joins meshes with one allocation per array.
 #include "scene/scn.h"
 
 #include "base/array.h"
@@ -18,8 +18,8 @@ static bool allocate(Mesh *mesh, const Scene *scene, Error *error)
     }
     if (mesh->vertex_count > (size_t)MESH_COUNT_MOST ||
         mesh->triangle_count > (size_t)MESH_COUNT_MOST)
-        return error_set(error, "its %zu triangles are too many for one mesh",
-                         mesh->triangle_count);
+        return error_set(error, "its %zu vertices or %zu triangles are too many for one mesh",
+                         mesh->vertex_count, mesh->triangle_count);
     mesh->positions = memory_raw(mesh->vertex_count, sizeof *mesh->positions, error);
     mesh->triangles = memory_raw(mesh->triangle_count, sizeof *mesh->triangles, error);
     if (has_normals)

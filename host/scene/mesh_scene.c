@@ -14,7 +14,7 @@
 
 #define VIEWS         6
 #define DISTANCE      4.0 // of the eye from the center, in radii
-#define FILLED        0.8 // part of the picture's width or height
+#define FILLED        0.8 // fraction of the picture's width or height that the meshes span
 #define RUN_TRIANGLES 64
 #define MOST_STEPS    32
 
@@ -69,8 +69,8 @@ static Vec3 farthest(const Frame *frame, Vec3 d)
     return vec3_sub(found, frame->center);
 }
 
-// Returns the slope of the planes that touch the meshes on both sides of an axis, and stores the
-// coordinate of their intersection on the axis. The gap between the planes and the meshes is a
+// Returns the slope of the planes that touch the meshes on both sides of an axis. Stores in *middle
+// where the planes intersect, along the axis. The gap between the planes and the meshes is a
 // convex, piecewise linear function of the slope, so Newton's method ends after few steps.
 static double touch(const Frame *frame, Vec3 axis, Vec3 back, double *middle)
 {
@@ -88,8 +88,8 @@ static double touch(const Frame *frame, Vec3 axis, Vec3 back, double *middle)
     return next;
 }
 
-// Returns the field of view in degrees. Planes of this slope enclose the part FILLED of it.
-// Newton's method starts above the result, where the tangent is convex, and stays above.
+// Returns the field of view in degrees. Planes of this slope span the fraction FILLED of the
+// picture. Newton's method starts above the result, where the tangent is convex, and stays above.
 static double field_of_view(double slope)
 {
     double half = 45;
@@ -115,8 +115,9 @@ static Viewpoint view_from(const Frame *frame, Vec3 back, Vec3 up)
                        .width_degrees = field_of_view(width)};
 }
 
-// Adds six viewpoints: three-quarter, front, right, back, left and top. From each, the meshes fill
-// 80 % of the picture's width or height, whichever is less. All meshes are inside the sphere.
+// Adds six viewpoints: three-quarter, front, right, back, left and top. In each, the meshes span at
+// most 80 % of the picture's width and height, and 80 % of one of them. The sphere of center and
+// radius must contain all meshes.
 static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},
@@ -141,13 +142,13 @@ static const char studio[] =
     "define floor matte diffuse 0.8815 0.9314 0.9899\n";
 
 // A key light from the left, a fill light from the right and a light from behind, as seen by the
-// first camera. The directions point to them.
+// first camera. The vectors point toward the lights.
 static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}},
                                 {{26, -14, 18}, 0.20, {0.9, 0.95, 1}},
                                 {{-8, 26, 16}, 0.30, {1, 1, 1}}};
 
-// In radii. The floor is the top of a sphere that is too large to look curved. The lights are so
-// far away that they light it evenly, in the color of the background, so no horizon is visible.
+// In radii of the meshes. The floor is the top of a sphere that is too large to look curved. The
+// distant lights give the floor the even color of the background, so no horizon is visible.
 #define FLOOR_RADIUS   1e4
 #define LIGHT_DISTANCE 1e4
 
@@ -238,7 +239,7 @@ bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error)
         up == UP_AUTO || scene->mesh_up != UP_AUTO ||
         error_set(
             error,
-            "%s: only a mesh without a scene can be turned: write 'up %s' in its mesh statement",
+            "%s: only lone mesh files can be turned; in a scene, write 'up %s' after the path",
             scene->inputs.data[scene->inputs.count - 1], up_axis_names[up]);
     return up == UP_AUTO || complete(scene, ok, up, error);
 }

@@ -16,8 +16,8 @@ static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
     return vec3_add(vec3_add(vec3_scale(v, cosine), across), along);
 }
 
-// Returns the scale for a mesh's normals before a rotation, which can enlarge components by the
-// square root of 3. All normals have one scale, because only the ratios of their lengths count.
+// Returns a factor for a mesh's normals that prevents overflow: a rotation can enlarge components
+// by the square root of 3. One factor for all normals keeps the ratios of their lengths.
 static double normal_scale(const Mesh *mesh)
 {
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++)
@@ -130,7 +130,7 @@ static bool read_transforms(Tokens *tokens, Objects objects)
     }
 }
 
-// Fails if the transforms leave [-1e30, 1e30], the range that the rest of the program requires.
+// Fails if a vertex is outside [-1e30, 1e30], the range that the rest of the program requires.
 static bool positions_in_range(const Tokens *tokens, const Mesh *mesh)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -160,8 +160,8 @@ static bool add_ply(Scene *scene, const char *path, const MeshLoadOptions *optio
     return ok;
 }
 
-// Loads the mesh file. Failures without a position in this file are reported at the path in the
-// scene file.
+// Loads the mesh file. Messages without a position in the mesh file get the position of its path in
+// the scene file.
 static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
                         const MeshLoadOptions *options)
 {

@@ -77,7 +77,7 @@ bool normalization_check(const Normalization *normalization, const Scene *scene,
         if (!sphere_fits(normalization, &scene->spheres.data[i]))
             return error_set(error,
                              "sphere %zu is more than 1e12 times the scene's size away, or its "
-                             "radius differs from that size by more than that",
+                             "radius is not within a factor of 1e12 of that size",
                              i + 1);
     return true;
 }

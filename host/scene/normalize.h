@@ -13,8 +13,8 @@ typedef struct {
 } Normalization;
 
 // Returns the normalization that centers the triangles' bounding box and scales its longest side
-// into [1, 2). Scenes without triangles use the spheres' box. Otherwise spheres do not count,
-// because a ground sphere of radius 1e9 would leave the mesh too few bits.
+// into [1, 2). Only scenes without triangles use the spheres' box, because a ground sphere of
+// radius 1e9 would leave a mesh too few bits.
 Normalization normalization_of(const Scene *scene);
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point);

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <xxhash.h>
 
-// Powers with integer exponents up to this are computed by squaring, which gives the same bits on
-// every device.
+// The kernels compute powers with integer exponents up to this limit by squaring, which gives the
+// same bits on every device.
 #define LARGEST_INTEGER_EXPONENT 1024
 
 Material material_of_shader(Shader shader)

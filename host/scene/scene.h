@@ -14,8 +14,8 @@
 
 #define COURSE_MATERIALS 4 // the course's materials come first in every scene
 
-// The materials that follow if the scene's file is a mesh: of meshes without their own, and of the
-// floor. The file's own follow them.
+// If the scene's file is a mesh, these materials follow: for meshes without materials, and for the
+// floor. The file's own materials come last.
 enum { MESH_CLAY = COURSE_MATERIALS, MESH_FLOOR, MESH_OWN_MATERIALS };
 
 typedef struct {
@@ -36,7 +36,7 @@ typedef struct {
 } Sphere;
 
 typedef struct {
-    Mesh mesh; // its normals, if it has any, shade it
+    Mesh mesh; // shaded smoothly if it has normals
     uint32_t material;
     uint32_t input;         // index of the mesh's file in Scene::inputs
     uint64_t number_before; // triangles in earlier objects of the file, including dropped ones
@@ -47,7 +47,7 @@ typedef struct {
 typedef struct {
     Vec3 eye, look_at, up;
     double fov_degrees;   // vertical, between 0 and 180
-    double width_degrees; // narrow pictures widen to this horizontal angle; 0: none do
+    double width_degrees; // the least horizontal field of view, for narrow pictures; 0 without one
 } Viewpoint;
 
 typedef struct {
@@ -112,14 +112,14 @@ typedef struct {
     const char *text; // a clause for messages
 } MissingPart;
 
-// Returns the first missing part: anything to render, or lights on surfaces that need them.
+// Returns the first missing part: objects to render, or lights for surfaces that need them.
 MissingPart scene_missing(const Scene *scene);
 
 // Colors are at most 1, so the error of a maximum level is at most the remaining weight of a ray of
 // that level.
 
-// Returns the largest error of any color if rays of max_level return the background.
+// Returns an upper bound on the error of every color if rays of max_level return the background.
 double truncation_bound(const Scene *scene, uint32_t max_level);
 
-// Returns the smallest max_level whose error is at most bound; MAX_LEVEL_LIMIT if none is smaller.
+// Returns the smallest max_level whose truncation_bound is at most bound; at most MAX_LEVEL_LIMIT.
 uint32_t truncation_level(const Scene *scene, double bound);

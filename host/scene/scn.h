@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses scene text into a Scene, and writes it exact to the last bit of every number. The grammar
-// is the course's four statements and clrt's extensions, defined by the table in scn.c.
+// Parses scene text into a Scene, and writes text that reads back as the same bits. The table in
+// scn.c defines the grammar: the course's four statements and clrt's extensions.
 #pragma once
 
 #include "base/error.h"
@@ -14,21 +14,21 @@
 // name. Returns false with "name:line:column: ..." at the first error.
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
 
-// Loads the file at path, which may also be a mesh alone (mesh_load.h). parse_mesh reads PLY
-// meshes: ply_parse or ply_parse_tolerantly.
+// Loads a scene file or a lone mesh file (mesh_load.h). parse_mesh reads PLY meshes: ply_parse or
+// ply_parse_tolerantly.
 bool scn_load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error);
 
-// Loads a file in memory. Mesh paths are relative to the folder of a file called name.
+// Loads a file that is in memory. Mesh paths are relative to the folder of a file called name.
 bool scn_take(Scene *scene, const File *file, const char *name, PlyParse *parse_mesh, Error *error);
 
-// Writes scene to stream. The objects' meshes are in files of these names beside the text. Returns
-// false if the stream has failed.
+// Writes scene to stream. The text refers to the mesh file of object i as mesh_names[i]. Returns
+// false if the stream has failed or memory runs out.
 bool scn_write(const Scene *scene, char *const *mesh_names, FILE *stream, Error *error);
 
-// Writes a camera statement, after an up statement if the camera's up direction is not up.
+// Writes a camera statement, preceded by an up statement if camera->up differs from up.
 void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream);
 
-// Returns whether scene text can contain a file of that name.
+// Returns whether scene text can quote the name: it is not empty and has no quotes or line ends.
 bool scn_write_can_name(const char *name);
 
 // Concatenates the meshes of a scene into one, all triangles in the scene's order. Objects without

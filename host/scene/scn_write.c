@@ -127,8 +127,8 @@ static bool is_definable(const char *name)
            number_parse(name, name + strlen(name), &number) == NULL;
 }
 
-// A material keeps a name that scene text can define and no earlier material has. Otherwise, its
-// name is material_ and its index.
+// A material keeps its name if scene text can define the name and no earlier material has it.
+// Otherwise, its new name is material_INDEX, followed by underscores if that name is taken.
 static void choose_names(Writer *writer)
 {
     const Scene *scene = writer->scene;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The statements of scene text with files of their own: `define` and `material` name materials
-// beside the course's four numbered ones; `mesh` and `ply_file` add a transformed mesh file.
+// The longer statements of scene text. `define` and `material` name materials beside the course's
+// four numbered ones. `mesh` and `ply_file` add a mesh file, and `mesh` also transforms it.
 #pragma once
 
 #include "scene/mesh_load.h"
@@ -10,12 +10,12 @@
 // Reads the rest of a define statement and adds the material to scene.
 bool materials_define(Scene *scene, Tokens *tokens);
 
-// The selection of `material own`: each mesh has the materials of its file. An object without a
-// material in a file has the course's material 0.
+// The value of `material own`. Each object has the material from its mesh file or, if the file
+// gives none, the course's material 0.
 #define MATERIAL_OWN UINT32_MAX
 
 // Reads the argument of `material`: a number of the course, a defined name, or own. As in the
-// course, any number but 0 to 3 selects the silhouette.
+// course, numbers outside 0 to 3 select material 0, the silhouette.
 bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material);
 
 // Reads the rest of a mesh or ply_file statement and adds the file's objects. Paths are relative to

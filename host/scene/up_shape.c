@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests whether a mesh would stand on a table: whether the points that touch the table lie on all
-// four sides of its center.
+// A mesh would stand on a table if the points that touch the table lie on all four sides of the
+// mesh's center.
 #include "scene/mesh_load.h"
 
 // Fractions of the bounding box's longest side.
@@ -21,8 +21,8 @@ static void extend(Box *box, const double *point)
     }
 }
 
-// Returns the box of the corners with at most this coordinate on the axis, of triangles with at
-// least `least` of them.
+// Returns the bounding box of the corners whose coordinate on the axis is at most `most`. Ignores
+// triangles with fewer than `least` such corners.
 static Box box_below(const Scene *scene, int axis, double most, int least)
 {
     Box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};

@@ -95,7 +95,7 @@ class Rows(SharedWork):
 
     def test_other_formats_are_named(self):
         self.write(a_gif=b"GIF89a\1\0\1\0", vast_ppm="P6\n65535 65535\n255\n")
-        self.assertIn("a.gif: cannot be read: it is no PNG", self.clrt("compare", "a.gif", "a.gif", code=3))
+        self.assertIn("a.gif: cannot be read: it is not a PNG", self.clrt("compare", "a.gif", "a.gif", code=3))
         if "ppm" in FORMATS:
             self.refuses(3, "vast.ppm: cannot be read: it is too large", "compare", "vast.ppm", "vast.ppm")
 

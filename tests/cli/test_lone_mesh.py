@@ -112,7 +112,7 @@ class Upright(Random):
         self.write(a_ply=models.ply(KNOT, TRIANGLES), a_scn="mesh a.ply\n", b_scn="mesh a.ply up w\n",
                    c_scn="mesh a.ply up\n")
         self.refuses(2, "--up wants auto, x, y, z, -x, -y or -z, not 'up'", "a.ply", "--up", "up", "-o", "a.png")
-        self.refuses(3, "a.scn: only a mesh without a scene can be turned: write 'up -y' in its mesh statement",
+        self.refuses(3, "a.scn: only lone mesh files can be turned; in a scene, write 'up -y' after the path",
                      "a.scn", "--up", "-y", "-o", "a.png")
         usage = "the statement is 'mesh PATH [up AXIS] [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]'"
         self.fails(f"b.scn:1:15: expected x, y, z, -x, -y or -z: found 'w'; {usage}", "b.scn")

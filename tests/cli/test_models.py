@@ -237,7 +237,7 @@ class Hostile(Work):
             document["nodes"] = [{"children": [i + 1] * 2} for i in range(40)] + [{"mesh": 0}]
 
         self.write(a_glb=models.glb(POINTS, TRIANGLES, change=double))
-        self.assert_small_failure("Assimp needs more memory than the limit for a file of its size")
+        self.assert_small_failure("Assimp needs more memory than the limit for a file of this size")
 
     # Limits the memory, because a further gigabyte takes seconds.
     def assert_small_failure(self, sentence, before=""):

@@ -192,7 +192,7 @@ class Parts(SharedWork):
         self.write(text_exr="no picture")
         self.refuses_parts("small.exr: is not a part drawn with --part", "small.exr")
         self.refuses_parts("bare.exr: is not a part drawn with --part", "bare.exr")
-        self.refuses_parts("text.exr: cannot be read: it is no EXR file of tiles, as clrt writes it", "text.exr")
+        self.refuses_parts("text.exr: cannot be read: it is not a tiled EXR file written by clrt", "text.exr")
 
     def test_damaged_parts_are_refused_with_their_number(self):
         names = self.draw("damaged", SCENE, "-s", "300x200", of=2)
@@ -215,7 +215,7 @@ class Parts(SharedWork):
         self.refuses_parts("bad.exr: part 2 of 2 cannot be used: it is damaged at pixel", names[0], "bad.exr")
         for end in range(0, table, 7):
             self.write(bad_exr=honest[:end])
-            self.refuses_parts("bad.exr: cannot be read: it is no EXR file of tiles, as clrt writes it", "bad.exr")
+            self.refuses_parts("bad.exr: cannot be read: it is not a tiled EXR file written by clrt", "bad.exr")
 
     def test_texts_that_lie_are_no_part(self):
         honest = self.bytes_of(self.thirds[0])

@@ -90,9 +90,9 @@ TEST(pictures_out_of_range_are_refused_and_the_next_is_drawn)
 {
     const ClrtPicture good = {.size = sizeof good, .width = WIDTH, .height = HEIGHT};
     ClrtPicture bad[] = {good, good, good, good, good, good};
-    static const char *const words[] = {"the width is 0",      "the height is 131073",
-                                        "samples is 65",       "the level is 1001",
-                                        "view 3 is not among", "the width is 4.29497e+09"};
+    static const char *const words[] = {"the width is 0",        "the height is 131073",
+                                        "samples is 65",         "max_level is 1001",
+                                        "view 3 does not exist", "the width is 4.29497e+09"};
     bad[0].width = 0;
     bad[1].height = 131073;
     bad[2].samples = 65;
@@ -120,7 +120,7 @@ TEST(structs_tell_what_they_know_by_their_size)
     assert_true(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, NULL));
     newer.later = 1;
     REFUSES(clrt_render(stage.renderer, stage.scene, &newer.picture, stage.rgb, &error),
-            "asks for what libclrt");
+            "sets members that libclrt");
     newer.picture.size = sizeof newer.picture.size - 1;
     REFUSES(render(newer.picture, &error), "the picture has a size of 7");
     newer.picture.size = SIZE_MAX;
@@ -148,7 +148,7 @@ TEST(a_scene_without_cameras_is_drawn_by_the_pictures_own)
     ClrtScene *scene = clrt_scene_create(NULL);
     ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
     REFUSES(clrt_render(stage.renderer, scene, &picture, stage.rgb, &error),
-            "view 1 is not among the scene's 0");
+            "view 1 does not exist: the scene has 0");
     picture.camera = &filled_cameras[0];
     assert_true(clrt_render(stage.renderer, scene, &picture, stage.rgb, NULL));
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)

@@ -80,7 +80,7 @@ TEST(numbers_out_of_range_are_refused)
     }
     REFUSES(clrt_scene_add_sphere(scene, origin, 0, 0, &error), "the radius is 0");
     REFUSES(clrt_scene_add_sphere(scene, origin, 1, 6, &error),
-            "material 6 is not among the scene's 6");
+            "material 6 does not exist: the scene has 6");
     const ClrtSceneInfo after = info_of();
     assert_memory_equal(&before, &after, sizeof before);
 }
@@ -136,7 +136,7 @@ TEST(meshes_that_point_nowhere_are_refused)
     REFUSES(add(&mesh, &error), "triangles are NULL");
     mesh = good_mesh();
     mesh.triangles = outside;
-    REFUSES(add(&mesh, &error), "triangle 0 has vertex 3, and there are 3");
+    REFUSES(add(&mesh, &error), "triangle 0 has vertex 3, but the mesh has 3 vertices");
     mesh.triangles = huge;
     REFUSES(add(&mesh, &error), "has vertex 4294967295");
     mesh.vertex_count = 0;

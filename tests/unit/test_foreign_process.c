@@ -78,7 +78,7 @@ TEST(a_program_that_crashes_stays_or_gives_up_is_one_sentence)
     expect_failure("while :; do echo; sleep 0.05; done", late);
     expect_failure("exec yes", "m.obj: Assimp exceeded the limit of its output and was stopped");
     expect_failure("exec sleep 60 >/dev/null", "m.obj: Assimp crashed while reading it (signal 9)");
-    expect_failure("exit 1", "m.obj: the program that reads it ended too early");
+    expect_failure("exit 1", "m.obj: clrt-foreign, which reads it, ended too early");
 }
 
 TEST(a_program_that_is_not_there_is_told)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DAMAGED "m.obj: the output of the program that reads it is damaged"
+#define DAMAGED "m.obj: the output of clrt-foreign, which reads it, is damaged"
 
 #define TRIANGLE                                                                                   \
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"                \

@@ -24,26 +24,26 @@ TEST(each_fault_of_a_header_has_its_sentence)
         {"ply\nformat ascii 2.0\n",
          "t.ply:2: expected 'format ascii 1.0', 'format binary_little_endian 1.0' or 'format "
          "binary_big_endian 1.0'"},
-        {HEAD "vertices\x01 3\n", "t.ply:3: 'vertices?' is no header keyword"},
+        {HEAD "vertices\x01 3\n", "t.ply:3: 'vertices?' is not a header keyword"},
         {HEAD "element vertex\n", "t.ply:3: expected 'element NAME COUNT'"},
         {HEAD "element a 1 2\n", "t.ply:3: expected 'element NAME COUNT'"},
-        {HEAD "element a -1\n", "t.ply:3: '-1' is no element count"},
-        {HEAD "element a 1.0\n", "t.ply:3: '1.0' is no element count"},
+        {HEAD "element a -1\n", "t.ply:3: '-1' is not an element count"},
+        {HEAD "element a 1.0\n", "t.ply:3: '1.0' is not an element count"},
         {HEAD "element a 9223372036854775808\n",
-         "t.ply:3: '9223372036854775808' is no element count"},
+         "t.ply:3: '9223372036854775808' is not an element count"},
         {HEAD "element vertex 2147483648\n",
          "t.ply:3: vertex count 2147483648 is above 2147483647"},
         {HEAD "element face 9223372036854775807\n",
          "t.ply:3: face count 9223372036854775807 is above 2147483647"},
         {HEAD "element face 1\nelement face 1\n", "t.ply:4: element face is declared twice"},
-        {HEAD "property float x\n", "t.ply:3: a property stands before the first element"},
+        {HEAD "property float x\n", "t.ply:3: a property precedes the first element"},
         {HEAD "element a 1\nproperty float\n", "t.ply:4: expected 'property TYPE NAME' or "
                                                "'property list TYPE TYPE NAME'"},
         {HEAD "element a 1\nproperty list int float\n",
          "t.ply:4: expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'"},
         {HEAD "element a 1\nproperty aVeryLongTypeNameWithoutAnyEndInSight x\n",
-         "t.ply:4: 'aVeryLongTypeNameWithoutAnyEndIn...' is no property type"},
-        {HEAD "element a 1\nproperty list int list x\n", "t.ply:4: 'list' is no property type"},
+         "t.ply:4: 'aVeryLongTypeNameWithoutAnyEndIn...' is not a property type"},
+        {HEAD "element a 1\nproperty list int list x\n", "t.ply:4: 'list' is not a property type"},
         {HEAD "element a 1\nproperty list float int b\n",
          "t.ply:4: the length of list b has a float type"},
         {HEAD "element face 1\nproperty list int double vertex_index\n",
@@ -66,14 +66,14 @@ TEST(each_fault_of_an_ascii_body_has_its_sentence)
 {
     static const char *const cases[][2] = {
         {HEAD "element vertex 2\n" XYZ "end_header\n0 0 0\n0 ",
-         "t.ply:8: element vertex: a count of 2 does not fit in what is left of the file"},
+         "t.ply:8: element vertex: a count of 2 does not fit in the rest of the file"},
         {HEAD "element vertex 2147483647\n" XYZ "end_header\n0 0 0\n",
-         "t.ply:8: element vertex: a count of 2147483647 does not fit in what is left of the file"},
+         "t.ply:8: element vertex: a count of 2147483647 does not fit in the rest of the file"},
         {HEAD "element a 9223372036854775807\nproperty list int int b\nend_header\n0 0 0\n",
-         "t.ply:6: element a: a count of 9223372036854775807 does not fit in what is left of the "
+         "t.ply:6: element a: a count of 9223372036854775807 does not fit in the rest of the "
          "file"},
         {HEAD "element a 4611686018427387904\nproperty int b\nproperty int c\nend_header\n0 0 0\n",
-         "t.ply:7: element a: a count of 4611686018427387904 does not fit in what is left of the "
+         "t.ply:7: element a: a count of 4611686018427387904 does not fit in the rest of the "
          "file"},
         {HEAD "element vertex 2\n" XYZ "end_header\n0 0 0.00000\n0 0\n",
          "t.ply:10: vertex 1: the file ends too early"},
@@ -88,14 +88,14 @@ TEST(each_fault_of_an_ascii_body_has_its_sentence)
         {TRIANGLE "0\n", "t.ply:13: face 0: a face needs 3 or more corners, not 0"},
         {TRIANGLE "-3 0 1 2\n", "t.ply:13: face 0: list length -3 is negative"},
         {TRIANGLE "5 0 1 2\n",
-         "t.ply:13: face 0: a count of 5 does not fit in what is left of the file"},
+         "t.ply:13: face 0: a count of 5 does not fit in the rest of the file"},
         {TRIANGLE "4 0 1 2 \n \n", "t.ply:15: face 0: the file ends too early"},
         {TRIANGLE "4294967295 0 1 2\n", "t.ply:13: face 0: its 4294967295 corners bring the "
                                         "triangle count above 2147483647"},
         {TRIANGLE "9223372036854775808\n",
          "t.ply:13: face 0: '9223372036854775808' is not a 64-bit integer"},
         {HEAD "element a 2\nproperty list int int b\nend_header\n0\n9223372036854775807 1 2\n",
-         "t.ply:7: a 1: a count of 9223372036854775807 does not fit in what is left of the file"},
+         "t.ply:7: a 1: a count of 9223372036854775807 does not fit in the rest of the file"},
     };
     for (size_t index = 0; index < sizeof cases / sizeof *cases; index++)
         assert_fails(cases[index][0], strlen(cases[index][0]), cases[index][1]);
@@ -145,7 +145,7 @@ TEST(coordinates_and_normals_must_be_finite_numbers)
 #define INDICES "element face 3\nproperty list uchar int vertex_indices\nend_header\n"
 #define GOOD    "\3\0\0\0\0\0\0\0\1\0\0\0\2"
 #define THIRD   THREE INDICES POINT POINT POINT GOOD GOOD
-#define LEFT    " does not fit in what is left of the file"
+#define LEFT    " does not fit in the rest of the file"
 #define CASE(bytes, sentence)                                                                      \
     {                                                                                              \
         bytes, sizeof(bytes) - 1, "t.ply: byte " sentence                                          \
