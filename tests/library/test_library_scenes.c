@@ -140,7 +140,7 @@ TEST(meshes_that_point_nowhere_are_refused)
     mesh.triangles = huge;
     REFUSES(add(&mesh, &error), "has vertex 4294967295");
     mesh.vertex_count = 0;
-    REFUSES(add(&mesh, &error), "there are 0");
+    REFUSES(add(&mesh, &error), "the mesh has 0 vertices");
     mesh = good_mesh();
     mesh.vertex_count = SIZE_MAX;
     REFUSES(add(&mesh, &error), "positions, more than");
