@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A split partitions a node's triangles from one array into the same positions of a second array.
-// The splits of the children write them back into the first. An explicit stack holds the pending
-// nodes, so that no recursion overflows.
+// The splits of the children write the triangles back into the first array. An explicit stack holds
+// the pending nodes, so that no recursion overflows.
 #include "accel/build.h"
 
 #include <assert.h>

@@ -44,7 +44,7 @@ static double inverse_power(double value)
 }
 
 // Stores a triangle's normals, negated if the stored corners are reversed. One power of two scales
-// all three to keep their squares in range. Their relative lengths stay: they weight interpolation.
+// all three to keep their squares in range, and keeps their relative lengths as weights.
 static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The folder that holds compiled kernels, and the lock on it. PoCL 3.1 loses builds when several
 // processes share a cold cache. PoCL lists no device if it cannot write its cache. clrt therefore
-// gives PoCL a folder of its own and locks the folder during each build.
+// gives PoCL a separate folder and locks the folder during each build.
 #pragma once
 
 #include "base/error.h"
@@ -45,7 +45,7 @@ int cache_lock(const Cache *cache);
 void cache_unlock(int lock);
 
 // Returns whether several hosts can mount a file system of this type, f_type of statfs, at once.
-// Returns true for FUSE, because its file system may be one that hosts share.
+// FUSE counts as shared, because sshfs and GlusterFS use it.
 bool disk_type_is_shared(unsigned long type);
 
 // Returns whether the folder lies on a file system that hosts can share; false if statfs fails.

@@ -19,8 +19,8 @@ typedef struct {
 // no manifest, also removes all programs that no manifest lists. Borrows cache and key.
 void cache_check_begin(CacheCheck *build, const Cache *cache, const char *key);
 
-// Ends the build. If `works`, the program and a first run of its kernels succeeded, so this writes
-// the program's manifest. Unlocks the cache.
+// Ends the build and unlocks the cache. Writes the program's manifest if `works`, which means that
+// the build and a first run of the kernels succeeded.
 void cache_check_end(CacheCheck *build, bool works);
 
 // Returns whether the program with this key was built before and has an intact manifest.

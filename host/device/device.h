@@ -28,9 +28,9 @@ typedef struct {
 } Device;
 
 // Opens the first device that matches spec. Valid forms are "PLATFORM:DEVICE" with numbers from
-// device_list, a type (cpu, gpu, accelerator, all), and a part of a device's or platform's name in
-// any case. NULL selects the first GPU or, without a GPU, the first device. If nothing matches, the
-// error message lists the devices.
+// device_list, a type (cpu, gpu, accelerator, all), and a part of a device's or platform's name.
+// Types and names ignore case. NULL selects the first GPU or, without a GPU, the first device. If
+// nothing matches, the error message lists the devices.
 bool device_open(Device *device, const char *spec, Error *error);
 void device_close(Device *device);
 

@@ -13,7 +13,8 @@
 
 // This filter and strategy make the smallest files among all settings that take at most about 20 ms
 // per megapixel. Paeth turns rendered surfaces into runs of zeros. Searching for matches other than
-// runs costs more time than it saves. All compression levels find the same runs, so none is set.
+// runs costs more time than it saves. All compression levels find the same runs, so the code sets
+// no level.
 #define FILTER   PNG_FILTER_PAETH
 #define STRATEGY Z_RLE
 

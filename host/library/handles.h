@@ -38,7 +38,7 @@ struct ClrtScene {
 // receives the cause.
 bool scene_handle_changed(ClrtScene *scene, bool ok, const Error *cause, ClrtError *error);
 
-// Fails with CLRT_ARGUMENT if the scene has no such material.
+// Fails with CLRT_ARGUMENT if the scene has no material with this number.
 bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtError *error);
 
 // Fails with CLRT_ARGUMENT if the camera is invalid.

@@ -5,7 +5,7 @@
 
 #include "base/child_process.h"
 
-// Returns whether the path has the extension of a mesh format that Assimp reads, in either case.
+// Returns whether the path has the extension of a mesh format that Assimp reads, ignoring case.
 // The extension alone decides, because most of these formats have no magic bytes.
 bool foreign_format_is(const char *path);
 

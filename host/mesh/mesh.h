@@ -69,7 +69,7 @@ typedef enum {
 extern const char *const up_axis_names[UP_AXES];
 
 // Rotates positions and normals so that the axis `up` becomes z. The rotation only exchanges
-// coordinates and changes signs, so it rounds nothing. UP_AUTO and UP_Z keep the mesh.
+// coordinates and changes signs, without rounding. UP_AUTO and UP_Z change nothing.
 void mesh_turn_up(Mesh *mesh, UpAxis up);
 
 // Computes the normals that a mesh lacks.

@@ -180,14 +180,14 @@ static bool add_studio(Scene *scene, Error *error)
     return ok;
 }
 
-// The turns for y and -y are inverse, and so are those for x and -x.
+// The turns for y and -y undo each other, as do the turns for x and -x.
 static UpAxis inverse_of(UpAxis up)
 {
     return up == UP_AUTO || up == UP_Z || up == UP_MINUS_Z ? up : (up + 2) % UP_MINUS_Z + 1;
 }
 
 // Turns the meshes from their current up axis and adds the studio. The hash records the axis,
-// because parts of a picture must agree on it.
+// because all parts of a picture must have the same axis.
 static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
 {
     for (size_t object = 0; object < scene->objects.count; object++) {
@@ -199,9 +199,9 @@ static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
     return add_studio(scene, error);
 }
 
-// Returns the up axis of the formats that have one, and UP_AUTO for the others. 3MF and AMF define
-// z as up, and glTF defines y. Modeling programs write OBJ with y up, and Assimp turns other
-// formats to y up.
+// Returns the up axis of the file's format, or UP_AUTO if the format has none. 3MF and AMF define z
+// as up, and glTF defines y. Modeling programs write OBJ with y up, and Assimp turns other formats
+// to y up.
 static UpAxis up_axis_of_format(const char *path)
 {
     if (file_has_ending(path, ".stl") || file_has_ending(path, ".off"))
