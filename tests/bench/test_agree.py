@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Tests that the Embree renderer of tools/bench draws clrt's picture with as many rays, in each
-mode. Otherwise the comparison would be meaningless. Its arithmetic differs, so edges may differ.
+mode. Otherwise the comparison would be meaningless. Edges may differ, as Embree's arithmetic does.
 Usage: test_agree.py CLRT EMBREE_PEER
 """
 

@@ -21,6 +21,6 @@ typedef struct {
     uint32_t signature; // a hash of all decisions, computed as in certify.cl
 } RealDecisions;
 
-// Return the decisions for the sample in that column and row.
+// Return the decisions of the sample at column and row.
 RealDecisions real_decide_64(const RealView *view, uint32_t column, uint32_t row);
 RealDecisions real_decide_113(const RealView *view, uint32_t column, uint32_t row);

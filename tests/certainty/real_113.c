@@ -4,8 +4,8 @@
 
 __extension__ typedef __float128 Quad;
 
-// Returns the square root. It starts with the 64 bits of long double, and each step of Newton's
-// method doubles them.
+// Returns the square root. Starts from the root in long double, with 64 bits. Each of the two steps
+// of Newton's method doubles the number of correct bits.
 static Quad root(Quad a)
 {
     if (!(a > 0))

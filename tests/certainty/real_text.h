@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces a ray tree without recursion and returns its decisions. Compiled for two number types
 // (real_64.c, real_113.c). The sign of a sum is settled if the sum exceeds TOLERANCE times the sum
-// of its terms' sizes, which is a thousand roundings. The tolerance grows by the factor GROWTH at
-// each reflection. Errors at triangles and normals of ordinary shapes grow far less.
+// of its terms' sizes. TOLERANCE is at least 1000 roundings, and grows by the factor GROWTH at each
+// reflection. Errors at triangles and normals of ordinary shapes grow far less.
 #include "certainty/real.h"
 
 #include <math.h>
@@ -84,8 +84,8 @@ static Vector unit(Vector a)
     return stepped(vector(0, 0, 0), 1 / ROOT(dot(a, a)), a);
 }
 
-// Returns whether the ray certainly misses the triangle: in the view along the ray, a line through
-// the ray has all corners on one side.
+// Returns whether the ray certainly misses the triangle: seen along the ray, all corners are on
+// one side of a line through the ray.
 static bool is_aside(const Path *path, const Vector corners[3])
 {
     const Vector d = unit(path->direction);
@@ -155,7 +155,7 @@ static Vector center_of(const SphereData *sphere)
                   (NUMBER)sphere->center[2] + sphere->center_low[2]);
 }
 
-// Computes half the chord of the ray's line in the sphere from the height of its cap.
+// Half the chord is sqrt((r - d) (r + d)), where d is the center's distance from the ray's line.
 static Outcome meet_sphere(const Path *path, const SphereData *sphere, Stop *stop)
 {
     const Vector center = center_of(sphere);
@@ -267,8 +267,7 @@ static Nearest meet_all(const Path *path, NUMBER reach)
 // The surface at a hit. Normals have any length.
 typedef struct {
     Vector point, normal, face;
-    Vector corner; // a corner of the triangle, which is a point of its plane without
-    // error
+    Vector corner; // a corner of the triangle, exactly in the triangle's plane
     const TriangleData *triangle; // NULL for a sphere
     uint32_t id, material;
     bool is_sphere, is_inside;
@@ -390,7 +389,7 @@ static bool see_lights(const Path *path, const Surface *surface, RealDecisions *
     return settled;
 }
 
-// The length of the direction is arbitrary and stays near 1.
+// The length of the direction is near 1, but not exactly 1.
 static Path reflected(const Path *path, const Surface *surface)
 {
     const Vector v = minus(vector(0, 0, 0), unit(path->direction)), n = unit(surface->normal);

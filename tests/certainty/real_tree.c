@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boxes are padded by a millionth of the frame's size and of the distance to the box.
+// Boxes are padded by a millionth of the frame, and during a walk also by a millionth of the
+// coordinates of the ray's origin.
 #include "certainty/real_tree.h"
 
 #include <math.h>
@@ -16,7 +17,7 @@ static void include(RealNode *node, const float point[3])
     }
 }
 
-// Encloses the node's triangles, and halves them. Children take the next two free nodes.
+// Computes the node's box and splits the triangles in half. Children take the next two free nodes.
 static void divide(RealTree *tree, uint32_t number, const FlatScene *flat)
 {
     RealNode *node = &tree->nodes[number];

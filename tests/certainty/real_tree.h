@@ -8,7 +8,7 @@
 
 typedef struct {
     double low[3], high[3];
-    uint32_t first, count; // the triangles, by their places in the flat scene
+    uint32_t first, count; // the range in the flat scene's triangles
     uint32_t children;     // the first of two successive nodes; 0 for a leaf
 } RealNode;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests --aov certainty: certified and repaired pixels have real arithmetic's decisions, most
 // pixels are certified, and only repaired pixels change. Tier 0 compares some pixels of small
-// pictures, and tier 1 all of more than ten million.
+// pictures, and tier 1 compares all pixels, more than ten million.
 #include "base/processors.h"
 #include "base/thread_pool.h"
 #include "certainty/certified.h"
@@ -102,7 +102,7 @@ typedef struct {
     float share;
 } Seen;
 
-// Returns whether the plain picture has the same first hit and number of lights. Silhouettes have
+// Returns whether the plain picture has the mark's first hit and number of lights. Silhouettes have
 // no lights.
 static bool is_alike(const Certified *certified, const CertaintyMark *mark, const Seen *seen)
 {
@@ -136,7 +136,7 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
 {
     Error error = {0};
     Comparison comparison = {0};
-    const uint32_t part = (uint32_t)tier_size(2, 1); // of the picture's sides
+    const uint32_t part = (uint32_t)tier_size(2, 1); // divides the picture's sides
     const CertifiedView wanted = {
         .view = view, .width = scene->width / part, .height = scene->height / part, .samples = 1};
     const uint32_t step = (uint32_t)tier_size(scene_triangle_count(scene) > 1000 ? 8 : 4, 1);

@@ -13,7 +13,7 @@ PICTURE = [SCENE, "-s", "48x32", "-q", "--kernel=ray", "--nodes=pair", "--specia
 CHOSEN = ("POCL_CACHE_DIR", "XDG_CACHE_HOME", "TMPDIR", "CLRT_KERNEL_DIR")
 
 
-# Each test gets a copy of one cache in which PICTURE's kernels are compiled, and the picture.
+# Each test gets a copy of a cache with PICTURE's compiled kernels. `expected` is the picture.
 class CacheWork(Work):
     compiled = expected = None
 

@@ -27,8 +27,8 @@ static void touch_lost_page(void)
         zero = page[0];
 }
 
-// Runs the halt instruction at the end of the program's entry code, which is forbidden in user
-// mode.
+// Jumps to the halt instruction at the end of the program's entry code. The CPU forbids this
+// instruction in user mode.
 static void halt(void)
 {
     void (*run)(void);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// If preloaded, makes allocations of clrt fail, but not those of libraries. They fail from number
-// CLRT_FAIL_MEMORY on, counted from 1.
+// If preloaded, makes clrt's allocations fail from number CLRT_FAIL_MEMORY on, counted from 1.
+// Libraries' allocations succeed.
 #include <dlfcn.h>
 #include <errno.h>
 #include <link.h>

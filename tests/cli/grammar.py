@@ -19,6 +19,6 @@ def properties():
 
 
 def value_words():
-    """Returns the words that are no keywords: fixed words of the usages, and properties."""
+    """Returns the words that are not keywords: fixed words of the usages, and properties."""
     usage = " ".join(text.split(" ", 1)[1] for text in usages().values())
     return {*re.findall(r"(?<![\w-])-?[a-z_]+\b", usage), *properties()}

@@ -14,8 +14,8 @@ def rounded(value):
 
 
 def knot(rings=24, sides=10):
-    """Returns points and triangles of a closed tube around a trefoil. Its floats have no short
-    decimals."""
+    """Returns points and triangles of a closed tube around a trefoil. The coordinates have
+    no short decimals."""
     points, triangles = [], []
     for ring in range(rings):
         turn = 2 * math.pi * ring / rings
@@ -39,7 +39,7 @@ def coarse(points):
 
 
 def normals_of(points):
-    """Returns a direction of floats for each point."""
+    """Returns the direction from the origin to each point, in floats."""
     directions = []
     for x, y, z in points:
         length = math.sqrt(x * x + y * y + z * z) or 1
@@ -48,8 +48,8 @@ def normals_of(points):
 
 
 def axes_of(points):
-    """Returns the direction of the nearest axis for each point, which every notation and
-    normalization preserves."""
+    """Returns the direction of the nearest axis for each point. Every notation and normalization
+    preserves these directions."""
     nearest = [max(range(3), key=lambda axis: abs(point[axis])) for point in points]
     return [
         tuple(math.copysign(1.0, point[axis]) if axis == near else 0.0 for axis in range(3))
@@ -132,7 +132,7 @@ def glb(points, triangles, normals=None, node=None, change=None):
     return head + text + struct.pack("<I4s", len(body), b"BIN\0") + body
 
 
-# %d is the number of the last corner.
+# %d is the last corner's vertex number.
 THREE_MF_TRIANGLE = """<model unit="millimeter"><resources><object id="1" type="model"><mesh>
 <vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>
 </vertices><triangles><triangle v1="0" v2="1" v3="%d"/></triangles></mesh></object></resources>
@@ -140,7 +140,7 @@ THREE_MF_TRIANGLE = """<model unit="millimeter"><resources><object id="1" type="
 
 
 def three_mf(model, is_found=True):
-    """Returns a 3MF file with that XML. If not is_found, the relation refers to a missing file."""
+    """Returns a 3MF file with the XML in model. If not is_found, no relation refers to it."""
     relation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
     target = f'<Relationship Target="/3D/3DModel.model" Id="rel0" Type="{relation}"/>'
     file = io.BytesIO()

@@ -24,7 +24,7 @@ def pfm(*rows):
 
 
 def read_png_chunks(data):
-    """Returns the type and bytes of each chunk, whose checksums must be right."""
+    """Checks the checksums, and returns the type and bytes of each chunk."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n", "the signature is wrong"
     chunks, place = [], 8
     while place < len(data):
@@ -51,7 +51,7 @@ def predict(kind, left, above, corner):
 
 
 def read_png(data):
-    """Returns rows of bytes, regardless of their filters."""
+    """Undoes the filters, and returns rows of bytes."""
     chunks = read_png_chunks(data)
     width, height, *form = struct.unpack(">IIBBBBB", chunks[0][1])
     assert form == [8, 2, 0, 0, 0], f"not 8-bit RGB: {form}"
@@ -75,7 +75,7 @@ def read_text(data, place):
 
 
 def read_header(data):
-    """Returns the attributes' bytes by name, and where the header ends."""
+    """Returns the attributes' bytes by name, and the offset of the header's end."""
     assert struct.unpack_from("<II", data) == (20000630, 0x202), "single part, tiles"
     attributes, place = {}, 8
     while data[place] != 0:
@@ -123,7 +123,8 @@ def read_exr_tiles(data):
 
 
 def read_exr(path, row=None):
-    """Returns the types and values of the channels, of one row if it is given. Missing tiles are 0."""
+    """Returns the types and values of the channels. Missing tiles are 0. With a row, they begin
+    at the top of the row's tiles and end with this row."""
     with open(path, "rb") as file:
         data = file.read()
     attributes, _ = read_header(data)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Tests the command line: usage, devices, pictures that no option changes, samples, statistics, compiled kernels.
-# Usage: test_cli.py CLRT FORMATS WINDOW NO_FP64, the third ON for a build with a window
+# Usage: test_cli.py CLRT FORMATS WINDOW NO_FP64; WINDOW is ON for a build with a window
 import os
 import subprocess
 import sys
@@ -60,7 +60,7 @@ REFUSALS = [
     (5, "no/: cannot be written: it is a folder", ["none.scn", "--format", "pfm", "-o", "no/"]),
     (5, "no/a.pfm: cannot be written: No such file or directory", ["none.scn", "-o", "no/a.pfm"]),
 ]
-# Options that change no bit, with parts of the statistics.
+# Options that change no bit of the picture, each with the statistics that it sets.
 SAME = {"-q": None, "-j 1": None, "-j 2": None, "--bvh sah": None, "--specialize never": None,
         "--no-bvh": {"tests__box": 0, "bvh__builder": "none"}, "--bvh midpoint": {"bvh__builder": "midpoint"},
         "--tile 16x8 --work-group 4x2": {"settings__tile": [16, 8], "settings__work_group": [4, 2]},
@@ -257,7 +257,7 @@ class Compiled(Work):
         expected = self.run_clrt(*SMALL, "b.pfm", "--kernel", "packet")
         self.assertEqual(expected.returncode, 0)
         self.assert_same_bytes("a.pfm", "b.pfm")
-        # A run does not affect the next run's choice, unless it compiles the same kernels.
+        # A run affects the next run's choice only if both runs may use the same compiled kernels.
         self.draws_by("ray, pair")
         self.draws_by("packet, wide", "--stats")
         self.draws_by("ray, pair")
@@ -302,7 +302,7 @@ class Endings(Work):
         self.assertEqual((process.communicate()[1], process.returncode), ("", 0))
 
     def test_a_folder_that_vanishes_is_exit_5(self):
-        # The scene comes late: clrt opens its pipe after it has looked at the folder.
+        # The scene is a pipe. clrt opens the pipe after it has checked the output's folder.
         os.mkdir(self.work / "gone")
         os.mkfifo(self.work / "late.scn")
         process = self.start("late.scn", "-s", "8x8", "-o", "gone/a.png")

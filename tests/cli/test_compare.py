@@ -80,7 +80,8 @@ class Rows(SharedWork):
 
     def test_the_map_shows_the_difference(self):
         self.clrt(*BOTH, "-o", "map.png")
-        # The map's brightness is the root of the difference, and is full from 64/255 on.
+        # The map's brightness is the square root of the difference. Differences above 64/255 are
+        # white.
         self.clrt("compare", "map.png", "brightness.pfm", "--fail", "max=0.002")
         self.clrt(*BOTH, "-o", "map.pfm", "-q")
         self.assert_same_bytes("map.pfm", "expected.pfm")
@@ -111,7 +112,7 @@ class Rows(SharedWork):
 
 
 class Formats(SharedWork):
-    """clrt recognizes every format that it writes by the first bytes."""
+    """clrt recognizes each format that it writes by the file's first bytes."""
 
     def prepare(self):
         picture = [EVERY_FEATURE, "-s", "64x48", "-q"]

@@ -15,7 +15,7 @@ import grammar
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 VIM = ROOT / "tools/editors/vim"
 TEXTMATE = ROOT / "tools/editors/vscode/clrt.tmLanguage.json"
-# Vim's groups and the first words of TextMate's scopes, by role.
+# The roles of Vim's groups and of the first words of TextMate's scopes.
 ROLES = {"clrtStatement": "statement", "clrtUnknown": "unknown", "clrtProperty": "word", "clrtConstant": "word",
          "clrtNumber": "number", "clrtString": "string", "clrtComment": "comment", "keyword": "statement",
          "invalid": "unknown", "support": "word", "constant.language": "word", "constant.numeric": "number",
@@ -46,7 +46,7 @@ def vim_roles(text):
 
 def textmate_roles(text):
     """Returns the role of every character as an editor with TextMate grammars colors the text. The leftmost
-    match counts. If several matches begin there, the first pattern counts."""
+    match wins. If several matches begin there, the first pattern wins."""
     patterns = json.loads(TEXTMATE.read_text())["patterns"]
 
     def roles(line):
@@ -98,7 +98,7 @@ class Words(unittest.TestCase):
 
 class Colors(unittest.TestCase):
     def expect_roles(self, text, roles):
-        """Expects these roles of the words of a line, whose strings and comments contain no blanks."""
+        """Expects one role for each word. Strings and comments in text must contain no blanks."""
         for editor, color in EDITORS.items():
             (line,) = color(text + "\n")
             found = [set(line[word.start() : word.end()]) for word in re.finditer(r"\S+", text)]

@@ -24,7 +24,7 @@ MESH = [FLAT, "-s", "24x16", "-o", "a.pfm"]
 EXPLAIN = [SCENE, "-s", "24x16", "--explain-pixel"]
 COMPARE = ["compare", "black.pfm", "white.pfm"]
 
-# For each option, arguments without and with the option, whose effects must differ. If the option
+# For each option, arguments without and with the option. Their effects must differ. If the option
 # changes the picture, the arguments write no statistics, because statistics repeat the settings.
 TRIALS = {
     "output": (PLAIN, [SCENE, "-s", "24x16", "-o", "b.pfm"]),
@@ -77,7 +77,7 @@ TRIALS = {
     "help": ([], ["--help"]),
 }
 
-# Other tests test the options that need a window.
+# Options that need a window, and the tests that try them.
 IN_THE_WINDOW = {"keys": "tests/view/test_keys.py", "quit-after": "tests/view/test_keys.py"}
 
 # Values that differ between two runs with the same arguments.

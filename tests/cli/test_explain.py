@@ -12,7 +12,7 @@ MIRRORS = (f"{HEAD}light 0 0 2 1\nmaterial mirror\nsphere 0 3 0 1\nsphere 0 -3 0
            "camera 0 0 0 0 1 0 90\n")
 BALL = "light 0 -5 0 0.5\nmaterial plain\nsphere 0 0 0 1\ncamera 0 -5 0 0 0 0 90\n"
 LAMP = "light 0 0 4 1\nmaterial plain\nply_file floor.ply\nsphere 0 0 1 0.5\n"
-# The first light is behind the face alone, the second behind the normal too.
+# The first light is behind the face only. The second is behind the face and the normal.
 LEANING = "size 5 5\nlight 11 -2 -5 1\nlight -9 -2 -5 1\nmaterial 1\nply_file leaning.ply\nup 0 1 0\n" \
           "camera 1 -2 4 1 -2 0 90\n"
 
@@ -32,7 +32,7 @@ def light(state, distance=None, cosine=None, **more):
 
 
 def mirror_ball(level, number, distance):
-    """The light is at (0, -+2, 2) from every hit, so each ball adds 0.1 + 0.5 * 0.707107."""
+    """The light is 2 above and 2 beside every hit, so each ball adds 0.1 + 0.5 * 0.707107."""
     return {"weight": 0.5**level, "hit": sphere(number, distance, light("reaches", cosine=0.707107),
                                                 share=0.5 ** (level + 1), color=[0.453553] * 3)}
 
@@ -50,9 +50,10 @@ BY_HAND = [
     (LAMP + "camera 1e-3 -4 0.4 1e-3 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4, 1, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.5), normal=[0, 0, 1])}], {"color": [0.08] * 3}),
-    # The cone from the light that touches the ball has the sine 0.5 / 3. It intersects the floor at a
-    # radius of 4 * 0.169031 = 0.676123. At 0.65, the light is sqrt(0.65^2 + 16) away. The ball's center is
-    # 1.091310 along this line and 0.481182 off it; the hit is sqrt(0.25 - 0.481182^2) before the center.
+    # The ball's shadow cone at the light has the sine 0.5 / 3. It intersects the floor at a radius
+    # of 4 * 0.169031 = 0.676123. At 0.65, the light is sqrt(0.65^2 + 16) away. The ball's center is
+    # 1.091310 along this line and 0.481182 off it; the hit is sqrt(0.25 - 0.481182^2) before the
+    # center.
     (LAMP + "camera 0.65 -4 0.4 0.65 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4.052468, 0.987053, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.955450))}], {}),
@@ -67,10 +68,11 @@ BY_HAND = [
     # y = -5 hits after 4.955290. The light is 4 to the left at the height of the hit.
     ("light -4 -0.0447102 0 1\nmaterial plain\nsphere 0.999 0 0 1\ncamera 0 -5 0 0 0 0 90\n", "2,2",
      [{"hit": sphere(1, 4.955290, light("reaches", 4, 0.999), normal=[-0.999, -0.0447102, 0])}], {}),
-    # From 0.001 above the floor to a point 4 away.
+    # The ray runs from 0.001 above the floor to a point 4 away.
     ("light 1 0 4 1\nmaterial plain\nply_file floor.ply\ncamera 1 -4 0.001 1 0 0 90\n", "2,2",
      [{"hit": floor(4, light("reaches", 4, 1), point=[1, 0, 0])}], {}),
-    # From the center of a mirror ball, whose normal points away from the light inside.
+    # The eye is in the center of a mirror ball. The ball's normal points away from the light
+    # inside.
     ("light 0 0 0.5 1\nmaterial mirror\nsphere 0 0 0 1\ncamera 0 0 0 0 1 0 90\n", "2,2",
      [{"hit": sphere(1, 1, light("behind"), normal=[0, 1, 0])},
       {"hit": sphere(1, 2, light("behind"), point=[0, -1, 0])}, {"hit": sphere(1, 2, light("behind"))}],
@@ -174,7 +176,7 @@ class Pixels(Explain):
 
 
 class Scenes(Explain):
-    """Specialized kernels omit features that a scene lacks; general ones contain them unused."""
+    """Specialized kernels omit features that a scene lacks; general kernels contain them unused."""
 
     def expect_parts(self, words, **parts):
         """Compares whether each part is needed and compiled, and the reason; returns the report."""

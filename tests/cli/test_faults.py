@@ -12,7 +12,8 @@ import unittest
 from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main
 
 FAIL_MEMORY, FAIL_DEVICE = (os.path.abspath(word) for word in sys.argv[3:5])
-# The file does not fit on a disk of DISK_SIZE in any format. The kernels are the same in every run.
+# LARGE's picture does not fit on a disk of DISK_SIZE in any format. The kernels are the same in
+# every run.
 LARGE = [SCENE, "-s", "400x300", "-q", "--kernel=ray", "--specialize=never"]
 DISK_SIZE = 8192
 
@@ -64,7 +65,7 @@ class Disks(Faults):
 
 class Outputs(Faults):
     def test_a_file_past_the_limit_of_its_size_is_told_and_removed(self):
-        # PoCL writes preprocessed kernels of somewhat more than a MiB in each run.
+        # PoCL writes preprocessed kernels of slightly more than 1 MiB in each run.
         limit = ["prlimit", f"--fsize={5 << 18}"]
         large = [*LARGE, "-s", "800x600"]
         for format in {"pfm", "ppm"} & set(FORMATS):

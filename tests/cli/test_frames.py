@@ -70,7 +70,7 @@ class Frames(Work):
         self.assert_same_bytes("a.gif", "b.gif")
         data = self.bytes_of("a.gif")
         self.assertEqual(data[:10], b"GIF89a" + bytes([21, 0, 16, 0]))
-        # A graphic control extension with a delay of 5 hundredths, and an image of the whole size.
+        # A graphic control extension with a delay of 5/100 s, and an image of the whole size.
         frame = rb"\x21\xf9\x04.\x05\x00.\x00\x2c\0\0\0\0\x15\0\x10\0"
         self.assertEqual(len(re.findall(frame, data, re.DOTALL)), 5)
 
@@ -113,7 +113,7 @@ class Frames(Work):
     @needs_exr
     def test_a_signal_ends_the_series_with_the_picture_it_meets(self):
         words = [SCENE, "-s", "400x300", "--aa=16", "--tile", "400x20", "-j", "1", "--turntable", "99"]
-        for _ in range(9):  # repeats until a signal falls into a picture
+        for _ in range(9):  # repeats until a signal interrupts a picture
             process = self.start(*words, "-q", "-o", "a.exr")
             self.wait_for((self.work / "a.0001.exr").exists)
             process.send_signal(signal.SIGINT)

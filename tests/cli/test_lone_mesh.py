@@ -11,7 +11,7 @@ import models
 from work import Work, main
 
 ASSIMP = sys.argv[2] == "1"
-# The turned point for each axis that points up.
+# For each axis that points up, a function that turns a point so that z is up.
 TURNS = {
     "x": lambda x, y, z: (-z, y, x),
     "y": lambda x, y, z: (x, -z, y),
@@ -44,7 +44,7 @@ def tripod(splay=1.0):
         block((x - 0.125, y - 0.125, 0), (x + 0.125, y + 0.125, 2))
     block((-0.5, -0.5, 2), (0.5, 0.5, 3))
     tip = len(points)
-    points.append((1.75, 1.5, 3.5))  # a single point on three sides
+    points.append((1.75, 1.5, 3.5))  # the only point on three sides of the bounding box
     triangles.append((tip, tip - 1, tip - 2))
     points.append((-1.75, -1.625, 2.75))
     triangles.append((tip + 1, tip - 7, tip - 8))
@@ -166,8 +166,8 @@ def cameras(scene):
 
 
 def extents(camera, points, width, height):
-    """Returns the points' lowest and highest positions in the picture, in width and height, where
-    -1 and 1 are its edges."""
+    """Returns the points' lowest and highest positions across and along the picture, whose edges
+    are -1 and 1."""
     eye, point, up, tall, wide = camera
     forward = unit([b - a for a, b in zip(eye, point)])
     right = unit(cross(forward, up))

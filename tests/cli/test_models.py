@@ -84,7 +84,7 @@ class Formats(Work):
         self.assertEqual(len({plain, smooth, self.picture("round.scn")}), 3)
         self.converts_to_flat("a.ply")
 
-    # A lone mesh has its own camera, so the flat picture is that of its conversion.
+    # A lone mesh has its own camera, so its converted scene is drawn with flat normals.
     def converts_to_flat(self, name):
         self.clrt("convert", name, "lone.scn")
         self.expect_same(name, "lone.scn")
@@ -239,7 +239,7 @@ class Hostile(Work):
         self.write(a_glb=models.glb(POINTS, TRIANGLES, change=double))
         self.assert_small_failure("Assimp needs more memory than the limit for a file of this size")
 
-    # Limits the memory, because a further gigabyte takes seconds.
+    # The memory must stay below 800 MiB, because a further gigabyte takes seconds.
     def assert_small_failure(self, sentence, before=""):
         command = ["bash", "-c", f'{before}exec "$@"', "bash", CLRT, "a.glb", "-o", "a.pfm"]
         process = subprocess.Popen(command, cwd=self.work, stderr=subprocess.PIPE, text=True)

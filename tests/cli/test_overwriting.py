@@ -21,7 +21,7 @@ class Overwriting(Work):
         return {file.name: file.read_bytes() for file in self.work.iterdir() if file.is_file()}
 
     def refuses_files(self, one, other, *words, **settings):
-        """Two files are one: a sentence names both, and no file in the folder changes."""
+        """Expects a message that both names are one file. No file in the folder may change."""
         before = self.contents()
         done = subprocess.run([CLRT, *words], cwd=self.work, stderr=subprocess.PIPE, text=True, timeout=300,
                               **{"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, **settings})

@@ -15,17 +15,17 @@ CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--bvh", "sah"]
 
 
 def part_of(column, row, parts):
-    """The golden ratio shifts the tiles of each row, so no part gets the tiles of a column."""
+    """Returns a tile's part. The golden ratio shifts rows, so no part gets a whole column."""
     return (column - (row * 2654435769 % 2**32 * parts >> 32)) % parts
 
 
 def flipped(data, place):
-    """One bit differs."""
+    """Returns the data with one bit flipped."""
     return data[:place] + bytes([data[place] ^ 1]) + data[place + 1 :]
 
 
 def damaged(data, start, end):
-    """One bit of the tile between start and end differs, and with it the tile's values."""
+    """Returns the data with one flipped bit, so that the tile from start to end is undecodable."""
     for place in random.Random(start).sample(range(start + 20, end), end - start - 20):
         try:
             zlib.decompress(flipped(data, place)[start + 20 : end])
@@ -73,7 +73,7 @@ class Parts(SharedWork):
         self.assert_same_bytes("merged.exr", "whole.exr")
 
     def test_a_part_costs_its_own_size(self):
-        """A part of 1/64 takes less than an eighth of the whole picture's memory and file."""
+        """A part of 1/64 takes less than an eighth of the whole picture's memory and file size."""
         words = [SCENE, "-s", "2048x2048", "-q"]
         self.clrt(*words, "-o", "whole.exr")
         whole = self.peak_memory(*words, "-o", "whole.exr") - self.peak_memory(*words, "-s", "64x64", "-o", "a.exr")
@@ -170,7 +170,7 @@ class Parts(SharedWork):
         scene = (ROOT / "scenes/reflections.scn").read_text()
         scene = scene.replace("ply_file ", f"ply_file {ROOT}/scenes/")
         self.write(own_scn=scene + "\n", mesh_scn=scene.replace("plateau", "cube"))
-        # The settings are compared as a whole. test_provenance.py has what they contain.
+        # The settings are compared as a whole. test_provenance.py tests what they contain.
         for words, of, thing in (
             (SMALL + ["--aa"], 3, "other settings"), (SMALL + ["--tile", "8x16"], 3, "other settings"),
             (SMALL + ["--crop", "0,0,40,40"], 3, "other settings"), (SMALL, 2, "other settings"),
@@ -211,7 +211,7 @@ class Parts(SharedWork):
                 done = self.run_clrt("merge", names[0], "bad.exr", "-o", name)
                 self.assertEqual(done.returncode, 3, done.stderr)
                 self.assertRegex(done.stderr, "clrt: bad.exr: part 2 of 2 cannot be used: it is damaged at pixel")
-        self.write(bad_exr=flipped(honest, starts[0] + 16))  # the tile's size, which other formats can ignore
+        self.write(bad_exr=flipped(honest, starts[0] + 16))  # the tile's size
         self.refuses_parts("bad.exr: part 2 of 2 cannot be used: it is damaged at pixel", names[0], "bad.exr")
         for end in range(0, table, 7):
             self.write(bad_exr=honest[:end])

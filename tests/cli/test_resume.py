@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Tests runs that are killed or stopped at any moment and then resumed. They must write the same file in
-# the end, and never an incomplete file under the final name.
+# the end. Only EXR files that are marked as incomplete may be incomplete under the final name.
 # Usage: [CLRT_KILLS=N] test_resume.py CLRT FORMATS [TEST...]
 import ctypes
 import fcntl
@@ -72,7 +72,7 @@ class Kills(Resume):
                 self.assertTrue(self.bytes_of(NAME) == whole, f"after {kills} kills")
                 (self.work / NAME).unlink()
                 pictures += 1
-        print(f"{kills} kills, {midway} of them amid tiles, {pictures} pictures finished", file=sys.stderr)
+        print(f"{kills} kills, {midway} with tiles in the journal, {pictures} pictures finished", file=sys.stderr)
         self.clrt(*LONG, "-o", NAME, "--resume")
         self.assertTrue(self.bytes_of(NAME) == whole)
         self.assertFalse(self.journal.exists())
@@ -148,7 +148,7 @@ class Kills(Resume):
 
 class LostLocks(Resume):
     def lose_lock(self, process):
-        """Unlocks the journal of a process, as a file server does with a host that is cut off."""
+        """Unlocks the journal of a process, as a file server does when it loses the host."""
         handle = os.pidfd_open(process.pid)
         for link in Path(f"/proc/{process.pid}/fd").iterdir():
             if os.path.realpath(link) == str(self.journal.resolve()):
@@ -237,7 +237,7 @@ class Stops(Resume):
             time.sleep(0.2)
             if process.poll() is None:
                 break
-        self.assertIsNone(process.poll(), "a tile takes longer")
+        self.assertIsNone(process.poll(), "the tile ended before the second signal")
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=20)
         self.assertEqual(process.returncode, -signal.SIGINT)
@@ -273,7 +273,7 @@ class Refusals(Resume):
     def test_two_processes_do_not_draw_one_picture(self):
         process = self.start(*LONG, "-o", NAME, "--resume")
         self.wait_for(lambda: self.journal.exists() and self.journal.stat().st_size > 24)
-        process.send_signal(signal.SIGSTOP)  # or it might be done before the other begins
+        process.send_signal(signal.SIGSTOP)  # otherwise it might end before the other begins
         sentence = f"{NAME}.part: another process draws this picture: try again later"
         self.refuses(75, sentence, *LONG, "-o", NAME, "--resume")
 

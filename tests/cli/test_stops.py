@@ -16,7 +16,7 @@ from pictures import read_header
 from work import HAS_EXR, SCENE, Work, main
 
 NAME = "a.exr" if HAS_EXR else "a.pfm"
-# Minutes of many tiles; one tile that takes as long.
+# LONG takes minutes and has many tiles. ONE_TILE takes as long and has one.
 LONG = [SCENE, "-s", "3000x3000", "--aa=16"]
 ONE_TILE = [*LONG, "--tile", "3000x3000"]
 EARLY = "clrt: stopped before the first tile: no picture is written\n"
@@ -30,7 +30,7 @@ class Stops(Work):
         self.caches = 0
 
     def start_picture(self, *words, cold, **more):
-        """Starts a picture, and waits until signals are no longer the system's."""
+        """Starts a picture, and waits until clrt handles signals."""
         environment = dict(os.environ)
         if cold:
             self.caches += 1
@@ -89,7 +89,7 @@ class Stops(Work):
                 process.wait()
 
     def test_once_tiles_are_drawn_there_is_a_picture(self):
-        # Small pictures would be drawn by other kernels, and a stopped run compiles none.
+        # Compiles the kernels that LONG uses, because a stopped run compiles none.
         self.clrt(*LONG, "-s", "8x8", "--kernel", "packet", "-o", "/dev/null", "--format", "pfm")
         moment = 1
         while self.stop_often([moment], cold=False) == 0:  # a busy machine takes longer to the first tile
@@ -127,6 +127,6 @@ class Stops(Work):
 
 
 if __name__ == "__main__":
-    # clrt would inherit ignored signals if this is a background job.
+    # In a background job, clrt would inherit that SIGINT is ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     main(2)

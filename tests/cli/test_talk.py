@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Tests the program's output: data on standard output, messages on standard error, JSON that follows
-# its schemas, and what a signal leaves.
+# its schemas, and the output of stopped runs.
 # Usage: test_talk.py CLRT FORMATS
 import json
 import os
@@ -169,7 +169,7 @@ class Stopped(Talk):
 @unittest.skipUnless(jsonschema, "Python's jsonschema is not installed")
 class Schemas(Talk):
     def validate(self, name, *words, code=0, **environment):
-        """Returns the JSON on standard output, which must follow the schema."""
+        """Checks the JSON on standard output against the schema. Returns both, the schema first."""
         found = self.report(*words, code=code, **environment)
         schema = json.loads((ROOT / f"tools/manual/{name}.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)

@@ -12,14 +12,14 @@ from work import CLRT, ROOT, SharedWork, main
 PAGE = ROOT / "docs/tutorial.md"
 SHOWCASE = ROOT / "scenes/showcase.scn"
 SCRIPT = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
-# Pictures of many colors are reduced to 256 of them for their size, which changes values by up to 0.055.
+# The page's small files of these steps have 256 colors only, which changes values by up to 0.055.
 REDUCED = [f"tutorial/step{step}.png" for step in (8, 9, 10)]
 PICTURES = re.findall(r"\]\((tutorial/[^)]+\.png)\)", PAGE.read_text())
 
 
 def shell_text(kind, text):
-    """Returns the commands for a block. A scene that starts with the size replaces the file, and
-    other scene texts are added to it."""
+    """Returns the commands for a block. Scene text that starts with the size replaces the file.
+    Other scene text is appended to it."""
     if kind == "sh":
         return text
     return f"cat {'>' if text.startswith('size') else '>>'}studio.scn <<'END'\n{text}END\n"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Tests the messages for contradictory options, and the notes on probable mistakes.
-# Usage: test_usage.py CLRT FORMATS WINDOW, the last ON for a build with a window
+# Usage: test_usage.py CLRT FORMATS WINDOW; WINDOW is ON for a build with a window
 import os
 import sys
 import unittest
@@ -149,8 +149,7 @@ class Notes(Work):
 
     def test_explain_counts_the_nodes_that_verbose_counts(self):
         scene = str(SCENES / "simple.scn")
-        # A kernel's node contains several nodes of the tree, whose leaves depend on the kind of
-        # nodes.
+        # A wide node contains several nodes of the tree. The tree's leaves depend on --nodes.
         for nodes, stored in ("wide", "1 wide node"), ("pair", "16 pair nodes"):
             words = [scene, "--kernel", "ray", "--nodes", nodes]
             told = self.run_clrt(*words, "-s", "8x6", "-o", "a.pfm", "-v").stderr

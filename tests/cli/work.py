@@ -22,7 +22,7 @@ needs_exr = unittest.skipUnless(HAS_EXR, "this build is without OpenImageIO")
 
 
 def main(words):
-    """Runs the tests that the command line names after the other arguments, or all."""
+    """Runs the tests that the command line names after `words` arguments, or all tests."""
     unittest.main(module="__main__", argv=[sys.argv[0], *sys.argv[words + 1 :]], verbosity=2)
 
 
@@ -122,7 +122,7 @@ class Work(unittest.TestCase):
         self.assertTrue(self.picture(one, *words) == self.picture(other, *words), (one, other, words))
 
     def refuses(self, code, sentence, *words, **environment):
-        """clrt fails with the exit status and prints only that message."""
+        """Expects that clrt exits with code and prints only this message."""
         self.assertEqual(self.clrt(*words, code=code, **environment), f"clrt: {sentence}\n", words)
 
     def fails(self, sentence, *words):

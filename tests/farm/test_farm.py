@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests tools/farm on a cluster whose hosts fail. The file must equal that of a single machine, byte for
-# byte.
+# Tests tools/farm on a cluster whose hosts fail. The file must equal the file of a single machine,
+# byte for byte.
 # Usage: test_farm.py CLRT [TEST...]
 import json
 import os
@@ -26,7 +26,7 @@ SLOW = [SCENE, "-s", "512x512", "--tile", "32x32", "--aa=16", "--precision=fp64"
 TURN = [SCENE, "-s", "96x72", "--aa=8", "-j", "1", "--turntable", "1000"]
 STORED = 50000  # bytes of a journal that holds some tiles
 
-# A replacement for ssh, by which parallel reaches the hosts: ssh -o OPTION... HOST -- WORD...
+# Replaces ssh, which GNU parallel uses to reach the hosts: ssh -o OPTION... HOST -- WORD...
 SSH = """\
 #!/bin/sh
 while [ "$1" = -o ]; do shift 2; done
@@ -110,7 +110,8 @@ class Farm(unittest.TestCase):
         job = self.submit_slow()
         task, host = wait_for(lambda: self.host_with_tiles(job))
         self.cluster.cut_off(host)
-        # The old process sleeps until the new one has detected it, and then continues to write.
+        # Stops the old process until the new one detects it. Then the old process continues to
+        # write.
         found = subprocess.run(["pgrep", "-f", f"{self.folder}/drawing.{task}.exr"], stdout=subprocess.PIPE, text=True, check=True)
         old = [int(number) for number in found.stdout.split()]
         for number in old:
@@ -139,7 +140,8 @@ class Farm(unittest.TestCase):
     def test_a_controller_that_restarts(self):
         job = self.submit_slow()
         wait_for(lambda: self.host_with_tiles(job))
-        # Slurm stores its state every few seconds. Jobs lost after its last store are not the tool's fault.
+        # Slurm stores its state every few seconds. The tool cannot know jobs that are lost after
+        # the last store.
         submitted, state = time.time(), self.home / "state/job_state"
         wait_for(lambda: state.exists() and state.stat().st_mtime > submitted)
         self.cluster.unplug(CONTROLLER)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: parses any bytes as a PLY file. Besides the sanitizers' checks, a parsed mesh
 // must fulfill mesh/mesh.h, also with computed normals. A failure must return a message and no
-// mesh. The tolerant reader's mesh must fulfill it too, and must be valid input for clrt check.
+// mesh. The tolerant reader's mesh must fulfill mesh.h too, and be valid input for clrt check.
 #include "check/census.h"
 #include "mesh/mesh.h"
 #include "mesh/ply.h"

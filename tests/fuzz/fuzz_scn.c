@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target for scene text. Meshes resolve beside a folder that is not there, so that
-// only the text is under test; PLY has a target of its own.
+// libFuzzer target: parses any bytes as scene text. Meshes resolve to a missing folder, so only the
+// text is tested. fuzz_ply.c tests meshes.
 #include "scene/normalize.h"
 #include "scene/scn.h"
 

@@ -28,7 +28,7 @@ REFERENCE_SAMPLES = [64, 65536]
 LARGEST_SIDE = 24
 THRESHOLDS = [0.3, 0.2, 0.1, 0.05, 0.04, 0.02, 0.01, 0.005, 0.002]
 
-# The fixed settings to compare with follow rays at least as far as the smallest goal's picture.
+# The fixed settings for comparison follow rays at least as far as the smallest goal's picture.
 LEVELS = ["--max-level", "auto", "--encode", "raw"]
 
 # The number of pictures that a timed process draws. The fastest picture counts.
@@ -129,12 +129,12 @@ def measure_scene(options, seed, number, folder):
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("seeds", nargs="+", help="of the generated scenes")
-    parser.add_argument("--scenes", type=int, default=40, help="of each seed (40)")
-    parser.add_argument("--size", default="160x120", help="of the pictures (160x120)")
-    parser.add_argument("--goals", default=GOALS, help=f"errors that are asked for ({GOALS})")
+    parser.add_argument("seeds", nargs="+", help="seeds of the generated scenes")
+    parser.add_argument("--scenes", type=int, default=40, help="scenes of each seed (40)")
+    parser.add_argument("--size", default="160x120", help="size of the pictures (160x120)")
+    parser.add_argument("--goals", default=GOALS, help=f"values of --error ({GOALS})")
     parser.add_argument("--costs", action="store_true",
-                        help="measure what --aa and --aa-adaptive cost for the same error too")
+                        help="also measure the cost of --aa and --aa-adaptive for each error")
     parser.add_argument("--clrt", default=ROOT / "build" / "release" / "clrt", help="the program")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "build" / "goals")
     options = parser.parse_args()

@@ -5,14 +5,13 @@
 
 #include "oracle/oracle.h"
 
-// A pixel differs if the difference of a channel is larger.
+// A pixel differs if the difference of a channel is larger than this.
 #define COLOR_TOLERANCE (1.0f / 255)
 
 typedef struct {
     uint32_t compared;                                       // number of compared pixels
     uint32_t differing;                                      // number of differing pixels
-    uint32_t at_edges, at_creases, at_horizons, unexplained; // the differing pixels, by
-    // oracle_explains
+    uint32_t at_edges, at_creases, at_horizons, unexplained; // by explanation
     float largest_agreeing;      // the largest channel difference of the other pixels
     uint32_t x, y;               // of the first unexplained pixel
     float color[3], expected[3]; // the colors of that pixel

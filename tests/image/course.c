@@ -18,7 +18,7 @@ bool course_has(const char *path)
 {
     if (access(path, R_OK) == 0)
         return true;
-    print_message("skipped: the course's file %s is not there (CLRT_COURSE names its folder)\n",
+    print_message("skipped: the course's file %s is missing (CLRT_COURSE names its folder)\n",
                   path);
     return false;
 }

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Runs a command on one of PoCL's devices or targets, or on another implementation of OpenCL. Prints
 # a message and succeeds if this machine lacks KIND. Each kind has its own kernel cache, because
-# PoCL's ignores the target. Usage: on_device.sh KIND CACHE_FOLDER COMMAND...
+# PoCL's cache ignores the target. Usage: on_device.sh KIND CACHE_FOLDER COMMAND...
 set -eu
 kind=$1
 cache=$2/$1
@@ -20,7 +20,7 @@ fetch_intel() {
   exec 9>"$1.lock"
   flock 9
   [ ! -e "$1/fetched" ] || return 0
-  # Otherwise Intel's libOpenCL would replace the system's loader.
+  # Removes Intel's libOpenCL, because it would replace the system's loader.
   python3 -m venv --clear "$1" &&
     "$1/bin/pip" install -q intel-opencl-rt==2026.2.0 intel-cmplr-lib-rt==2026.2.0 tbb==2023.2.0 &&
     mkdir "$1/libraries" "$1/vendors" &&

@@ -38,14 +38,14 @@ TEST(every_form_threads_and_tree_refine_the_same)
 
 #define SIDE 240
 
-// The requirement for a contrast: at most the error of side x side samples per pixel, and at most a
-// `times`-th of their number.
+// The requirement for a contrast: at most the error of side x side samples per pixel, and at most
+// 1 / times of these samples.
 typedef struct {
     float contrast;
     uint32_t side, times;
 } Saving;
 
-// Compares with a grid that shares no samples with the others.
+// The reference is a grid that shares no samples with the compared pictures.
 static void expect_error_of_uniform(const char *scene, const Framebuffer *reference,
                                     const Saving *saving)
 {

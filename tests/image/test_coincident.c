@@ -60,7 +60,7 @@ static void write_pairs(char path[TEMPORARY_PATH], bool second)
                                  .triangle_count = PAIRS});
 }
 
-// True for a two-sided mesh.
+// Whether the first and the second mesh are two-sided.
 typedef struct {
     bool first, second;
 } Sides;
@@ -77,7 +77,7 @@ static void write_scene(char path[TEMPORARY_PATH], const char *first, const char
     temporary_close(stream);
 }
 
-// Writes the id that each pixel hits.
+// Stores the id that each pixel hits.
 static void see(const char *scene, const KernelChoice *form, uint32_t ids[SIDE * SIDE])
 {
     FREED_BY(layers_free) Layers layers;
@@ -130,7 +130,8 @@ TEST(the_lowest_id_that_may_be_met_is_seen_at_every_pixel)
     unlink(second);
 }
 
-// Smooth and flat objects with mirrors, shadows and lights on both sides. %s stands for the copies.
+// Smooth and flat objects with mirrors, shadows and lights on both sides. The first %s stands for
+// the sides, the second for the copies.
 #define STATEMENTS                                                                                 \
     "background 0.2 0.3 0.5\nmax_level 5\nlight 2 -1 2.5 0.5\nlight -1 1.4 -1.7 0.4\n"             \
     "define bright matte diffuse 0.9 0.7 0.3 reflectivity 0.4\nmaterial 2\nsphere 1 0.1 0.8 0.3\n" \
@@ -139,7 +140,7 @@ TEST(the_lowest_id_that_may_be_met_is_seen_at_every_pixel)
 #define BALL   CLRT_SOURCE_FOLDER "/tests/image/ball.ply"
 #define COPIES "material 1\nply_file " CONE "\nply_file " BALL "\n"
 
-// extremes/one_picture changes the copies' corners, too.
+// extremes/one_picture also reorders the copies' corners.
 TEST(copies_of_meshes_change_no_bit_in_any_form)
 {
     for (size_t form = 0; form < 2 * FORMS; form++) {

@@ -134,8 +134,8 @@ static void judge_distance(Bounds *bounds, const Explainer *explainer, const Exp
     const Vec3 eye = normalize_point(explainer->normalization, ray->origin);
     const Vec3 apart = vec3_sub(path->surface.point, eye);
     const double distance = sqrt(vec3_dot(apart, apart));
-    const double rounding = 0x1p-48 * (distance + vec3_extent(eye)); // of the oracle and of this
-    // test
+    // The oracle and this test round, too.
+    const double rounding = 0x1p-48 * (distance + vec3_extent(eye));
     bounds->compared++;
     bounds->largest = fmax(bounds->largest, fabs(ray->distance * scale - distance) /
                                                 (ray->error * scale + rounding));

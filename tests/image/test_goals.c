@@ -28,8 +28,8 @@ TEST(every_form_threads_and_tree_refine_the_same)
     }
 }
 
-// Random pixels are refined to check that their centers are representative. They are 24 pixels, or
-// all if there are fewer, of each of the twelve first strata.
+// clrt refines 24 random pixels of each of the first twelve strata, or all if there are fewer, to
+// check that the pixels' centers are representative.
 TEST(all_but_some_controls_keep_their_center_where_any_error_will_do)
 {
     uint64_t samples;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Pictures have the recorded pixel hashes, on every device, PoCL target and compiler setting.
-// Usage: test_hashes SIZE [VIEWS] checks the recorded pictures of that size and of views up to
+// Usage: test_hashes SIZE [VIEWS] checks the recorded pictures of size SIZE and of views up to
 // VIEWS. `test_hashes refined` checks refined pictures, with two settings each of --aa-adaptive and
 // --error. With `list` before these words, it prints the records with the rendered hashes. A new
-// record begins with 0 for its hash. CLRT_TEST_SCENES limits the scenes to the listed ones.
+// record starts with the hash 0. CLRT_TEST_SCENES limits the scenes to the listed ones.
 // CLRT_TEST_OPTIONS contains options for the compiler of kernels.
 #include "image/course.h"
 #include "image/rendered.h"
@@ -40,7 +40,7 @@ static bool is_course(const char *scene)
     return strncmp(scene, "course/", 7) == 0;
 }
 
-// "course/cow" is in the course's folder, "cow" in scenes/, and other paths are in the sources.
+// "course/cow" is in the course's folder, "cow" in scenes/, and other paths start at the sources.
 static void scene_path(char path[COURSE_PATH_SIZE], const char *scene)
 {
     char file[128];

@@ -56,7 +56,7 @@ TEST(every_form_draws_pictures_of_a_few_pixels)
     }
 }
 
-// PoCL compiles each work-group size, so one scene must do.
+// PoCL compiles the kernels for each size of work-groups, so this test draws only one scene.
 TEST(every_size_of_tiles_and_work_groups_draws_the_same)
 {
     static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
@@ -115,8 +115,8 @@ static void expect_extreme_specials_same(const KernelChoice *choice)
     expect_special_same(63, choice);
 }
 
-// The families share the code of most switches. Only rays, which compile sooner, test every switch
-// alone.
+// The families share the code of most switches. Only rays, whose kernels compile sooner, test
+// every switch alone.
 TEST(specialized_rays_draw_what_general_ones_do)
 {
     expect_extreme_specials_same(&form_all[0]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenCL refuses a launch while the previous one runs. The test holds the previous one until clrt
-// waits for it.
+// Makes OpenCL refuse a launch while the previous launch runs. clrt must wait for the previous
+// launch, which the test holds until then.
 #include "image/rendered.h"
 
 #include <dlfcn.h>
@@ -70,7 +70,7 @@ cl_int clReleaseMemObject(cl_mem memory)
     return real(memory);
 }
 
-// The launch writes to host memory, which is freed next.
+// The previous launch writes to host memory that clrt frees next.
 TEST(after_a_refused_launch_the_one_before_it_is_awaited)
 {
     PictureRequest request = picture_request(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", 1);

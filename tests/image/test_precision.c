@@ -16,7 +16,7 @@
 
 #define FP64 (&form_all[FORMS_FP32])
 
-// Pictures have a part of the scene's width and height. Every step-th pixel of every step-th row
+// Pictures have 1 / part of the scene's width and height. Every step-th pixel of every step-th row
 // is compared. The oracle would take minutes for all pixels of a mesh.
 typedef struct {
     uint32_t part, step;
@@ -125,7 +125,8 @@ TEST(every_pixel_of_unusual_scenes_is_the_oracles)
 }
 
 // share is the number of pixels in 100,000 of all views that may differ in fp32 by more than an
-// 8-bit step. Mirrors that face each other amplify every rounding. Only the showcase has many.
+// 8-bit step. Mirrors that face each other amplify every rounding. Only the showcase has many such
+// mirrors.
 TEST(fp32_differs_in_few_pixels)
 {
     static const struct {

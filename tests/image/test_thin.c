@@ -47,7 +47,7 @@ static void add_triangle(Drawing *drawing, Corner a, Corner b, Corner c)
     mesh->triangle_count++;
 }
 
-// Returns a request for the drawing with that brightness in front of a black background.
+// Returns a request for the drawing, with brightness `light` on a black background.
 static PictureRequest request_of(Drawing *drawing, double light)
 {
     temporary_mesh(drawing->mesh, &drawing->triangles);

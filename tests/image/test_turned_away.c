@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tests that no light reaches points whose face is turned away from it, in colors and channels and
-// in every form of the kernels. The oracle and the pixels worked out by hand (cli/test_explain.py)
-// test the same for spheres and for solids seen from outside.
+// Tests that no light reaches points whose face is turned away from the light, in colors and
+// channels and in every form of the kernels. The oracle and the pixels worked out by hand
+// (cli/test_explain.py) test this for spheres and for solids seen from outside.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"

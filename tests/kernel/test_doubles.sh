@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Devices without fp64 can compile the kernels: clang without double arithmetic accepts them in every
-# form, and rejects those of --precision fp64.
+# form, and rejects the kernels of --precision fp64.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/../../kernels"
 command -v clang >/dev/null || { echo "skipped: clang is not installed"; exit 0; }

@@ -154,7 +154,7 @@ TEST(highlights_of_any_shininess_are_exact_to_a_thousandth)
         const ProbeInput inputs[2] = {{cases, sizeof cases}, {0}};
         assert_true(probe_run(&probe, "probe_highlights", inputs, CASES,
                               (ProbeInput){results, sizeof results}));
-        // Above a million, highlights are single points of light in any picture.
+        // Above a million, highlights are single points in any picture, so any value will do.
         const double limit = values[value] <= 1e6 ? 1e-3 : 1;
         for (int i = 0; i < CASES; i++) {
             assert_true(error_of(&cases[i], (double)results[i]) <= limit);
@@ -165,7 +165,7 @@ TEST(highlights_of_any_shininess_are_exact_to_a_thousandth)
 
 // In fp64, distant and huge spheres and narrow highlights must be correct to the last bits of
 // double, so float arithmetic would be detected. The exact values are closed forms in long double.
-// Four units of double's rounding.
+// The limit is four roundings of double.
 #define ROUNDINGS 0x1p-51
 
 typedef struct {

@@ -177,7 +177,7 @@ class Installed(unittest.TestCase):
     def test_cplusplus_reads_the_header(self):
         compiler = shutil.which("c++")
         if compiler is None:
-            print("no C++ compiler is here: the header is not read by one")
+            print("no C++ compiler is installed: the header is not compiled as C++")
             return
         source = self.work / "header.cpp"
         source.write_text("#include <clrt.h>\nint main() { return clrt_version() == nullptr; }\n")
@@ -186,7 +186,7 @@ class Installed(unittest.TestCase):
 
     def test_valgrind_finds_no_fault_and_no_leak_of_ours(self):
         if shutil.which("valgrind") is None:
-            print("valgrind is not installed: leaks of the example are not looked for")
+            print("valgrind is not installed: the example is not checked for leaks")
             return
         program = self.work / "for-valgrind"
         self.build_by_pkg_config(program, "-g")

@@ -39,8 +39,8 @@ static char *copy_environment(void)
     return copy;
 }
 
-// Opens all drivers before the test copies the environment, because PoCL then sets a variable for
-// hwloc.
+// Opens all drivers before the test copies the environment, because PoCL sets a variable for hwloc
+// when it opens.
 static void open_driver(void)
 {
     cl_platform_id platforms[16];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Several threads create renderers and draw concurrently. The process has not used OpenCL before,
-// because drivers initialize at the first call.
+// Several threads create renderers and draw concurrently. The process makes no earlier call
+// of OpenCL, so that the drivers initialize in the threads.
 #include "library/filled.h"
 #include "library/program.h"
 #include "unit/cmocka_all.h"
@@ -36,7 +36,7 @@ static void *draw_thrice(void *context)
     return NULL;
 }
 
-// Draws in all threads concurrently. Every other thread draws the same scene.
+// Draws in all threads concurrently. Threads alternate between the two scenes.
 static void draw_at_once(ClrtScene *scenes[2], float *expected[2])
 {
     Job jobs[JOBS];

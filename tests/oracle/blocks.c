@@ -9,7 +9,7 @@
 #define TOLERANCE 1e-12
 
 // A block's sphere is enlarged by these fractions of its radius and of its coordinates. Rounding is
-// less than a millionth of either.
+// less than a millionth of either enlargement.
 #define RADIUS_PADDING 1e-6
 #define PLACE_PADDING  1e-9
 
@@ -106,8 +106,8 @@ static bool block_is_near(const OracleBlock *block, const OracleRay *ray, double
     return vec3_dot(aside, aside) <= block->radius * block->radius;
 }
 
-// Stores the distance of the hit with each triangle, or INFINITY. It has no branches and joins
-// conditions by &, so that compilers vectorize the loop.
+// Stores the distance of the hit with each triangle, or INFINITY. The loop has no branches and
+// joins conditions by &, so that compilers vectorize it.
 static void block_distances(const OracleBlock *block, const OracleRay *ray,
                             double distances[BLOCK_SIZE])
 {

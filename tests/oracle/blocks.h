@@ -2,7 +2,7 @@
 // Intersects rays with a scene's triangles in fp64, by the method of Moeller and Trumbore ("Fast,
 // minimum storage ray-triangle intersection", 1997). Blocks of successive triangles have a layout
 // that compilers vectorize. There is no tree: a ray skips the blocks whose bounding sphere it
-// misses, and tests all other triangles.
+// misses, and tests all triangles of the others.
 #pragma once
 
 #include "scene/scene.h"
@@ -26,8 +26,7 @@ typedef struct {
 } VectorColumns;
 
 typedef struct {
-    VectorColumns corner, first, second; // a corner, and the edges from this corner to the other
-    // two
+    VectorColumns corner, first, second; // a corner, and the two edges from this corner
     double least[BLOCK_SIZE]; // the least determinant of a hit; 0 if the back is invisible
     uint32_t ids[BLOCK_SIZE];
     uint32_t count;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// volatile is necessary because GCC 12 removes pairs of such conversions with -O2.
+// volatile is necessary because GCC 12 removes the two conversions with -O2.
 static double rounded(double value)
 {
     const volatile float stored = (float)value;

@@ -63,7 +63,7 @@ def is_here(*programs):
     return all(map(shutil.which, programs))
 
 
-@unittest.skipUnless(is_here("cpack", "dpkg-deb", "dpkg-shlibdeps"), "this is no Debian to pack on")
+@unittest.skipUnless(is_here("cpack", "dpkg-deb", "dpkg-shlibdeps"), "Debian's packaging tools are not installed")
 class Package(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -141,8 +141,8 @@ class Package(unittest.TestCase):
         environment = {**os.environ, "HOME": "/proc", "XDG_CACHE_HOME": "/proc"}
         environment.pop("POCL_CACHE_DIR", None)
         with tempfile.TemporaryDirectory() as work:
-            for ending in {"png", "exr", "tif"}.intersection(formats):  # clrt writes the first two,
-                                                                        # and its module tif
+            # clrt itself writes png and exr. Its module writes tif.
+            for ending in {"png", "exr", "tif"}.intersection(formats):
                 pictures = [f"{work}/{whose}.{ending}" for whose in ("package", "build")]
                 scene = [self.root / "usr" / SCENE, "-s", "24x16", "-q", "-o"]
                 run(self.clrt, *scene, pictures[0], env=environment)

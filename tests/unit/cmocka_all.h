@@ -11,8 +11,8 @@
 #include <cmocka.h>
 // clang-format on
 
-// Add functions that run before and after all tests, and a test. Tests run in the order of the
-// file.
+// Add a function that runs before all tests, a function that runs after them, and a test. Tests run
+// in the order of the file.
 void test_set_up(CMFixtureFunction fixture);
 void test_tear_down(CMFixtureFunction fixture);
 void test_add(CMUnitTestFunction test, const char *name);
@@ -30,7 +30,7 @@ int tests_run(void);
     }                                                                                              \
     static void name(__attribute__((unused)) void **state)
 
-// SET_UP(name) and TEAR_DOWN(name) return 0 or fail all tests.
+// The bodies of SET_UP(name) and TEAR_DOWN(name) return 0, or another value to fail all tests.
 #define FIXTURE(name, add)                                                                         \
     static int name(void **);                                                                      \
     AT_START(name)                                                                                 \

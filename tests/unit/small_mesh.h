@@ -29,7 +29,7 @@ static inline void set_vertex(Mesh *mesh, uint32_t vertex, double x, double y, d
     memcpy(mesh->positions[vertex], position, sizeof position);
 }
 
-// Returns the mesh as an STL file has it: no triangles share a vertex.
+// Returns the mesh as in an STL file: no triangles share a vertex.
 static inline Mesh soup_of(const Mesh *mesh)
 {
     Mesh soup = new_mesh(3 * mesh->triangle_count, mesh->triangle_count);

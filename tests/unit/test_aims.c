@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-// A tetrahedron at four corners of a cube. The other corners of the cube are outside of it.
+// A tetrahedron at four corners of a cube. The cube's other corners are outside of it.
 static double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
 static uint32_t faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
 

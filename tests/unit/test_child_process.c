@@ -85,7 +85,7 @@ static void die(int socket, const void *context)
     raise(SIGKILL);
 }
 
-// A signal for a broken connection would end this process, too.
+// SIGPIPE would end this process, too.
 TEST(messages_to_a_dead_child_fail)
 {
     ChildProcess child;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// If clrt-foreign crashes, hangs, writes endlessly or is missing, there is one message. Shell
-// scripts replace the program here.
+// If clrt-foreign crashes, hangs, writes endlessly or is missing, clrt reports one message. Shell
+// scripts replace clrt-foreign here.
 #undef _FORTIFY_SOURCE // with it, the system's headers define readlink
 #include "mesh/foreign_process.h"
 

@@ -18,7 +18,7 @@ static const struct {
     // Other devices get rays.
     {{0}, {.platform = "Portable Computing Language"}, FAMILY_RAY, NODES_PAIR},
     {{0}, {.platform = "rusticl"}, FAMILY_RAY, NODES_PAIR},
-    // A choice by the user is kept, and fp64 is rays over pairs everywhere.
+    // The user's choice is kept. fp64 always means rays and pair nodes.
     {{.family = 1 + FAMILY_PACKET},
      {.platform = "rusticl", .is_cpu = true},
      FAMILY_PACKET,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Computed normals of shapes whose true normals are known.
+// Compares computed normals with the true normals of simple shapes.
 #include "unit/small_mesh.h"
 
 #include <math.h>
@@ -24,8 +24,8 @@ static Vec3 flat_normal(const Mesh *mesh, size_t triangle)
                                      vec3_sub(position_at(mesh, triangle, 2), a)));
 }
 
-// Returns a body that rings of points around z form, with a point at each end. Its coordinates are
-// floats, as those of files.
+// Returns a solid of revolution around z: rings of points, and a point at each end. Coordinates are
+// floats, as in files.
 static Mesh revolved(const double (*rings)[2], uint32_t count, uint32_t sides, double low,
                      double high)
 {

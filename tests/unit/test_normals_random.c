@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computed normals of random meshes against an oracle that floods from each corner through all
-// pairs of corners, in long double and with the C library's functions.
+// Compares computed normals of random meshes with an oracle. The oracle floods from each corner
+// through all pairs of corners, in long double and with the C library's functions.
 #include "unit/random.h"
 #include "unit/small_mesh.h"
 
@@ -137,7 +137,7 @@ static bool are_joined(Oracle *oracle, size_t one, size_t other)
     return false;
 }
 
-// Stores the sum over all corners that a flood from this one reaches.
+// Returns the sum of the weighted face normals of all corners that a flood from `start` reaches.
 static Long3 flood(Oracle *oracle, size_t start)
 {
     const size_t count = 3 * oracle->mesh->triangle_count;

@@ -187,7 +187,7 @@ TEST(a_token_of_a_megabyte_is_still_rounded_correctly)
 }
 
 // (2^53 - 1) / 2^1075 is halfway between the largest subnormal and the smallest normal number.
-// Rounding it depends on all of its 768 digits, which are those of (2^53 - 1) * 5^1075.
+// Rounding it depends on all of its 768 digits, the digits of (2^53 - 1) * 5^1075.
 TEST(a_tie_of_768_digits_is_told_from_its_neighbors)
 {
     enum { SIZE = 768 };
@@ -300,7 +300,7 @@ TEST(angles_between_vectors_agree_with_the_library)
     assert_true(angle_between(vec3(0, 1, 0), vec3(0, 1, 0)) == 0);
 }
 
-// Lengths whose squares overflow or underflow take another path than these.
+// vec3_normalize takes another path if squares could overflow or underflow.
 TEST(normalized_bits_are_those_of_division_by_a_power_of_two)
 {
     for (int exponent = -1000; exponent <= 1000; exponent += 10)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the cells that an outline touches, and the centers that it contains, cell by cell.
+// Tests the cells that an outline touches, and the cell centers that it contains, cell by cell.
 #include "refine/outline.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"

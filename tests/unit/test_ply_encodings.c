@@ -222,7 +222,7 @@ TEST(unusual_elements_among_usual_ones_are_read_in_their_order)
     }
 }
 
-// The body of the binary file begins with a byte like a line end.
+// The body of the binary file begins with bytes that equal line ends.
 TEST(any_line_ends_and_blanks_are_read)
 {
     static const char *const breaks[] = {"\n", "\r\n", "\r"};

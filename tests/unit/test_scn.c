@@ -193,7 +193,7 @@ TEST(faults_name_line_column_and_the_statement)
         expect_error(cases[i][0], cases[i][1]);
 }
 
-// Messages about a value out of its range. The statement's usage follows.
+// Compares only the line and column of the messages.
 TEST(impossible_values_are_refused_at_their_place)
 {
     static const char *const texts[] = {"sphere 0 0 0 -1",

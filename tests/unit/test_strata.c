@@ -20,7 +20,7 @@ typedef struct {
 } Pixel;
 
 // Squared errors are proportional to the square of the bend, but some flat pixels hide an edge.
-// Their share differs between populations, and most of them are near contrast.
+// The share of these pixels differs between populations, and most of them are near contrast.
 static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
 {
     uint64_t state = seed;
@@ -121,7 +121,7 @@ TEST(pixels_on_the_last_rung_exhaust_the_ladder)
     assert_int_equal(strata_raise(&strata, &aim), STRATA_EXHAUSTED);
 }
 
-// Returns the estimate for a picture of flat pixels and one other that are all on one rung.
+// Returns the estimate for a picture of flat pixels and one uneven pixel, all on one rung.
 static double estimate_on(uint32_t rung)
 {
     Strata strata = {.pixels = PIXELS};
@@ -133,7 +133,7 @@ static double estimate_on(uint32_t rung)
     return strata_estimate(&strata).mean;
 }
 
-// The more samples see a flat pixel, the less detail can be hidden in it.
+// More samples of a flat pixel leave less room for hidden detail.
 TEST(doubled_samples_of_flat_pixels_have_a_quarter_of_the_error)
 {
     for (uint32_t rung = 1; rung + 1 < LADDER_RUNGS; rung++)
@@ -157,7 +157,7 @@ TEST(no_more_samples_are_planned_than_may_be_taken)
 
 #define HASH 0x5bd1e995u
 
-// Points of the sequence that are XORed to the request's offset, as in kernels/ladder.cl.
+// Points of the sequence that are XORed with the request's offset, as in kernels/ladder.cl.
 static const uint32_t points[REQUEST_SAMPLES][2] = {
     {0, 0},    {512, 512}, {256, 768}, {768, 256}, {128, 640}, {640, 128}, {384, 384}, {896, 896},
     {64, 960}, {576, 448}, {320, 192}, {832, 704}, {192, 320}, {704, 832}, {448, 576}, {960, 64}};
@@ -178,7 +178,7 @@ static void place(uint32_t first, uint32_t end, uint32_t samples, uint32_t place
     }
 }
 
-// Requests of the first 16 samples have four samples.
+// The first 16 samples come from requests of four samples each.
 static void place_all(uint32_t count, uint32_t places[][2])
 {
     const uint32_t fours = count < REQUEST_SAMPLES ? count : REQUEST_SAMPLES;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the cells that are subdivided for thin triangles, if these are hard to project or too many.
+// Tests which cells are subdivided for thin triangles that are hard to project or too many.
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
 #include "unit/cmocka_all.h"
@@ -136,7 +136,7 @@ TEST(what_is_edge_on_behind_or_beside_is_not_cut)
     assert_int_equal(cuts_of_triangle(vec3(0, 0, 0), vec3(0, 0, 0), vec3(0, 0, 0), true), 0);
 }
 
-// A sliver below the eye that starts far behind it appears from the picture's lower edge upward.
+// A sliver below the eye that starts behind the eye appears from the picture's lower edge upward.
 TEST(a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it)
 {
     const double side = 0.5 / FOCUS, far = 1000, end = 1 / ((70.5 - SIDE / 2.0) / FOCUS);

@@ -68,7 +68,7 @@ static double disc(double x, double y)
     return 0.1 + ((x - 0.6) * (x - 0.6) + (y - 0.4) * (y - 0.4) < 0.06);
 }
 
-// Returns the cost of the slowest part over the mean.
+// Returns the cost of the slowest part, divided by the mean cost.
 static double slowest(RenderSettings settings, Cost *cost)
 {
     double most = 0, sum = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tests that the program registers before main().
+// Runs the tests that a program registers before main().
 #include "unit/cmocka_all.h"
 
 #define FIXTURES_MOST 2

@@ -23,7 +23,7 @@ from pictures import read_pfm  # noqa: E402
 SCENE = ROOT / "scenes" / "reflections.scn"
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT / ".." / "shared" / "course"))
 PATIENCE = 60  # seconds that any step may take, because kernels may have to be compiled
-TICK = 0.02  # waiting counts these steps, so that a pause of the machine does not count
+TICK = 0.02  # waiting counts these steps, so that pauses of the machine do not count
 
 
 def pass_over(reason):
@@ -100,7 +100,7 @@ class Screen:
 
 
 class Window:
-    """clrt with a scene in a window. With -v it prints its state when the picture is finished."""
+    """clrt with a scene in a window. Because of -v, it prints its state after each picture."""
 
     def __init__(self, screen, scene, *options, size=(320, 240), folder=None):
         self.screen, self.size = screen, size
@@ -233,8 +233,8 @@ def run_test(test, screen):
 
 
 def run_tests(module):
-    """Runs the module's tests, or those of them that the command line names. A function's name states
-    what it tests."""
+    """Runs the module's tests, or only the tests that the command line names. A function's name
+    states what it tests."""
     screen, failures = Screen(), 0
     tests = [test for test in module.values()
              if inspect.isfunction(test) and test.__module__ == "__main__" and is_test(test)]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens and closes the viewer repeatedly in one process, also without fonts. Its memory, files and
-// threads must not grow. In builds with AddressSanitizer, no byte may leak.
+// Opens and closes the viewer repeatedly in one process, also without fonts. The process's memory,
+// files and threads must not grow. In builds with AddressSanitizer, no byte may leak.
 #include "base/file.h"
 #include "device/cache.h"
 #include "unit/cmocka_all.h"
@@ -49,7 +49,7 @@ static void show_once(const char *keys)
         fail_msg("%s", error.text);
 }
 
-// The linker replaces the window's functions by these.
+// The linker replaces the window's functions by the __wrap_ functions.
 static int losses, openings;
 bool __real_window_is_lost(const Window *window);
 bool __wrap_window_is_lost(const Window *window);

@@ -114,7 +114,7 @@ def o_never_touches_the_display(screen, folder):
         subprocess.run([*words, "-q", "-o", f"{folder}/a.pfm"], env=there, check=True)
         try:
             door.accept()
-            raise AssertionError("-o knocks at the display")
+            raise AssertionError("-o connects to the display")
         except BlockingIOError:
             pass
         with subprocess.Popen(words, env=there, stderr=subprocess.DEVNULL) as window:
@@ -122,7 +122,7 @@ def o_never_touches_the_display(screen, folder):
             try:
                 door.accept()[0].close()  # the window connects, so the socket works
             except TimeoutError as silence:
-                raise AssertionError("a window does not come to this display") from silence
+                raise AssertionError("a window does not connect to this display") from silence
             finally:
                 window.kill()
 

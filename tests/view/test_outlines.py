@@ -97,9 +97,9 @@ def agree(screen, path):
 
 def outlines_agree_in_the_courses_scenes(screen):
     if not COURSE.is_dir():
-        print("skipped: the course's scenes are not there (CLRT_COURSE names their folder)")
+        print("skipped: the course's scenes are missing (CLRT_COURSE names their folder)")
         return
-    # Some scenes differ only in their materials, lights and mirrors.
+    # Scenes that differ only in their materials, lights and mirrors are compared once.
     scenes = [COURSE / "scenes" / f"{name}.scn" for name in NAMES]
     for path in {colored(path): path for path in scenes}.values():
         agree(screen, path)

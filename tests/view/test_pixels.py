@@ -19,7 +19,7 @@ def expect_same(window, scene, *options):
 
 def every_view_of_the_courses_scenes_is_the_same(screen):
     if not COURSE.is_dir():
-        print("skipped: the course's scenes are not there (CLRT_COURSE names their folder)")
+        print("skipped: the course's scenes are missing (CLRT_COURSE names their folder)")
         return
     for name in ("blinn_phong", "reflections", "cow", "buddha"):
         scene = COURSE / "scenes" / f"{name}.scn"

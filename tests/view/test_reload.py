@@ -70,7 +70,7 @@ def a_fault_is_told_over_the_last_good_picture(screen, folder):
     line = window.read()
     scene.write_text("spheer 0 0 0 1\n" + text)
     window.wait("one.scn:1:1: unknown statement (did you mean 'sphere'?)")
-    told = window.until(lambda shown: shown != line, "tells of the fault")
+    told = window.until(lambda shown: shown != line, "reports the fault")
     below = 4 * 320 * 100
     assert told[below:] == before[below:], "the picture is gone"
     window.press("t", "text off")
@@ -80,7 +80,7 @@ def a_fault_is_told_over_the_last_good_picture(screen, folder):
     assert window.read() != before, "the camera does not move any more"
     window.press("1", "view 1,")
     scene.write_text(text + "sphere 1 1 1 0.5\n")
-    expect(window, scene, "shows the mended scene")
+    expect(window, scene, "shows the repaired scene")
 
 
 def a_mesh_that_was_missing_is_found_when_it_comes(screen, folder):

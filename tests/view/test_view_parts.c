@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests the parts of the viewer that need neither window nor device. They are the plan of passes,
-// boxes, changed files, and pictures in two layers.
+// Tests the parts of the viewer that need neither window nor device: the plan of passes, boxes,
+// changed files, and pictures in two layers.
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
 #include "view/draw/canvas.h"

@@ -20,8 +20,8 @@ typedef struct {
     size_t rays;       // per aim
 } ClosedTest;
 
-// Traces rays from around shape_center(exponent), the center of the closed scene, and reports rays
-// that miss. Frees the scene.
+// Traces rays that start around shape_center(exponent), the center of the closed scene, and reports
+// rays that miss. Frees the scene.
 static void judge_closed(RayBatch *batch, Scene scene, int exponent, const ClosedTest *test)
 {
     Random random = {test->seed + (uint64_t)exponent};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where a fine mesh meets a coarse one, most vertices of the fine side are on no edge of the coarse
-// side. Rounding moves them off it and opens true cracks. Rays may pass only there.
+// At the joint of a fine and a coarse mesh, vertices of the fine side lie inside edges of the
+// coarse side. Rounding moves the vertices off the edges and opens true cracks. Rays may pass only
+// there.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"

@@ -21,7 +21,8 @@ static void leaving_free(Leaving *leaving)
     free(leaving->outward);
 }
 
-// Chooses a direction. Every fourth leaves the face with this normal at a sine down to 2^-lowest.
+// Chooses a direction. Every fourth one leaves the face at an angle whose sine is at least
+// 2^-lowest.
 static void choose_outward(Leaving *leaving, size_t ray, Vec3 normal, uint32_t lowest,
                            Random *random)
 {
@@ -105,8 +106,8 @@ EXTREME(a_ray_that_leaves_a_triangle_never_meets_it_again_t37)
     leaving_free(&leaving);
 }
 
-// Aims at the triangles from outside. Points are rounded to slightly below their face. A very low
-// ray near the shape's edge would hit the next face from inside, so the test avoids such rays.
+// Aims at the triangles from outside. Rounding moves points slightly below their face. From there,
+// a very low ray near the shape's edge would hit the next face, so the test avoids such rays.
 static void aim_at_shape(Leaving *leaving, const Triangles *triangles, Random *random)
 {
     Vec3 origin = {0};

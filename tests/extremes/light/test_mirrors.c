@@ -11,9 +11,9 @@
 #define MIRROR  "define mirror silhouette diffuse 0.5 0.75 0.2 reflectivity "
 #define BOUNCES 64
 
-// Draws the inside of a closed perfect mirror. Rays that leave it shade fewer points. A ray through
-// the edge of a ridge may hit the triangle beyond it, and is then outside. In a mirror with ridges,
-// this may happen to one ray.
+// Draws the inside of a closed perfect mirror. Rays that leave the mirror shade fewer points. A ray
+// through the edge of a ridge may hit the triangle beyond the ridge, and is then outside. In a
+// mirror with ridges, this may happen to one ray.
 static void judge_escapes(const Studio *studio, const char *name, Mesh mesh, bool from_front)
 {
     RenderProgress progress;

@@ -5,7 +5,7 @@
 #include "support/varied_scene.h"
 #include "unit/parsed.h"
 
-// With these statements, only light makes a pixel other than black.
+// With these statements, only lit pixels are not black.
 #define DARK "ambient 0\nbackground 0 0 0\nup 0.01 0.02 1\n"
 
 static PictureSettings shadow_settings(void)
@@ -64,7 +64,7 @@ EXTREME(no_light_passes_the_edges_of_a_closed_shape_t39)
     }
 }
 
-// Returns a globe this far above a floor.
+// Returns a globe above a floor, with `gap` between them.
 static Scene contact(double gap, bool as_mesh)
 {
     Scene scene = parsed_format(DARK "light 0.5 1 9 1\ncamera 0.3 -6 0.4 0 0 0 8\n%s",
@@ -84,8 +84,8 @@ EXTREME(a_shadow_reaches_the_point_of_contact_t40)
                            "gap=%.0e ball=%s", gap, as_mesh ? "mesh" : "sphere");
 }
 
-// A corner of the wall and two of its edges. Points on this wall are rounded, unlike those on the
-// floor.
+// A corner of the wall and two of its edges. Points on this wall are rounded, unlike points on
+// the floor.
 static const Vec3 wall[] = {{-4.1, 3.5, 0}, {8.3, 1.05, 0}, {0.1, -0.84, 4}};
 
 static Vec3 wall_point(double across, double up)
@@ -104,7 +104,7 @@ static Scene stand(Vec3 light)
     return scene;
 }
 
-// Rounding decides on which side of a surface a light exactly on it is. The oracle's light is
+// If a light is exactly on a surface, rounding decides on which side it is. The oracle's light is
 // slightly in front of the surface.
 EXTREME(lights_on_surfaces_and_in_the_eye_are_as_exact_as_others_t42)
 {

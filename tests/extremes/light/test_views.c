@@ -36,7 +36,7 @@ EXTREME(lights_of_any_intensity_and_number_are_added_right_t54)
 
 EXTREME(cameras_of_any_angle_see_what_is_there_t56)
 {
-    // The narrowest angles contain the outline of the globe, the widest its inside.
+    // The narrowest angles show the outline of the globe, and the widest its inside.
     static const struct {
         double angle;
         const char *view;

@@ -117,7 +117,7 @@ EXTREME(flushing_denormals_to_zero_changes_no_picture_t47)
         "option=%s", settings.extra_options);
 }
 
-// The varied picture's hash on every device and target, which CMakeLists.txt chooses.
+// The varied picture's hash, on every device and on every target of CMakeLists.txt.
 #define PICTURE_ON_RECORD "ec5c80aa50c8f17918c2bed9c22cfbeb"
 
 EXTREME(the_picture_is_the_one_on_record_t48)

@@ -17,7 +17,7 @@ static bool pixel_agrees(const Framebuffer *picture, const OracleView *view, uin
 
 #define PROBES 100
 
-// Compares random pixels with the oracle's, or all pixels if they are few, and the last pixel.
+// Compares the last pixel and random pixels with the oracle's, or all pixels if they are few.
 static void judge_size(const Studio *studio, uint32_t width, uint32_t height)
 {
     Error error = {0};

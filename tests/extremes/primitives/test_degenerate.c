@@ -28,8 +28,9 @@ static Mesh flat_mesh(void)
     return mesh;
 }
 
-// The first view contains everything. The middle column of the second view and the middle pixel of
-// the third look straight at and along the triangle that is parallel to an axis.
+// The first view contains everything. The other views show the triangle that is parallel to an
+// axis: the second from the side, in its middle column, and the third along the axis, in its middle
+// pixel.
 static const char *const views[] = {"camera 3 -6 2 0 0 0 45\n",
                                     "up 0 1 0\ncamera 1.5 0.125 6 1.5 0.125 -2 40\n",
                                     "camera 1.5 -6 0.5 1.5 0 0.5 40\n"};
@@ -38,7 +39,7 @@ EXTREME(triangles_without_area_leave_no_trace_in_a_picture_t11)
 {
     const PictureSettings settings = picture_settings(129);
     for (size_t view = 0; view < COUNT(views); view++) {
-        // A floor and a wall, whose bounds contain the flat triangles.
+        // The bounds of the floor and the wall contain the flat triangles.
         Scene scene = parsed_format("light -3 -4 5 1\n%s", views[view]);
         shape_add(&scene, shape_plane(vec3(-2, -2, -2), vec3(4, 0, 0), vec3(0, 4, 0), 8), 1);
         shape_add(&scene, shape_plane(vec3(-2, 2, -2), vec3(4, 0, 0), vec3(0, 0, 4), 8), 3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays whose every step is exact in float, along the axes and in the planes of faces. There is one
-// right answer, to the bit.
+// Traces rays along the axes and in the planes of faces. Every step is exact in float, so each ray
+// has one right answer, to the bit.
 #include "support/rig.h"
 #include "support/shapes.h"
 
@@ -14,7 +14,7 @@ static Rig open_cube(const char *test, RayBatch *batch, TreeKind tree)
     return rig;
 }
 
-// An axis-parallel ray and the face of the cube that it comes to first.
+// An axis-parallel ray and the face of the cube that it meets first.
 typedef struct {
     TestRay ray;
     int axis;
@@ -22,7 +22,7 @@ typedef struct {
     float t;
 } AxisRay;
 
-#define STEPS     19 // half cells, from one half cell outside the cube to the other side's
+#define STEPS     19 // points across the cube, half a cell apart, and one outside on each side
 #define AXIS_RAYS (3 * 2 * 3 * 4 * 4 * STEPS * STEPS)
 
 // The digits of number choose axis, sign, length, distance, signs of zeros, and position.
@@ -46,7 +46,7 @@ static AxisRay axis_ray(size_t number)
     return made;
 }
 
-// Returns whether the triangle is in the face and contains the ray's point, or has it on its
+// Returns whether the triangle is in the face and contains the ray's point, inside or on the
 // outline.
 static bool face_holds(const AxisRay *ray, const Triangles *triangles, size_t triangle)
 {
@@ -65,7 +65,7 @@ static bool face_holds(const AxisRay *ray, const Triangles *triangles, size_t tr
     return positive || negative;
 }
 
-// The hit must be the lowest of the triangles that contain the point, which are at one distance.
+// The hit must be the lowest triangle that contains the point. All of them are at one distance.
 static bool judge_axis_ray(void *context, const Traced *traced)
 {
     const Triangles *triangles = context;
@@ -88,13 +88,13 @@ EXTREME(axis_parallel_rays_meet_a_lattice_cube_exactly_t20)
     }
 }
 
-// A plane through a face: the points whose product with normal is HALF.
+// A plane through a face: the points whose dot product with normal is HALF.
 typedef struct {
     const Triangles *triangles;
     Vec3 normal;
 } Plane;
 
-// A ray in the plane must hit a triangle outside it.
+// A ray in the plane must hit a triangle that is not in the plane.
 static bool judge_plane(void *context, const Traced *traced)
 {
     const Plane *plane = context;
@@ -108,7 +108,7 @@ static bool judge_plane(void *context, const Traced *traced)
     return is_in_plane;
 }
 
-// Returns the octahedron |x| + |y| + |z| = 4, which is 0.5 in normalized coordinates.
+// Returns the octahedron |x| + |y| + |z| = 4. In normalized coordinates, the sum is 0.5.
 static Scene octahedron(void)
 {
     Error error = {0};
@@ -166,8 +166,9 @@ typedef struct {
     size_t hits;
 } Soup;
 
-// Along each axis, the ray's point at t is within 22 units of rounding of the largest distance
-// between origin and corners (the proof of the box slack), and 2 more of its own rounding.
+// Along each axis, the error of the ray's point at t is at most 24 roundings of the largest
+// distance between origin and corners: 22 by the proof of the box slack, and 2 when the point is
+// computed.
 static bool judge_point(void *context, const Traced *traced)
 {
     Soup *soup = context;

@@ -25,9 +25,9 @@ static TestRay special_ray(size_t number, const Room *room, Random *random)
     return ray;
 }
 
-// Every direction leads from inside a closed shape to the shape. A camera's or reflection's is
-// about as long as 1, and a shadow ray is at least as long as its origin's distance from the
-// surface. Reciprocals of shorter directions overflow.
+// Every direction leads from inside a closed shape to the shape. Directions of camera and reflected
+// rays have a length near 1, and shadow rays are at least as long as their origin's distance from
+// the surface. The test skips much shorter directions, whose reciprocals can overflow.
 EXTREME(directions_of_special_values_leave_no_closed_shape_t21)
 {
     Random random = {21};
@@ -59,7 +59,7 @@ static void spoil(Rays rays, float value, int field)
         }
 }
 
-// Returns the number of spoiled rays that hit anything and of other rays whose hit has changed.
+// Returns the number of spoiled rays that hit anything, plus other rays whose hit has changed.
 static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size_t count)
 {
     size_t disturbed = 0;
@@ -69,7 +69,7 @@ static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size
     return disturbed;
 }
 
-// Returns the hits and the least of five times in seconds. The time of all processors together does
+// Returns the hits, and stores the least of five processor times in seconds. Processor time does
 // not depend on other processes.
 static TestHit *trace_timed(RayBatch *batch, Rays rays, double *seconds)
 {
@@ -98,7 +98,7 @@ static void judge_spoiled(RayBatch *batch, Rays rays, float value)
         spoil(spoiled, value, field);
         TestHit *hits = trace_timed(batch, spoiled, &seconds);
         slowest = fmax(slowest, seconds / usual);
-        // A single zero is sound. Only a direction of zeros is not.
+        // A single zero is valid. Only a direction of zeros is not.
         if (value != 0 || field == FIELDS - 1)
             disturbed += count_disturbed(hits, expected, rays.count);
         free(hits);
@@ -124,7 +124,7 @@ EXTREME(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23)
 }
 
 // The hit must be the exact one, and its distance not NaN. clrt does not follow rays from beyond
-// 2^46, which may hit nothing.
+// 2^46, so these may hit nothing.
 static bool judge_far(void *triangles, const Traced *traced)
 {
     const float *origin = traced->ray->origin;
@@ -158,7 +158,7 @@ EXTREME(rays_from_very_far_meet_what_is_there_or_nothing_t24)
     Rig rig = rig_open("T-24", *state, shape_scene(shape_sphere(20, vec3(0, 0, 0))));
     for (size_t i = 0; i < COUNT(distances); i++) {
         aim_from(rays, distances[i], &random);
-        // Embree 3.13.5 crashes with a segmentation fault.
+        // At larger distances, Embree 3.13.5 crashes with a segmentation fault.
         if (distances[i] > 1e12f)
             peers_close(&rig.peers);
         outcome_report(rig_judge(&rig, rays, judge_far, &rig.stage.triangles), "distance=%g",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Spheres that are far away, huge, tiny, around the eye, or touched by rays, compared with
-// quadruple precision. They are given in normalized coordinates.
+// Compares hits of spheres that are far away, huge, tiny, around the eye, or touched by rays with
+// quadruple precision. The spheres are in normalized coordinates.
 #include "support/outcome.h"
 #include "support/rays.h"
 #include "support/shapes.h"
@@ -50,7 +50,7 @@ static double exact_distance(const SphereData *sphere, const TestRay *ray)
     return (double)(near > 0 ? near : far);
 }
 
-// The numbers of hits that differ from the exact ones.
+// The numbers of hits that differ from the exact hits.
 typedef struct {
     size_t sides;   // hits for misses or misses for hits
     size_t inexact; // distances

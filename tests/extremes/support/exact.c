@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shears the triangle along the ray's longest axis. The ray then is the origin of a plane, and the
-// triangle's edges decide. Products of differences of floats lose few bits in 64.
+// Shears the triangle along the ray's longest axis, so that the ray becomes the origin of a plane.
+// Edge functions decide whether the triangle contains the origin. In 64 bits, their products of
+// differences of floats lose few bits.
 #include "exact.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traces the rays with Embree's call for single rays, because Embree's documentation calls it the
-// reference for its other calls.
+// reference for the other calls.
 #include "peers.h"
 
 #include "shapes.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs the stages of the program from a Scene on. The oracle judges by tests/image/comparison.h.
+// Runs the stages of the program from a Scene on. tests/image/comparison.h compares with the
+// oracle.
 #include "picture.h"
 
 #include "image/comparison.h"

@@ -76,7 +76,7 @@ static bool make_kernels(RayBatch *batch, Error *error)
     return cl_succeeded(clFinish(batch->device.queue), "finish the first runs", error);
 }
 
-// Unlocks the cache before it ends the test, because the next test of the process needs the lock.
+// Unlocks the cache before a failure ends the test: the next test of the process needs the lock.
 static void build_locked(RayBatch *batch, const ProgramSource *source)
 {
     Error error = {0};
@@ -179,7 +179,7 @@ static void write_buffer(const RayBatch *batch, cl_mem buffer, const void *data,
         "write a buffer");
 }
 
-// Runs a kernel over `count` of the rays that the buffer holds, and reads their hits.
+// Runs a kernel over the first `count` rays in the buffer, and reads their hits.
 static void run(const RayBatch *batch, BatchTask task, size_t count, TestHit *hits)
 {
     Error error = {0};
@@ -189,7 +189,7 @@ static void run(const RayBatch *batch, BatchTask task, size_t count, TestHit *hi
                     "read hits");
 }
 
-// The ray's properties by which rays are sorted, so that alike ones form beams, and its index.
+// A ray's index and the properties by which rays are sorted, so that similar rays form beams.
 typedef struct {
     uint32_t kind, signs; // signs of the direction
     float origin[3];
@@ -220,7 +220,7 @@ static RayOrder *sorted_orders(Rays rays)
     return orders;
 }
 
-// Returns the rays from first on, as many as a launch takes.
+// Returns the rays from first on, at most as many as a launch takes.
 static Rays chunk_of(Rays rays, size_t first)
 {
     const size_t left = rays.count - first;

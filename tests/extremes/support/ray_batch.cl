@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Kernels that trace arrays of rays with the real functions. ray_batch.c appends this file to the
-// source of the real kernels. A work-item traces PACKETS * CLRT_LANES successive rays. Grids are
-// larger than the count of rays.
+// source of the real kernels. A work-item traces PACKETS * CLRT_LANES successive rays. Grids can
+// be larger than the count of rays.
 
 typedef struct {
     float origin[3];
@@ -40,15 +40,15 @@ static inline TestRays test_rays(global const TestRay *rays, uint count, uint pa
     return all;
 }
 
-// Returns v with the first of these lanes copied to all others.
+// Returns v. The lanes that are not in `lanes` copy the first lane of `lanes`.
 static inline Real3 filled_lanes(Real3 v, Mask lanes)
 {
     return real3_of(lanes ? v.x : first_real(v.x, lanes), lanes ? v.y : first_real(v.y, lanes),
                     lanes ? v.z : first_real(v.z, lanes));
 }
 
-// Returns the rays of these lanes, which have a kind. The other lanes copy the first. Reflected
-// rays come from the tracer's own function, and leave their face perpendicularly.
+// Returns the rays of these lanes, which are of one kind. The other lanes copy the first of them.
+// Reflected rays come from the tracer's own function, and leave their face perpendicularly.
 static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, RayKind kind, Mask lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
@@ -131,7 +131,7 @@ kernel void batch_blocked(BATCH_ARGUMENTS)
     trace_rays(&tracer, rays, count, true, hits);
 }
 
-// The id of a ray that hits nothing, from a surface that the point at its end does not light.
+// The id of a ray that hits nothing although the shadow ray along it is blocked.
 #define LEAVE_SHADOWED 0xfffffffeu
 
 // Traces rays from the surfaces that these lanes' rays hit. See batch_leave.
@@ -156,8 +156,8 @@ static inline void leave_surfaces(const Tracer *tracer, const TestRays *all, con
     store_hits(hits, all, ray->active, met ? second.t : 0.0f, met ? second.id : (UInt)(NOTHING));
 }
 
-// Finds the hit of a ray that leaves the surface hit by its own ray, in the direction of outward or
-// the opposite one, whichever leaves the face. The id can be LEAVE_SHADOWED. t is 0 without a
+// Finds the surface that each ray hits, and then the hit of a ray that leaves this surface along
+// outward or against it, whichever leaves the face. The id can be LEAVE_SHADOWED. t is 0 without a
 // surface.
 kernel void batch_leave(BATCH_ARGUMENTS)
 {

@@ -30,7 +30,7 @@ typedef struct {
 
 typedef enum {
     BATCH_NEAREST, // nearest_hit
-    BATCH_BLOCKED, // is_blocked: id is 1 or 0
+    BATCH_BLOCKED, // blocking_hit: id is 1 if blocked, else 0
     BATCH_LEAVE,   // ray_batch_leave
     BATCH_TASKS
 } BatchTask;
@@ -74,10 +74,10 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat);
 void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 
 // Returns a hit for each ray, which the caller frees. task is BATCH_NEAREST or BATCH_BLOCKED. Rays
-// from one origin and reflected rays form packets.
+// from one origin form packets, as do reflected rays.
 TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
 
-// The id of a ray of ray_batch_leave that hits nothing but is shadowed.
+// The id of a ray of ray_batch_leave that hits nothing although the shadow ray along it is blocked.
 #define LEAVE_SHADOWED 0xfffffffeu
 
 // Returns the hits of rays that leave the surfaces hit by `rays`. Ray i leaves along outward[i] or

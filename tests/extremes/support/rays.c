@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random rays find no gap, so most rays go to edges and vertices.
+// Random rays hardly ever find a gap, so most rays go to edges and vertices.
 #include "rays.h"
 
 #include "check.h"
@@ -58,7 +58,7 @@ static double exact_part(double coordinate, double part)
     return trunc(coordinate * part / unit) * unit;
 }
 
-// Returns a point of the room whose distance from target is exact in float.
+// Chooses a vertex as target, and returns a point of the room whose difference from it is exact.
 static Vec3 exact_origin(Vec3 *target, const Room *room, const Triangles *triangles, Random *random)
 {
     for (;;) {

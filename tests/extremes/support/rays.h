@@ -16,7 +16,7 @@ bool rays_move_origin(size_t i, size_t bundle);
 // Enough rays from one point to fill packets of all directions.
 #define RAY_BUNDLE 512
 
-// Returns a camera ray between two points. Rounds both to float, and then the direction.
+// Returns a camera ray between two points. Rounds `from` to float, and then the direction.
 TestRay ray_between(Vec3 from, Vec3 to);
 
 // Returns a camera ray between two points in scene coordinates, rounded like ray_between's.

@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 
 // Returns the nearest float to value. The conversion goes through memory, because gcc 12 removes
-// two successive conversions to float and back.
+// a pair of conversions to float and back.
 static inline double shape_rounded(double value)
 {
     const volatile float rounded = (float)value;
@@ -34,10 +34,10 @@ Vec3 shape_vertex(const Mesh *mesh, size_t vertex);
 // Rounds the position to float.
 void shape_set_vertex(Mesh *mesh, size_t vertex, Vec3 position);
 
-// Makes the mesh's back its front.
+// Reverses the orientation of all triangles.
 void shape_flip(Mesh *mesh);
 
-// Returns the mesh with the corners of each triangle in any order.
+// Returns the mesh with the corners of each triangle in a random order.
 Mesh shape_reordered(Mesh mesh, Random *random);
 
 // Returns the center of far spheres: (s, -0.75 s, 0.5 s) for s = 2^exponent.
@@ -48,12 +48,12 @@ Vec3 shape_center(int exponent);
 // A closed sphere: `rings` bands from pole to pole, each of 2 * rings quads of two triangles.
 Mesh shape_sphere(uint32_t rings, Vec3 center);
 
-// A closed globe of 16 x 16 bands whose vertices are 1 to 6 from center, at random (after the bumpy
-// sphere of pbrt's tests).
+// A closed globe of 16 x 16 bands. Its vertices are at random distances of 1 to 6 from center
+// (after the bumpy sphere of pbrt's tests).
 Mesh shape_bumpy(Random *random, Vec3 center);
 
-// count triangles around the origin, whose rim at distance 1 waves gently over the plane z = 0.
-// count is a multiple of 8.
+// A fan of count triangles around the origin. Its rim, at distance 1 from the z axis, waves around
+// the plane z = 0. count is a multiple of 8.
 Mesh shape_fan(uint32_t count);
 
 // A parallelogram of cells * cells quads of two triangles, spanned by across and down.
@@ -62,12 +62,12 @@ Mesh shape_plane(Vec3 corner, Vec3 across, Vec3 down, uint32_t cells);
 // The surface of the cube [-half_side, half_side]^3, each face of cells * cells quads.
 Mesh shape_cube(double half_side, uint32_t cells);
 
-// count triangles at random places of the cube [-1, 1]^3, with corners up to size from there.
+// count triangles at random places of the cube [-1, 1]^3. Corners are up to size from their place.
 Mesh shape_soup(Random *random, uint32_t count, double size);
 
 Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c);
 
-// Adds mesh as a two-sided object. The scene owns it then.
+// Adds mesh as a two-sided object. The scene then owns the mesh.
 void shape_add(Scene *scene, Mesh mesh, uint32_t material);
 
 // Returns a scene of one mesh.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Turns a Scene into what clrt traces, by the stages of the program.
+// Turns a Scene into a tree and a FlatScene, by the stages of clrt.
 #pragma once
 
 #include "accel/flat.h"
@@ -9,9 +9,9 @@ typedef enum {
     TREE_MIDPOINT,
     TREE_NONE,
     TREE_KINDS,
-    // Valid trees that no builder makes, because they ignore where triangles are. The first halve
-    // the triangles in file order down to leaves of 1, 2, 4 or 8. The deepest has BVH_MAX_DEPTH
-    // levels, each of which separates one triangle from the rest.
+    // Valid trees that no builder makes, because they ignore where triangles are. The first four
+    // halve the triangles in file order down to leaves of 1, 2, 4 or 8. The deepest has
+    // BVH_MAX_DEPTH levels, each of which separates one triangle from the rest.
     TREE_LEAVES_1 = TREE_KINDS,
     TREE_LEAVES_2,
     TREE_LEAVES_4,

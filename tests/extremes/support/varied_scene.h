@@ -7,5 +7,5 @@
 
 Scene varied_scene(void);
 
-// Multiplies all lengths and places of a scene with one viewpoint by scale, and then moves it.
+// Multiplies all lengths and places of a scene with one viewpoint by scale, and then adds move.
 void varied_scene_place(Scene *scene, double scale, Vec3 move);

@@ -78,7 +78,7 @@ static Box block_box(Walk *walk, uint32_t number)
     return box;
 }
 
-// Checks the children of a wide node.
+// Checks the subtree of a wide node. Returns the box of its triangles.
 static Box check_wide(Walk *walk, uint32_t number)
 {
     Box all = box_empty();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every tree finds what testing all primitives finds, to the bit.
+// Every tree gives the same hits as a test of all primitives, to the bit.
 #include "support/rig.h"
 #include "support/shapes.h"
 #include "support/tree_scenes.h"
@@ -47,8 +47,8 @@ static void make_free_rays(Rays rays, const Triangles *triangles, Random *random
     }
 }
 
-// Makes rays from points of triangles at or near an edge. Their neighbors are so close that
-// rounding can make a distance zero or less.
+// Makes rays from points of triangles at or near an edge. Neighboring triangles are so
+// close that rounding can make their distance zero or less.
 static void make_surface_rays(Rays rays, const Stage *stage, Random *random)
 {
     const Triangles *triangles = &stage->triangles;
@@ -76,7 +76,7 @@ static void make_rays(Rays rays, size_t number, BatchTask task, bool from_surfac
     stage_free(&stage);
     for (size_t i = 0; i < rays.count && task == BATCH_BLOCKED; i++) {
         rays.data[i].kind = RAY_SHADOW;
-        // A ray of twice the length meets its target halfway. The other rays end there.
+        // A ray of twice the length meets its target halfway. The other rays end at their target.
         for (int axis = 0; axis < 3 && !from_surfaces && i % 16 < 8; axis++)
             rays.data[i].direction[axis] *= 2;
     }
