@@ -23,7 +23,7 @@ def row(milliseconds, rmse):
 
 
 class Front(unittest.TestCase):
-    def test_only_what_nothing_beats_is_on_the_front(self):
+    def test_only_unbeaten_settings_are_on_the_front(self):
         rows = [row(1, 9), row(2, 5), row(3, 5), row(2, 6), row(4, 1), row(5, 2)]
         front.mark(rows)
         self.assertEqual([r["front"] for r in rows], [True, True, False, False, True, False])
@@ -34,7 +34,7 @@ class Front(unittest.TestCase):
         front.mark(rows)
         self.assertTrue(all(r["front"] for r in rows))
 
-    def test_an_error_costs_what_its_fastest_setting_takes(self):
+    def test_the_fastest_setting_within_an_error_gives_its_cost(self):
         rows = [row(1, 9), row(4, 1), row(3, 5)]
         self.assertIs(front.time_at(rows, 5), rows[2])
         self.assertIsNone(front.time_at(rows, 0.5))
@@ -62,7 +62,7 @@ class Goals(unittest.TestCase):
         self.assertIsNone(goal["fixed"])
         self.assertIsNone(goal["uniform"])
 
-    def test_a_time_is_compared_with_the_least_wrong_that_is_as_fast(self):
+    def test_a_time_is_compared_with_the_smallest_error_at_its_speed(self):
         goal = goals.judge(self.ROWS)["times"][0]
         self.assertEqual((goal["fixed"]["setting"], goal["fixed"]["errors"]), ("adaptive 200", 2))
         self.assertEqual(goal["seconds_ratio"], 0.75)
@@ -88,10 +88,10 @@ class Uniform(unittest.TestCase):
             tried = {side: 1 / side for side in (2, 4, 12)}
             self.assertEqual(self.side(1 / wanted, tried), wanted)
 
-    def test_they_are_found_where_none_was_tried_before(self):
+    def test_the_fewest_samples_are_found_without_earlier_trials(self):
         self.assertEqual(self.side(0.1, {}), 10)
 
-    def test_it_says_where_none_holds(self):
+    def test_none_is_returned_if_no_side_holds_the_error(self):
         self.assertIsNone(self.side(1 / 65, {1: 1}))
 
 

@@ -64,7 +64,7 @@ class Damage(CacheWork):
         killed.kill()
         killed.wait()
 
-    def test_what_an_interrupted_build_leaves_is_not_used(self):
+    def test_files_of_an_interrupted_build_are_not_used(self):
         compiled = self.kernels()
         for path in compiled:
             path.write_bytes(flip(path.read_bytes()))
@@ -86,7 +86,7 @@ class Damage(CacheWork):
 
 
 class Places(CacheWork):
-    def test_a_folder_that_is_chosen_holds_one_of_clrts_own(self):
+    def test_clrt_makes_a_folder_of_its_own_in_a_chosen_cache(self):
         chosen = self.work / "chosen"
         others = chosen / "AA" / ("B" * 37) / "program.bc"
         others.parent.mkdir(parents=True)
@@ -99,7 +99,7 @@ class Places(CacheWork):
         self.assertEqual(others.read_text(), "another program's")
         self.assertEqual(self.kernels(), before)
 
-    def test_a_folder_for_kernels_that_cannot_be_made_is_done_without(self):
+    def test_clrt_draws_without_a_folder_for_kernels(self):
         shutil.rmtree(self.cache / "clrt/pocl")
         (self.cache / "clrt/pocl").write_text("")
         for cache in str(self.cache), "/proc":
@@ -108,7 +108,7 @@ class Places(CacheWork):
             self.assertEqual(list(self.work.glob("clrt-*")), [])
 
 
-    def test_hosts_that_share_a_disk_have_folders_of_their_own(self):
+    def test_each_host_has_its_own_folder_on_a_shared_disk(self):
         shared = {"LD_PRELOAD": os.path.abspath(sys.argv[2]),
                   "ASAN_OPTIONS": "verify_asan_link_order=0:" + os.environ.get("ASAN_OPTIONS", "")}
         hosts, home = self.work / "hosts", self.work / "home"
@@ -137,11 +137,11 @@ class Disks(CacheWork):
         self.assertEqual(list(self.work.glob("clrt-*")), [])
         return done
 
-    def test_a_cache_on_a_full_or_read_only_disk_is_done_without(self):
+    def test_clrt_draws_with_a_cache_on_a_full_or_read_only_disk(self):
         for mode in ("rw", "ro"):
             self.assertEqual(self.on_disk(mode), (0, "", self.expected))
 
-    def test_no_room_anywhere_is_told(self):
+    def test_no_room_anywhere_is_reported(self):
         for mode in ("rw", "ro"):
             done = self.on_disk(mode, TMPDIR=str(self.work / "disk"))
             self.assert_told(done, "no OpenCL device was found: .* 16 MB of free space")

@@ -30,7 +30,7 @@ class Certainty(SharedWork):
         for name, kind in ("certified", 1), ("repaired", 0.5), ("open", 0):
             self.assertEqual(counts[name], kinds.count(kind), name)
 
-    def test_only_repaired_pixels_change_and_become_those_of_fp64(self):
+    def test_only_repaired_pixels_change_and_have_the_colors_of_fp64(self):
         plain, exact = self.pixels("plain.exr")[0], self.pixels("fp64.exr")[0]
         certain, kinds = self.pixels("certain.exr")
         repaired = [kind == 0.5 for kind in kinds]

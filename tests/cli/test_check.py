@@ -132,7 +132,7 @@ class Check(Meshes):
         self.assertIsNone(found["device"])
         self.expect(found["meshes"][0], leak_test=None, closed=True)
 
-    def test_what_cannot_be_read_or_written_is_one_message(self):
+    def test_files_that_cannot_be_read_or_written_are_one_message(self):
         self.refuses(3, "nowhere.scn: cannot be opened: No such file or directory", "check", "nowhere.scn")
         for name in "lie.ply", "noise.ply":
             self.assertRegex(self.clrt("check", name, code=3), rf"^clrt: {name}.*\n$")
@@ -149,7 +149,7 @@ class BadGeometry(Meshes):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assert_same_bytes("a.pfm", "b.pfm")
 
-    def test_fail_draws_only_what_is_sound(self):
+    def test_fail_draws_only_sound_meshes(self):
         words = ["-s", "8x8", "--bad-geometry", "fail", "-o"]
         for name, fault in (("equal", "2, has two equal corners"),
                             ("line", "1, has its corners on a line")):

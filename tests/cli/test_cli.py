@@ -252,7 +252,7 @@ class Compiled(Work):
         found = self.statistics(*SMALL, "a.pfm", "--kernel", "ray", **self.cache)
         self.expect(found, settings__specialized=True)
 
-    def test_small_pictures_are_drawn_by_what_is_compiled_sooner(self):
+    def test_small_pictures_use_the_kernels_that_compile_sooner(self):
         self.draws_by("ray, pair")
         expected = self.run_clrt(*SMALL, "b.pfm", "--kernel", "packet")
         self.assertEqual(expected.returncode, 0)

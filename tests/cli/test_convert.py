@@ -48,7 +48,7 @@ class Scenes(Convert):
             self.converts(scene, "out.scn", "-q")
             self.expect_same_pictures(scene, "out.scn", 1)
 
-    def test_a_scene_of_every_statement_does(self):
+    def test_a_scene_with_every_statement_gives_the_same_pictures(self):
         shutil.copy(ROOT / "scenes/cube.ply", self.work)
         self.write(
             a_scn="size 96 64\nbackground 0.1 0.2 0.3\nambient 0.07\nmax_level 5\n"
@@ -80,7 +80,7 @@ class Scenes(Convert):
         self.converts("a.ply", "b.ply")
         self.assert_same_bytes("a.ply", "b.ply")
 
-    def test_the_meshes_of_a_scene_become_one_where_they_are(self):
+    def test_the_meshes_of_a_scene_become_one_mesh_and_keep_their_places(self):
         self.write(a_ply=models.ply(POINTS, TRIANGLES),
                    a_scn="mesh a.ply scale 0.1\nmesh a.ply rotate 1 1 1 30\n")
         losses = "materials, lights and cameras are left out, because PLY cannot store them"
@@ -117,7 +117,7 @@ class Refusals(Convert):
         self.clrt("convert", "a.scn", "b.scn", code=3)
         self.assertEqual(sorted(file.name for file in self.work.iterdir()), ["a.scn"])
 
-    def test_bad_geometry_is_refused_where_that_is_asked_for(self):
+    def test_bad_geometry_is_refused_on_request(self):
         self.write(a_ply=models.ply([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)]))
         self.refuses(3, "a.ply: triangle 0, the first of 1, has its corners on a line",
                      "a.ply", "b.ply", "--bad-geometry", "fail")
@@ -136,7 +136,7 @@ class Models(Convert):
             self.expect_same_pictures(name, "out.ply", 2)
             self.expect_same_pictures(name, "out.scn", 2)
 
-    def test_materials_are_kept_in_scenes_and_told_to_be_lost_in_ply(self):
+    def test_scenes_keep_materials_and_their_loss_in_ply_is_reported(self):
         groups = [("usemtl red", 0), ("usemtl dull blue", 200)]
         self.write(a_obj=models.obj(models.coarse(POINTS), TRIANGLES, "mtllib a.mtl", groups),
                    a_mtl="newmtl red\nKd 0.7 0.1 0.3\nKs .3 .3 .3\nNs 33.3\nnewmtl dull blue\nKd 0 0 .7\n")

@@ -23,7 +23,7 @@ class Crashes(CacheWork):
     def crash(self, kind):
         return self.run_picture(LD_PRELOAD=CRASH_DEVICE, CLRT_CRASH=kind)
 
-    def test_a_driver_that_crashes_is_told(self):
+    def test_a_driver_that_crashes_is_reported(self):
         crashes = itertools.product(("abort", "segv", "bus", "ill"), ("", "-thread", "-two"))
         for kind, place in (*crashes, ("fpe", "")):
             name = "SIG" + kind.upper().replace("ABORT", "ABRT")
@@ -31,16 +31,16 @@ class Crashes(CacheWork):
         self.assertEqual(self.draw(), self.expected)
 
     @unittest.skipUnless(platform.machine() == "x86_64", "elsewhere every crash is a driver's")
-    def test_a_crash_of_its_own_is_told_and_ends_it_by_the_signal(self):
+    def test_a_crash_of_clrt_is_reported_and_ends_clrt_by_the_signal(self):
         told = "clrt: clrt itself crashed (SIGSEGV): please report it\n"
         self.assertEqual(self.crash("own"), (-signal.SIGSEGV, told, None))
 
-    def test_a_driver_that_ends_the_program_is_told(self):
+    def test_a_driver_that_ends_the_program_is_reported(self):
         for kind in ("exit", "exit-thread"):
             self.assert_told(self.crash(kind), "a driver ended the program")
         self.assertEqual(self.draw(), self.expected)
 
-    def test_a_limit_on_the_size_of_files_is_told(self):
+    def test_a_limit_on_the_size_of_files_is_reported(self):
         for blocks in (100, 400):
             shutil.rmtree(self.cache / "clrt")
             limit = ["sh", "-c", f'ulimit -f {blocks} && exec "$@"', "sh"]
@@ -49,7 +49,7 @@ class Crashes(CacheWork):
             self.assertEqual(talk.count("clrt: "), 1, talk)
             self.assertEqual(self.draw(), self.expected)
 
-    def test_kernels_damaged_while_they_run_are_told(self):
+    def test_kernels_damaged_while_they_run_are_reported(self):
         running = self.start_clrt(*PICTURE, "-s", "2000x2000", "--aa=4", "-o", "large.pfm")
         maps = pathlib.Path(f"/proc/{running.pid}/maps")
         self.wait_for(lambda: any(str(path) in maps.read_text() for path in self.kernels()))
@@ -67,7 +67,7 @@ class Crashes(CacheWork):
             running.send_signal(number)
             self.assertEqual(running.wait(), -number)
 
-    def test_small_stacks_do(self):
+    def test_small_stacks_suffice(self):
         small = ["sh", "-c", 'ulimit -s 64 && exec "$@"', "sh"]
         shutil.rmtree(self.cache / "clrt")
         self.assertEqual(self.draw(before=small), self.expected)

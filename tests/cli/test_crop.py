@@ -39,7 +39,7 @@ class Crop(Work):
     def test_every_crop_is_that_part_of_the_picture(self):
         self.expect_parts(CROPS)
 
-    def test_whatever_the_kernels_the_tiles_and_the_samples(self):
+    def test_crops_are_exact_with_all_kernels_tiles_and_samples(self):
         for words in (["--aa=3"], ["--kernel", "ray"], ["--kernel", "packet", "--tile", "7x9"],
                       ["--precision", "fp64"], ["--no-bvh", "-j", "1"], ["--view", "3"]):
             self.expect_parts([(13, 5, 50, 38)], *words)
@@ -69,7 +69,7 @@ class Crop(Work):
         self.assertTrue(part == part_of(whole, (13, 5, 50, 38)))
 
     @needs_exr
-    def test_channels_are_that_part_and_exr_tells_where(self):
+    def test_channels_are_cropped_and_exr_has_the_position(self):
         crop = (13, 5, 50, 38)
         channels = "depth,normal,position,primitive,material,shadow,bounces,samples,boxtests,certainty"
         words = [*WHOLE, "--aa", "--aov", channels, "--bvh", "sah"]
@@ -89,7 +89,7 @@ class Crop(Work):
         self.clrt(*WHOLE, "-o", "all.exr", "--crop", "0.0,0,1,1")
         self.assert_same_bytes("whole.exr", "all.exr")
 
-    def test_what_is_no_crop_is_refused_in_one_sentence(self):
+    def test_wrong_crops_are_refused_in_one_sentence(self):
         for crop in ("1,2,3", "1,2,3,4,5", "4,0,4,9", "0,9,9,3", "-1,0,9,9", "0,0,1.5,1", "a,0,9,9", ""):
             self.refuses(2, "--crop wants X0,Y0,X1,Y1, pixels from the upper left corner or parts of the sides "
                          f"from 0 to 1, not '{crop}'", *WHOLE, "-o", "a.pfm", "--crop", crop)
@@ -98,7 +98,7 @@ class Crop(Work):
         self.refuses(3, "no pixel of the picture of 61 x 43 is in the crop",
                      *WHOLE, "-o", "a.pfm", "--crop", "0.1,0,0.101,1")
 
-    def test_what_depends_on_the_pixels_around_is_refused(self):
+    def test_samples_that_depend_on_other_pixels_are_refused(self):
         for words in (["--aa-adaptive"], ["--error", "1%"], ["--time", "1"]):
             self.refuses(2, "--crop does not go with --aa-adaptive, --error and --time, which refine the picture "
                          "as a whole: give --aa", *WHOLE, "-o", "a.pfm", "--crop", "0,0,9,9", *words)

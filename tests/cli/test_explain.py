@@ -106,7 +106,7 @@ class Explain(SharedWork):
 
 
 class Pixels(Explain):
-    def test_the_text_is_what_the_documentation_shows(self):
+    def test_the_documentation_shows_the_text(self):
         done = self.run_clrt(*PIXEL)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn(f"```\n{done.stdout}```\n", (ROOT / "docs/explaining.md").read_text())
@@ -131,7 +131,7 @@ class Pixels(Explain):
         else:
             self.assertEqual(found, expected, place)
 
-    def test_pixels_are_those_worked_out_by_hand(self):
+    def test_pixels_agree_with_values_computed_by_hand(self):
         for text, pixel, rays, parts in BY_HAND:
             self.write(hand_scn=text if text.startswith(HEAD) else HEAD + text)
             found = self.report("hand.scn", "--explain-pixel", pixel, "--json")
@@ -187,7 +187,7 @@ class Scenes(Explain):
             self.assertEqual((part["needed"], part["compiled"], part["reason"]), expected, name)
         return found
 
-    def test_the_text_lists_what_is_compiled_left_out_and_uploaded(self):
+    def test_the_text_lists_compiled_and_omitted_features_and_uploads(self):
         told = self.clrt("ball.scn", "--explain", "--specialize", "always")
         left_out = told.split("\nleft out\n")[1].split("\nuploaded")[0]
         self.assertEqual(left_out.count("\n  ") + 1, 4, told)
@@ -196,7 +196,7 @@ class Scenes(Explain):
         for part in "  spheres     1 of them", "  spheres     48 bytes", " nodes triangles looks normals":
             self.assertIn(part, told)
 
-    def test_special_kernels_have_what_the_scene_has(self):
+    def test_special_kernels_have_only_the_features_of_the_scene(self):
         found = self.expect_parts(["ball.scn", "--specialize", "always"],
                                   spheres=(True, True, "1 of them"), triangles=(False, False, "there are none"),
                                   mirrors=(False, False, "no material in use reflects: no reflected rays"))

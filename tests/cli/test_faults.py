@@ -41,7 +41,7 @@ class Faults(Work):
 
 @unittest.skipUnless(has_private_disks(), "disks cannot be mounted here")
 class Disks(Faults):
-    def test_a_full_disk_is_told_and_keeps_no_part_of_the_picture(self):
+    def test_a_full_disk_is_reported_and_keeps_no_part_of_the_picture(self):
         for format in FORMATS:
             run = self.clrt_on_disk((DISK_SIZE, "rw"), *LARGE, "-o", f"target/a.{format}")
             self.assert_fails(run, 5, f"target/a.{format}: cannot be written: ")
@@ -58,13 +58,13 @@ class Disks(Faults):
         self.assert_fails(run, 5, "target/a.json: cannot be written: No space left on device")
         self.assertEqual(run.stdout, "old\n")
 
-    def test_a_disk_for_reading_alone_is_told_before_any_work(self):
+    def test_a_read_only_disk_is_reported_before_any_work(self):
         run = self.clrt_on_disk((DISK_SIZE, "ro"), "nowhere.scn", "-o", "target/a.png")
         self.assert_fails(run, 5, "target/a.png: cannot be written: Read-only file system")
 
 
 class Outputs(Faults):
-    def test_a_file_past_the_limit_of_its_size_is_told_and_removed(self):
+    def test_a_file_above_the_size_limit_is_reported_and_removed(self):
         # PoCL writes preprocessed kernels of slightly more than 1 MiB in each run.
         limit = ["prlimit", f"--fsize={5 << 18}"]
         large = [*LARGE, "-s", "800x600"]
@@ -123,12 +123,12 @@ class Device(Faults):
             self.assertEqual(os.listdir(self.target), [], call)
         return None
 
-    def test_a_device_without_memory_left_is_told_wherever_it_is_asked_for_some(self):
+    def test_every_failed_allocation_on_the_device_is_reported(self):
         sentence = r"cannot (allocate|upload) [\w' ]+: CL_MEM_OBJECT_ALLOCATION_FAILURE \(-4\)$"
         count = self.count_failures("clCreateBuffer", sentence, *self.TILES, "-o", "target/a.pfm")
         self.assertGreater(count, 5)
 
-    def test_a_device_that_is_lost_at_any_tile_is_told_and_leaves_no_picture(self):
+    def test_a_device_lost_at_any_tile_is_reported_and_leaves_no_picture(self):
         for name, sentence in (
             ("clEnqueueNDRangeKernel", r"cannot run the kernel: CL_OUT_OF_RESOURCES \(-5\)$"),
             ("clWaitForEvents", r"cannot trace a tile: CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST"),
@@ -137,7 +137,7 @@ class Device(Faults):
             self.assertGreaterEqual(count, 12)
             os.remove(self.target / "a.pfm")
 
-    def test_what_was_drawn_before_it_was_lost_is_gone_on_with(self):
+    def test_tiles_drawn_before_a_device_is_lost_are_kept_for_resuming(self):
         words = [*self.TILES, "-o", "a.pfm", "--resume"]
         self.clrt(*self.TILES, "-o", "whole.pfm")
         self.assert_fails(self.fail("clWaitForEvents", 9, *words), 4, "cannot trace a tile: ")
@@ -161,7 +161,7 @@ class Memory(Faults):
             failures += 1
             first += 1 + first // 6
 
-    def test_memory_that_runs_out_is_told_wherever_it_does(self):
+    def test_every_failed_allocation_is_reported(self):
         (self.work / "mesh.scn").write_text(
             f"ply_file {ROOT}/scenes/cone.ply\nlight 4 4 4 1\nmaterial 3\nsphere 0 0 0 1\n"
         )

@@ -124,7 +124,7 @@ class Channels(SharedWork):
         for name in "N.X N.Y N.Z P.X P.Y P.Z shadow bounces".split():
             self.assertEqual(first[name], 0, name)
 
-    def test_they_are_those_of_one_sample_whatever_aa(self):
+    def test_channels_are_of_one_sample_with_any_aa(self):
         single = self.draw("--aov", "depth,primitive,normal")
         self.assertTrue(all(single[name] == self.all[name] for name in ("Z", "primitive", "N.X")))
 

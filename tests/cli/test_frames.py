@@ -53,7 +53,7 @@ class Frames(Work):
         self.clrt(*SMALL, "--view", "3", "-o", "one.png")
         self.assert_same_bytes("a.0001.png", "one.png")
 
-    def test_named_frames_of_a_turntable_are_those_of_the_whole_turn(self):
+    def test_selected_frames_of_a_turntable_equal_the_whole_turns_frames(self):
         hashes = self.clrt(*SMALL, "--turntable", "6", "-o", "all.pfm", "--hash").split()
         self.assertEqual(len(set(hashes)), 6)
         some = self.clrt(*SMALL, "--turntable", "6", "--frames", "2-6:3", "-o", "some.pfm", "--hash").split()
@@ -92,7 +92,7 @@ class Frames(Work):
         self.assertEqual(process.returncode, 130, told)
         self.assertEqual(self.bytes_of("a.gif")[:6], b"GIF89a")
 
-    def test_metadata_tell_the_turn(self):
+    def test_metadata_have_the_angle_of_the_turn(self):
         self.clrt(*SMALL, "--turntable", "8", "--frames", "2-3", "-o", "a.png")
         data = self.bytes_of("a.0003.png")
         self.assertIn(b'"turned":90.0,"view":1', data)
@@ -168,7 +168,7 @@ class Frames(Work):
         self.refuses(2, "--frames and --turntable draw many pictures, and --resume wants a file for each: give "
                      "another format", *SMALL, "--turntable", "3", "-o", "a.gif", "--resume")
 
-    def test_what_is_of_one_picture_is_refused(self):
+    def test_options_for_one_picture_are_refused(self):
         many = "--frames and --turntable draw many pictures, and "
         for words, sentence in (
             (["-o", "-"], many + "standard output takes one: give -o FILE"),
@@ -180,7 +180,7 @@ class Frames(Work):
             self.refuses(2, sentence, *SMALL, "--frames", "1-2", *words)
         self.refuses(3, f"{SCENE} has 6 viewpoints, so there is no view 7", *SMALL, "--frames", "5-7", "-o", "a.pfm")
 
-    def test_what_is_no_range_is_refused(self):
+    def test_wrong_ranges_are_refused(self):
         for value in ("3", "0-2", "3-2", "1-2:0", "1-2:", "a-2", "1-2-3", "-2", "1-", "0/2", "3/2", "1/0", "1/", "/2",
                       "auto", "auto/", "auto/0", "1-2,", ",1/2", "1-2,3", "1/2,1-2", "1-2,1/2,1/2", "1-2,autos/2"):
             self.refuses(2, "--frames wants A-B or A-B:S, from 1 to 1000000, or I/N, auto/N, A-B,I/N or A-B,auto/N, "

@@ -50,12 +50,12 @@ class Formats(Work):
                    a_glb=models.glb(POINTS, TRIANGLES))
         self.expect_pictures_of_ply("a.stl", "a.glb")
 
-    def test_formats_in_decimals_give_it_where_those_are_short(self):
+    def test_formats_in_decimals_give_the_picture_of_ply_if_decimals_are_short(self):
         self.write(a_ply=models.ply(COARSE, TRIANGLES), a_obj=models.obj(COARSE, TRIANGLES),
                    a_OFF=models.off(COARSE, TRIANGLES))
         self.expect_pictures_of_ply("a.obj", "a.OFF")
 
-    def test_normals_are_those_of_the_file(self):
+    def test_normals_come_from_the_file(self):
         normals = models.normals_of(POINTS)
         self.write(a_ply=models.ply(POINTS, TRIANGLES, normals), a_glb=models.glb(POINTS, TRIANGLES, normals),
                    flat_glb=models.glb(POINTS, TRIANGLES))
@@ -118,12 +118,12 @@ class Formats(Work):
                    a_scn=CAMERA + "material 2\nmesh a.glb\n", b_scn=CAMERA + "material 2\nmesh a.ply\n")
         self.expect_same("a.scn", "b.scn")
 
-    def test_lines_and_points_are_left_out_and_told(self):
+    def test_lines_and_points_are_left_out_and_reported(self):
         self.write(a_obj=models.obj(COARSE, TRIANGLES) + b"l 1 2\np 3\n")
         self.picture("a.obj", says="clrt: a.obj: 2 lines and points are left out\n")
         self.assertIn("2 lines and points", self.run_clrt("check", "a.obj").stderr)
 
-    def test_colors_per_vertex_are_left_out_and_told(self):
+    def test_colors_per_vertex_are_left_out_and_reported(self):
         self.write(a_obj=b"v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 0 1 0 0 1\nf 1 2 3\n")
         self.picture("a.obj", says="clrt: a.obj: its colors per vertex are left out\n")
 
@@ -131,11 +131,11 @@ class Formats(Work):
         self.write(a_obj=COLORED, a_scn="ply_file a.obj\n")
         self.fails("a.obj:1: the file does not begin with 'ply'", "a.scn")
 
-    def test_check_reads_them(self):
+    def test_check_reads_models(self):
         self.write(a_stl=models.stl(POINTS, TRIANGLES))
         self.assertRegex(self.clrt("check", "a.stl"), rf"a\.stl: {len(TRIANGLES)} triangles, .*, closed\n")
 
-    def test_warm_and_statistics_read_them(self):
+    def test_warm_and_statistics_read_models(self):
         self.write(a_stl=models.stl(POINTS, TRIANGLES))
         self.clrt("--warm", "a.stl")
         self.picture("a.stl", "-q", "--stats=stats.json")
@@ -167,10 +167,10 @@ class Exported(Work):
         mesh = models.ply(POINTS, TRIANGLES, models.axes_of(POINTS))
         self.expect_same_picture(mesh, {"glb2": "glb", "gltf2": "gltf", "assbin": "assbin"})
 
-    def test_so_does_what_has_no_normals(self):
+    def test_formats_without_normals_give_the_picture_of_ply(self):
         self.expect_same_picture(models.ply(POINTS, TRIANGLES), {"stlb": "stl"})
 
-    def test_formats_in_decimals_do_where_those_are_short(self):
+    def test_decimal_formats_give_the_picture_of_ply_if_decimals_are_short(self):
         mesh = models.ply(COARSE, TRIANGLES, models.axes_of(POINTS))
         self.expect_same_picture(mesh, {"obj": "obj", "collada": "dae", "fbxa": "fbx"})
 
@@ -183,28 +183,28 @@ class Materials(Work):
                    shiny_ply=models.ply(COARSE, TRIANGLES[HALF:]), whole_ply=models.ply(COARSE, TRIANGLES),
                    own_scn=CAMERA + "mesh colors.obj\n")
 
-    def test_those_of_the_file_are_used_before_a_material_is_selected(self):
+    def test_the_files_materials_are_used_until_a_material_is_selected(self):
         self.write(defined_scn=CAMERA + DEFINES + "material red\nmesh red.ply\nmaterial shiny\nmesh shiny.ply\n")
         self.expect_same("own.scn", "defined.scn")
 
-    def test_a_selected_material_takes_their_place(self):
+    def test_a_selected_material_replaces_the_files_materials(self):
         self.write(a_scn=CAMERA + "material 2\nmesh colors.obj\n", b_scn=CAMERA + "material 2\nmesh whole.ply\n")
         self.expect_same("a.scn", "b.scn")
 
-    def test_material_own_brings_them_back(self):
+    def test_material_own_selects_the_files_materials_again(self):
         self.write(a_scn=CAMERA + "material 2\nmaterial own\nmesh colors.obj\n")
         self.expect_same("a.scn", "own.scn")
 
-    def test_a_model_alone_has_them(self):
+    def test_a_model_without_a_scene_has_its_materials(self):
         self.write(plain_obj=models.obj(COARSE, TRIANGLES))
         self.expect_same("plain.obj", "whole.ply", "--up", "z")
         self.assertFalse(self.picture("colors.obj") == self.picture("plain.obj"))
 
-    def test_pixels_tell_the_materials_name_and_the_triangles_number(self):
+    def test_explanations_name_the_material_and_the_triangle(self):
         text = self.run_clrt("own.scn", "--explain-pixel", "48,32", "--view", "1").stdout
         self.assertRegex(text, r"triangle \d+ of colors.obj, material colors.obj:(red|shiny)")
 
-    def test_a_library_that_is_not_there_is_told(self):
+    def test_a_missing_library_is_reported(self):
         (self.work / "colors.mtl").unlink()
         self.picture("colors.obj", says="clrt: colors.obj: its materials, colors.mtl, cannot be opened\n")
 
@@ -261,7 +261,7 @@ class Hostile(Work):
             self.assertRegex(self.clrt(name, "-o", "a.pfm", code=3), rf"^clrt: {name}: .*\n$")
             self.assertLess(time.monotonic() - start, 20)
 
-    def test_what_ends_early_or_is_noise_is_one_sentence(self):
+    def test_truncated_files_and_noise_are_one_sentence(self):
         whole = models.glb(POINTS, TRIANGLES)
         self.write(a_glb=whole[: len(whole) // 2], a_stl="noise", a_obj="", a_fbx=bytes(range(256)))
         for name in ("a.glb", "a.stl", "a.obj", "a.fbx"):
@@ -329,7 +329,7 @@ class Hostile(Work):
         self.fails("a.obj: there are no triangles in it", "a.obj")
         self.fails("a.3mf: there are no triangles in it", "a.3mf")
 
-    def test_a_face_that_names_a_vertex_that_is_not_there_is_told(self):
+    def test_a_face_with_a_missing_vertex_is_reported(self):
         for corner in (3, 2**32 - 1):
             self.write(a_3mf=models.three_mf(models.THREE_MF_TRIANGLE % corner))
             self.fails("a.3mf: one of its faces refers to a missing vertex", "a.3mf")

@@ -50,7 +50,7 @@ TEST(settings_that_cost_or_buy_speed_are_classed)
 }
 
 // The help of options of class bounded must contain the bound.
-TEST(bounded_settings_tell_their_bound)
+TEST(bounded_settings_name_their_bound)
 {
     for (size_t i = 0; i < option_count; i++)
         if (option_table[i].class == CLASS_BOUNDED)

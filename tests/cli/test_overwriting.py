@@ -90,7 +90,7 @@ class Pictures(Overwriting):
         os.link(self.work / "a.ply", self.work / "b.pfm.part")
         self.refuses_files("the journal b.pfm.part", "the scene's file a.ply", "a.scn", "-o", "b.pfm", "--resume")
 
-    def test_standard_streams_count_where_they_are_files(self):
+    def test_standard_streams_that_are_files_count(self):
         with open(self.work / "a.scn") as scene:
             self.refuses_files("-o a.scn", "the scene -", "-", "-o", "a.scn", "--format", "pfm", stdin=scene)
         for name in "-", "/dev/stdout":
@@ -110,7 +110,7 @@ class Pictures(Overwriting):
         self.refuses(5, "no/a.pfm: cannot be written: No such file or directory",
                      "a.scn", "-o", "no/a.pfm", "--stats=none/a.pfm")
 
-    def test_a_mesh_that_is_not_there_is_told_first(self):
+    def test_a_missing_scene_is_reported_before_a_clash(self):
         self.refuses(3, "none.scn: cannot be opened: No such file or directory",
                      "none.scn", "-o", "none.scn", "--format", "pfm")
 

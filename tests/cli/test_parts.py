@@ -83,7 +83,7 @@ class Parts(SharedWork):
         sizes = [(self.work / name).stat().st_size for name in ("part.exr", "whole.exr")]
         self.assertLess(sizes[0], sizes[1] / 8)
 
-    def test_more_parts_than_tiles_do_too(self):
+    def test_more_parts_than_tiles_make_the_whole(self):
         words = [SCENE, "-s", "20x9", "--tile", "16x8"]
         self.expect_whole(self.draw("many", *words, of=5), *words)
 
@@ -94,7 +94,7 @@ class Parts(SharedWork):
                           **{"SLURM_ARRAY_TASK_ID": None, variable: str(part + first)})
                 self.assert_same_bytes("auto.exr", self.thirds[part])
 
-    def test_with_channels_crops_samples_and_fp64(self):
+    def test_parts_may_have_channels_crops_samples_and_fp64(self):
         for more in ([*CHANNELS, "--aa"], ["--crop", "5,3,50,40", "--precision", "fp64"], ["--aov", "certainty"]):
             self.expect_whole(self.draw("more", *SMALL, *more, of=2), *SMALL, *more)
 
@@ -141,14 +141,14 @@ class Parts(SharedWork):
             self.clrt("merge", *names, "-o", f"merged_{name}")
             self.assert_same_bytes(f"whole_{name}", f"merged_{name}")
 
-    def test_merge_tells_and_expects_the_hash_of_the_whole(self):
+    def test_merge_prints_and_expects_the_hash_of_the_whole(self):
         right = self.clrt(*SMALL, "-o", "a.pfm", "--hash")
         self.assertEqual(self.clrt("merge", *self.thirds, "-o", "b.pfm", "--hash"), right)
         self.assert_same_bytes("a.pfm", "b.pfm")
         self.clrt("merge", *self.thirds, "-o", "b.pfm", "--expect-hash", right.strip())
         self.clrt("merge", *self.thirds, "-o", "b.pfm", "--expect-hash", 32 * "0", code=1)
 
-    def test_merge_leaves_metadata_out_where_it_is_told_to(self):
+    def test_merge_leaves_out_metadata_on_request(self):
         self.clrt("merge", *self.thirds, "-o", "a.exr", "--no-metadata")
         self.assertFalse([n for n in read_header(self.bytes_of("a.exr"))[0] if n.startswith("clrt:")])
 
@@ -187,7 +187,7 @@ class Parts(SharedWork):
                            "no.exr", self.thirds[1])
         self.refuses_parts(f"{one}: is part 1 of 3, as is {one}", one, one)
 
-    def test_what_is_no_part_is_refused(self):
+    def test_files_that_are_no_parts_are_refused(self):
         self.clrt(*SMALL, "-o", "bare.exr", "--no-metadata")
         self.write(text_exr="no picture")
         self.refuses_parts("small.exr: is not a part drawn with --part", "small.exr")
@@ -231,7 +231,7 @@ class Parts(SharedWork):
         self.refuses(2, "the parts have channels, which png does not hold: give -o FILE.exr",
                      "merge", *names, "-o", "m.png")
 
-    def test_what_no_part_can_have_is_refused(self):
+    def test_options_that_exclude_parts_are_refused(self):
         for value in "0/3", "4/3", "1", "1/0", "a/3", "1/65537", "auto", "auto/0", "auto/65537", "auto3":
             self.refuses(2, f"--part wants I/N or auto/N, I from 1 to N and N up to 65536, not '{value}'",
                          *SMALL, "-o", "a.exr", "--part", value)

@@ -24,7 +24,7 @@ def rows():
 
 
 class Table(unittest.TestCase):
-    def test_every_row_says_what_who_and_whether(self):
+    def test_every_row_has_a_feature_peers_and_an_answer(self):
         self.assertGreater(len(rows()), 60)
         for row in rows():
             self.assertEqual(len(row), 4, row)

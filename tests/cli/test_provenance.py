@@ -58,7 +58,7 @@ class Provenance(Work):
         self.assertIn(texts["clrt:version"], texts["Software"])
 
     @needs_exr
-    def test_exr_tells_the_same_as_png(self):
+    def test_exr_has_the_metadata_of_png(self):
         self.clrt(*SMALL, "-o", "a.exr", "--precision", "fp64")
         texts, expected = exr_texts(self.bytes_of("a.exr")), self.draw(*SMALL, "--precision", "fp64")
         # EXR files have no pixel hash, because clrt merge copies compressed tiles without decoding
@@ -67,7 +67,7 @@ class Provenance(Work):
         self.assertEqual({name: texts[name] for name in NAMES if name in texts}, expected)
         self.assertNotIn("capDate", texts)
 
-    def test_the_description_of_tiff_and_jpeg_tells_the_same_as_png(self):
+    def test_the_description_of_tiff_and_jpeg_has_the_metadata_of_png(self):
         expected = self.draw(*SMALL, "--aa=3")
         for ending, description in DESCRIPTIONS.items():
             name = f"a.{ending}"
@@ -84,7 +84,7 @@ class Provenance(Work):
         settings = json.loads(self.draw(*SMALL, "--aa-adaptive=0.1")["clrt:settings"])
         self.assertEqual((settings["samples"], settings["contrast"]), ("adaptive", 0.1))
 
-    def test_what_changes_no_bit_changes_no_byte_of_the_file(self):
+    def test_options_that_change_no_bit_change_no_byte_of_the_file(self):
         first = self.draw()
         for words in (["--tile", "5x7"], ["-j", "1"], ["--bvh", "midpoint"], ["--kernel", "ray"]):
             self.assertEqual(self.draw(*SMALL, *words, name="b.png"), first)
@@ -117,7 +117,7 @@ class Provenance(Work):
             self.refuses(2, f"SOURCE_DATE_EPOCH must be seconds since 1970, not '{wrong}'",
                          *SMALL, "-o", "b.png", SOURCE_DATE_EPOCH=wrong)
 
-    def test_without_metadata_nothing_of_it_is_told(self):
+    def test_no_metadata_leaves_out_all_metadata(self):
         environment = {"SOURCE_DATE_EPOCH": "0"}
         self.assertEqual(self.draw(*SMALL, "--no-metadata", **environment), {})
         for ending in ["exr", *DESCRIPTIONS] if HAS_EXR else []:

@@ -85,7 +85,7 @@ class Reference(SharedWork):
         found = self.compare("one-reference.pfm", "fine.pfm")["rmse"]
         self.assertTrue(0.6 < found / self.one["own_error"] < 1.6, (found, self.one["own_error"]))
 
-    def test_it_has_the_rounding_of_fp64_although_most_of_its_samples_are_in_fp32(self):
+    def test_a_reference_has_the_rounding_of_fp64_although_most_samples_are_in_fp32(self):
         self.write(flat_scn=FLAT, wall_ply=WALL)
         for precision in "fp32", "fp64":
             self.clrt("flat.scn", "-q", "-s", "16x16", "-o", f"{precision}.pfm", "--precision", precision,

@@ -54,7 +54,7 @@ class Resume(Work):
 
 
 class Kills(Resume):
-    def test_killed_at_random_moments_it_ends_as_if_it_never_was(self):
+    def test_a_run_killed_at_random_moments_ends_with_the_same_file(self):
         begin = time.monotonic()
         whole = self.whole(*LONG)
         seconds, chance = time.monotonic() - begin, random.Random(1)
@@ -78,7 +78,7 @@ class Kills(Resume):
         self.assertFalse(self.journal.exists())
         self.assertGreater(midway, 0)
 
-    def test_what_was_done_is_not_done_again(self):
+    def test_finished_tiles_are_not_drawn_again(self):
         whole = self.whole(*LONG)
         self.stop(*LONG, number=signal.SIGKILL)
         self.assertGreaterEqual(self.resumed_tiles(*LONG), 40)
@@ -105,7 +105,7 @@ class Kills(Resume):
             (self.work / NAME).unlink()
 
     @needs_exr
-    def test_with_channels_parts_and_crops_too(self):
+    def test_runs_with_channels_parts_and_crops_resume(self):
         for more in (["--aov", "depth,primitive,certainty"], ["--part", "2/3"],
                      ["--crop", "30,20,390,290"], ["--precision", "fp64"]):
             more += ["--aa=4"]
@@ -115,7 +115,7 @@ class Kills(Resume):
             self.assertTrue(self.bytes_of(NAME) == whole, more)
             (self.work / NAME).unlink()
 
-    def test_statistics_count_what_this_run_draws(self):
+    def test_statistics_count_only_the_tiles_of_this_run(self):
         whole = self.statistics(*LONG, "-o", f"whole-{NAME}")
         self.assertEqual(whole["tiles"], {"total": TILES, "found": 0, "drawn": TILES})
         self.stop(*LONG, number=signal.SIGKILL)
@@ -127,14 +127,14 @@ class Kills(Resume):
         samples = drawn * TILE * TILE * 64
         self.expect(rest, rays__camera=samples, samples__total=samples, samples__per_pixel=64)
 
-    def test_statistics_as_text_say_what_they_leave_out(self):
+    def test_statistics_as_text_say_that_found_tiles_do_not_count(self):
         self.clrt(*SMALL, "-o", NAME)
         talk = self.run_clrt(*SMALL, "-o", NAME, "--resume", "--stats").stderr.splitlines()
         found = 24 if HAS_EXR else 0
         self.assertEqual(talk[0], f"{found} of 24 tiles were finished before: time and counts cover the others")
         self.assertIn(f"{0 if HAS_EXR else 2623} samples, ", talk[2])
 
-    def test_any_format_goes_on(self):
+    def test_any_format_resumes(self):
         for name in "b.png", "b.pfm":
             self.clrt(*LONG, "-o", f"whole-{name}")
             process = self.start(*LONG, "-o", name, "--resume")
@@ -209,7 +209,7 @@ class Stops(Resume):
             (self.work / NAME).unlink()
 
     @needs_exr
-    def test_a_stopped_exr_is_gone_on_with_where_there_is_no_journal(self):
+    def test_a_stopped_exr_is_resumed_without_a_journal(self):
         for more in [], ["--part", "1/2"], ["--crop", "30,20,390,290"], ["--aov", "depth,samples"]:
             whole = self.whole(*LONG, *more)
             self.stop(*LONG, *more)
@@ -245,7 +245,7 @@ class Stops(Resume):
 
 
 class Refusals(Resume):
-    def test_what_was_drawn_otherwise_is_refused_and_left_as_it_is(self):
+    def test_journals_of_other_settings_are_refused_and_kept(self):
         self.stop(*LONG, number=signal.SIGKILL)
         journal = self.journal.read_bytes()
         (self.work / "own.scn").write_text("light 0 0 5 1\nsphere 0 0 0 1\n")
@@ -284,7 +284,7 @@ class Refusals(Resume):
                          (5, f"clrt: {NAME}.part: cannot be written: File too large\n"))
         self.assertFalse((self.work / NAME).exists())
 
-    def test_what_cannot_be_gone_on_with_is_refused(self):
+    def test_outputs_that_cannot_be_resumed_are_refused(self):
         for words, sentence in (
             (["-o", "-"], "--resume needs a file: give -o FILE"),
             (["-o", "a.pfm", "--aa-adaptive"],

@@ -47,7 +47,7 @@ class Shares(Work):
             self.assertEqual(sum(drawn, []), self.frames(*whole), words)
             self.assertLessEqual(max(map(len, drawn)) - min(map(len, drawn)), 1)
 
-    def test_what_is_no_number_of_a_task_is_refused(self):
+    def test_wrong_task_numbers_are_refused(self):
         for option, words in ("part", ["-o", "a.exr"]), ("frames", ["--turntable", "9", "-o", "a.pfm"]):
             for name, wrong, numbers in (("SLURM_ARRAY_TASK_ID", ["0", "9", "", "x", "-1"], "1 to 8"),
                                          *((name, ["8", "-1", "1.5", "99999999999999999999"], "0 to 7")

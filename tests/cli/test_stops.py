@@ -107,14 +107,14 @@ class Stops(Work):
             self.assertIn(process.returncode, (128 + signal.SIGINT, -signal.SIGINT))
             self.assertEqual(os.listdir(self.work / "out"), [])
 
-    def test_a_terminals_signal_to_all_processes_is_told_once(self):
+    def test_a_terminals_signal_to_all_processes_is_reported_once(self):
         for moment in 0, 0.05, 1:
             process = self.start_picture(*LONG, cold=moment < 1, start_new_session=True)
             time.sleep(moment)
             os.killpg(process.pid, signal.SIGINT)
             self.expect_stopped(process, signal.SIGINT)
 
-    def test_between_the_pictures_of_a_turntable_it_tells_how_many_there_are(self):
+    def test_a_signal_between_pictures_reports_how_many_are_drawn(self):
         words = [SCENE, "-s", "8x8", "--turntable", "100000"]
         process = self.start_picture(*words, cold=False)
         out = self.work / "out"

@@ -77,7 +77,7 @@ class StandardInput(Talk):
             self.assertIn(done.returncode, (0, 1), done.stderr)
         self.assertTrue(self.bytes_of("b.ply").startswith(b"ply"))
 
-    def test_its_faults_are_told_by_name_and_line(self):
+    def test_faults_on_standard_input_are_reported_with_their_line(self):
         done = self.run_clrt("-", "-o", "a.pfm", content="light 0 0 5 1\nspheer 0 0 0 1\n")
         fault = "clrt: standard input:2:1: unknown statement (did you mean 'sphere'?): found 'spheer'\n"
         self.assertEqual((done.returncode, done.stderr), (3, fault))
@@ -155,7 +155,7 @@ class Stopped(Talk):
         self.assertNotIn(b"\x1b", text)
         self.assertRegex(text, rb"^tracing \d+ %, \d+ s left\r\n")
 
-    def test_a_signal_is_exit_128_and_it_and_leaves_what_is_done(self):
+    def test_a_signal_exits_with_128_plus_its_number_and_keeps_finished_tiles(self):
         for number in signal.SIGINT, signal.SIGTERM:
             process = self.start(*LONG, "-o", "a.pfm", "--stats=a.json")
             self.assertIn("tracing", process.stderr.readline())

@@ -57,7 +57,7 @@ class Combinations(Work):
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
     @unittest.skipUnless(HAS_WINDOW, "this build has no window")
-    def test_what_is_for_files_is_refused_without_one_whatever_its_value(self):
+    def test_options_for_files_are_refused_without_a_file(self):
         for words in (
             ["--tile", "64x64"], ["--tile", "128x128"], ["--repeat", "2"], ["--repeat", "1"],
             ["--bad-geometry", "fail"], ["--bad-geometry", "drop"], ["--aa-adaptive"], ["--error", "1%"],
@@ -70,7 +70,7 @@ class Combinations(Work):
         self.refuses("--stats=FILE is for files: give one with -o FILE", SCENE, "--stats=a.json")
         self.refuses("--max-level auto is for files: give one with -o FILE", SCENE, "--max-level", "auto")
 
-    def test_what_excludes_each_other_does_so_whatever_its_value(self):
+    def test_options_that_exclude_each_other_do_so_with_any_value(self):
         ways = "--aa, --aa-adaptive, --error and --time each choose the samples: give one"
         for aa in "--aa=2", "--aa=1":
             self.refuses(ways, *PICTURE, aa, "--aa-adaptive")
@@ -82,7 +82,7 @@ class Combinations(Work):
             sentence = "--frames names the views: leave out --view"
             self.refuses(sentence, *PICTURE, "--frames", "1-2", "--view", view)
 
-    def test_a_precision_that_is_asked_for_is_kept(self):
+    def test_a_requested_precision_is_kept(self):
         self.write(a_scn="sphere 0 0 0 1\n")
         for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"):
             self.run_clrt("a.scn", "-s", "4x4", "-o", "a.pfm", "--stats=a.json", "--error", "0.015%", *words)
@@ -104,17 +104,17 @@ class Notes(Work):
             expected = f"clrt: {note}\n" if note and not quiet else ""
             self.assertEqual((done.stderr, done.returncode), (expected, 0), words)
 
-    def test_a_blank_picture_is_told(self):
+    def test_a_blank_picture_is_noted(self):
         self.write(a_scn="", b_scn="light 1 1 1 1\n", a_ply="", b_ply=NO_MESH, c_scn="mesh b.ply\n")
         for name in "a.scn", "b.scn", "a.ply", "b.ply", "c.scn":
             self.draws(f"{name}: {BLANK}", name)
 
-    def test_surfaces_without_lights_are_told(self):
+    def test_surfaces_without_lights_are_noted(self):
         self.write(a_scn="material 1\nsphere 0 0 0 1\n", b_scn=f"material 2\nmesh {SCENES}/cube.ply\n")
         for name in "a.scn", "b.scn":
             self.draws(f"{name}: {DARK}", name)
 
-    def test_what_needs_no_light_is_drawn_in_silence(self):
+    def test_scenes_that_need_no_light_have_no_note(self):
         self.write(
             a_scn="sphere 0 0 0 1\n",  # default material: a silhouette
             b_scn="define all matte reflectivity 1\nmaterial all\nsphere 0 0 0 1\n",
@@ -135,14 +135,14 @@ class Notes(Work):
         text = self.clrt("check", SCENE)
         self.assertFalse([note for note in (BLANK, DARK) if note in text])
 
-    def test_large_errors_are_told_in_percent(self):
+    def test_large_errors_are_noted_in_percent(self):
         self.draws("--error allows an error of 50 %; for 0.5 %, write 0.5%", SCENE, "--error", "0.5")
         self.draws("--error allows an error of 20 %; for 0.2 %, write 0.2%", SCENE, "--error", "20%")
         self.draws("", SCENE, "--error", "10%")
         self.draws("", SCENE, "--error", "0.1")
 
     @unittest.skipUnless(HAS_WINDOW, "this build has no window")
-    def test_a_missing_scene_is_told_before_a_missing_display(self):
+    def test_a_missing_scene_is_reported_before_a_missing_display(self):
         for name, reason in (("typo.scn", "cannot be opened: No such file or directory"),
                              (".", "cannot be read: it is not a file")):
             self.refuses(3, f"{name}: {reason}", name, WAYLAND_DISPLAY=None, DISPLAY=":12345")

@@ -132,7 +132,7 @@ class Tool(unittest.TestCase):
             self.run_program(CLRT, "merge", *sorted(folder.glob("part*.exr")), "-o", "merged.exr")
             self.assertEqual(self.bytes_of("merged.exr"), self.bytes_of("whole.exr"))
 
-    def test_what_is_wrong_is_refused(self):
+    def test_wrong_arguments_are_refused(self):
         for words, sentence in (([], "--parts wants the number of parts"), (["--parts", "0"], "--parts wants"),
                                 (["--frames", "3-2"], "--frames wants A-B or A-B:S, within the turntable"),
                                 (["--turntable", "5", "--frames", "1-6"], "--frames wants"),

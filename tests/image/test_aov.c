@@ -205,7 +205,7 @@ static void check_sums(const char *channels, uint32_t samples, int kind)
     assert_true(sum_of(&layers, 2) == (double)tallies[TALLY_TRIANGLE_TESTS]);
 }
 
-TEST(tests_and_bounces_of_pixels_add_up_to_those_of_the_picture)
+TEST(tests_and_bounces_of_pixels_add_up_to_the_pictures_counts)
 {
     check_sums("bounces,boxtests,tritests", 1, TALLY_REFLECTED_RAYS);
     check_sums("samples,boxtests,tritests", 3, TALLY_CAMERA_RAYS);

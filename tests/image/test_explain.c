@@ -99,20 +99,20 @@ static void check_scene(const char *path, uint32_t samples)
     }
 }
 
-TEST(what_is_told_of_a_pixel_makes_the_bits_of_its_color_in_every_form)
+TEST(explanations_give_the_bits_of_pixels_in_every_form)
 {
     check_scene(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
     check_scene(SOURCE_SCENE("scenes/silhouette.scn"), 1);
     check_scene(SOURCE_SCENE("tests/image/mirrors.scn"), 1);
 }
 
-TEST(the_same_of_several_samples)
+TEST(explanations_of_several_samples_give_the_bits_of_pixels)
 {
     check_scene(SOURCE_SCENE("scenes/reflections.scn"), 3);
     check_scene(SOURCE_SCENE("tests/image/far_away.scn"), 2);
 }
 
-TEST(the_same_of_a_large_mesh)
+TEST(explanations_of_a_large_mesh_give_the_bits_of_pixels)
 {
     if (!models_are_made())
         return;
@@ -178,7 +178,7 @@ static void check_bounds_of(const char *path, const KernelChoice *choice)
     assert_true(bounds.largest <= 1 && bounds.largest > 1e-3);
 }
 
-TEST(distances_are_off_by_less_than_is_told)
+TEST(distances_are_within_their_reported_error_bounds)
 {
     check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &form_all[0]);
     check_bounds_of(SOURCE_SCENE("tests/image/every_feature.scn"), &form_all[2]);

@@ -30,7 +30,7 @@ TEST(every_form_threads_and_tree_refine_the_same)
 
 // clrt refines 24 random pixels of each of the first twelve strata, or all if there are fewer, to
 // check that the pixels' centers are representative.
-TEST(all_but_some_controls_keep_their_center_where_any_error_will_do)
+TEST(with_a_goal_of_any_error_only_controls_are_refined)
 {
     uint64_t samples;
     PictureRequest request = request_for(SCENES "reflections.scn", 1);

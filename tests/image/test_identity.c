@@ -117,7 +117,7 @@ static void expect_extreme_specials_same(const KernelChoice *choice)
 
 // The families share the code of most switches. Only rays, whose kernels compile sooner, test
 // every switch alone.
-TEST(specialized_rays_draw_what_general_ones_do)
+TEST(specialized_rays_draw_the_general_rays_picture)
 {
     expect_extreme_specials_same(&form_all[0]);
     for (unsigned place = 0; place < 6; place++) {
@@ -127,7 +127,7 @@ TEST(specialized_rays_draw_what_general_ones_do)
 }
 
 // Packets have their own code for spheres, triangles and trees.
-TEST(specialized_packets_draw_what_general_ones_do)
+TEST(specialized_packets_draw_the_general_packets_picture)
 {
     const KernelChoice packet = {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32};
     expect_extreme_specials_same(&packet);
@@ -150,7 +150,7 @@ TEST(fp64_draws_the_same_whatever_the_tree_the_tiles_and_the_work_groups)
     rendered_expect_same(&sah, others, 3);
 }
 
-TEST(specialized_fp64_draws_what_the_general_program_does)
+TEST(specialized_fp64_kernels_draw_the_general_kernels_picture)
 {
     expect_extreme_specials_same(&form_all[FORMS_FP32]);
 }

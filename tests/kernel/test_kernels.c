@@ -210,7 +210,7 @@ static SphereCase far_case(double distance, double aside)
     return made;
 }
 
-TEST(far_spheres_are_met_where_they_are_in_fp64)
+TEST(distances_of_far_spheres_are_exact_in_fp64)
 {
     static SphereCase cases[CASES];
     for (double distance = 0x1p2; distance <= 0x1p22; distance *= 4) {
@@ -231,7 +231,7 @@ static SphereCase ground_case(double radius, float height, float across)
     return made;
 }
 
-TEST(ground_spheres_of_any_size_are_met_where_they_are_in_fp64)
+TEST(distances_of_ground_spheres_are_exact_in_fp64)
 {
     static SphereCase cases[CASES];
     for (double radius = 1e3; radius <= 1e9; radius *= 10) {

@@ -109,7 +109,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(run(program, env=self.environment), self.expected)
 
     # Not even root can create a folder in /proc, so PoCL has no cache.
-    def test_where_no_cache_can_be_written_the_variable_that_helps_is_named(self):
+    def test_without_a_writable_cache_the_message_names_the_variable(self):
         program = self.work / "without-cache"
         self.build_by_pkg_config(program)
         hidden = ("POCL_CACHE_DIR", "XDG_CACHE_HOME")
@@ -155,23 +155,23 @@ class Installed(unittest.TestCase):
         code = EXAMPLE.read_text().split("\n", 1)[1]
         self.assertIn(f"```c\n{code}```\n", (TESTS.parent / "docs/library.md").read_text())
 
-    def test_the_library_is_the_version_that_pkg_config_tells(self):
+    def test_the_library_has_the_version_of_pkg_config(self):
         version = text_of("pkg-config", "--modversion", "clrt", env=self.environment).strip()
         self.assertEqual(text_of(CLRT, "--version").split()[-1], version)
         self.assertEqual(self.library.resolve().name, f"libclrt.so.{version}")
 
-    def test_it_shows_the_functions_of_its_header_and_no_others(self):
+    def test_the_library_exports_only_the_functions_of_its_header(self):
         header = (self.prefix / "include/clrt.h").read_text()
         declared = set(re.findall(r"^CLRT_API [^(;]*?(\w+)\(", header, re.MULTILINE))
         self.assertGreater(len(declared), 10)
         self.assertEqual(dynamic_symbols(self.library, "--defined-only"), declared)
 
-    def test_it_calls_nothing_that_prints_ends_or_changes_the_environment(self):
+    def test_the_library_never_prints_exits_or_changes_the_environment(self):
         called = dynamic_symbols(self.library, "--undefined-only")
         self.assertIn("clBuildProgram", called)
         self.assertEqual([name for name in called if re.fullmatch(FORBIDDEN, name)], [])
 
-    def test_its_name_carries_the_version_of_its_interface(self):
+    def test_the_librarys_name_has_the_version_of_its_interface(self):
         self.assertRegex(text_of("readelf", "-d", self.library), r"SONAME.*\[libclrt\.so\.0\]")
 
     def test_cplusplus_reads_the_header(self):

@@ -85,7 +85,7 @@ TEST(a_filled_scene_is_the_programs_picture_of_the_same_file)
                        (ClrtPicture){.width = 150, .height = 100, .view = view, .max_level = 5});
 }
 
-TEST(the_info_counts_what_was_filled_in)
+TEST(the_info_counts_the_added_objects)
 {
     ClrtScene *scene = filled_make();
     ClrtSceneInfo info = {.size = sizeof info};

@@ -68,7 +68,7 @@ TEAR_DOWN(close_stage)
     return 0;
 }
 
-TEST(what_is_null_is_named)
+TEST(null_arguments_are_named)
 {
     ClrtScene *scene = stage.scene;
     const ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
@@ -111,7 +111,7 @@ TEST(pictures_out_of_range_are_refused_and_the_next_is_drawn)
     assert_true(render(good, NULL));
 }
 
-TEST(structs_tell_what_they_know_by_their_size)
+TEST(the_size_of_a_struct_selects_its_members)
 {
     struct {
         ClrtPicture picture;
@@ -127,7 +127,7 @@ TEST(structs_tell_what_they_know_by_their_size)
     REFUSES(render(newer.picture, &error), "the picture has a size of");
 }
 
-TEST(what_an_older_program_does_not_know_is_the_default)
+TEST(members_that_an_older_program_does_not_know_have_defaults)
 {
     float whole[3 * WIDTH * HEIGHT];
     ClrtPicture older = {.size = sizeof older, .width = WIDTH, .height = HEIGHT};
@@ -143,7 +143,7 @@ TEST(what_an_older_program_does_not_know_is_the_default)
     assert_int_equal(info.max_level, 77);
 }
 
-TEST(a_scene_without_cameras_is_drawn_by_the_pictures_own)
+TEST(a_scene_without_cameras_is_drawn_with_the_pictures_camera)
 {
     ClrtScene *scene = clrt_scene_create(NULL);
     ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
@@ -156,7 +156,7 @@ TEST(a_scene_without_cameras_is_drawn_by_the_pictures_own)
     clrt_scene_free(scene);
 }
 
-TEST(what_is_too_far_away_to_be_drawn_is_told)
+TEST(a_light_too_far_away_is_reported)
 {
     ClrtError error = faults_blank();
     const double far[3] = {1e25, 0, 0}, near[3] = {0, 0, 0};
@@ -171,7 +171,7 @@ TEST(what_is_too_far_away_to_be_drawn_is_told)
     clrt_scene_free(scene);
 }
 
-TEST(devices_that_are_not_there_are_told)
+TEST(missing_devices_are_reported)
 {
     ClrtError error = faults_blank();
     faults_assert(clrt_renderer_create("no such device %s", 0, &error) != NULL, &error, CLRT_DEVICE,

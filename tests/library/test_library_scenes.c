@@ -33,7 +33,7 @@ static ClrtSceneInfo info_of(void)
     return info;
 }
 
-TEST(what_is_null_is_named)
+TEST(null_arguments_are_named)
 {
     const double three[3] = {0, 0, 0};
     const ClrtMaterial matte = {.size = sizeof matte};
@@ -192,7 +192,7 @@ TEST(impossible_cameras_are_refused)
     }
 }
 
-TEST(files_that_are_not_there_are_told)
+TEST(missing_files_are_reported)
 {
     ClrtError error = faults_blank();
     faults_assert(clrt_scene_load("/nowhere/at all.scn", &error) != NULL, &error, CLRT_SCENE,

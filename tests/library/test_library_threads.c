@@ -53,7 +53,7 @@ static void draw_at_once(ClrtScene *scenes[2], float *expected[2])
     pthread_barrier_destroy(&start);
 }
 
-TEST(renderers_are_made_and_draw_at_once_in_threads_of_their_own)
+TEST(several_threads_create_renderers_and_draw_concurrently)
 {
     const char *options = "--aa=2 --max-level 5";
     ClrtScene *scenes[2] = {filled_make(),

@@ -80,12 +80,12 @@ class Package(unittest.TestCase):
         for name in LIBRARY:
             run("dpkg-deb", "-x", cls.packages[name], cls.library_root)
 
-    def test_what_is_installed_is_in_it(self):
+    def test_the_package_contains_all_installed_files(self):
         for name in INSTALLED:
             self.assertTrue((self.root / "usr" / name).is_file(), name)
 
     @unittest.skipUnless(LIBRARY, "the library is not built")
-    def test_the_library_and_what_builds_with_it_are_packages_of_their_own(self):
+    def test_the_library_and_its_development_files_are_separate_packages(self):
         self.assertEqual(set(self.packages), {"clrt", *LIBRARY})
         for name in DEVELOPMENT:
             self.assertEqual(len(list((self.library_root / "usr").rglob(name))), 1, name)
@@ -107,7 +107,7 @@ class Package(unittest.TestCase):
         ]
         self.assertEqual(*without_folder)
 
-    def test_they_name_the_maintainer_that_the_build_was_told(self):
+    def test_they_name_the_maintainer_of_the_builds_settings(self):
         told = re.search(r"CLRT_MAINTAINER:STRING=(.*)\n", CACHE)[1]
         for package in self.packages.values():
             self.assertEqual(run("dpkg-deb", "-f", package, "Maintainer"), told + "\n")
@@ -119,7 +119,7 @@ class Package(unittest.TestCase):
                 run("dpkg-deb", "-e", package, control)
                 self.assertEqual(files_under(pathlib.Path(control)), ["control", "md5sums"] + data)
 
-    def test_they_depend_on_what_they_are_linked_to_and_on_an_opencl_driver(self):
+    def test_they_depend_on_their_libraries_and_on_an_opencl_driver(self):
         common = ["pocl-opencl-icd | opencl-icd", "libc6", "libxxhash0", "ocl-icd-libopencl1"]
         for package in ["clrt", *LIBRARY[:1]]:
             depends = run("dpkg-deb", "-f", self.packages[package], "Depends")
@@ -134,7 +134,7 @@ class Package(unittest.TestCase):
         )
         self.assertEqual((done.stdout, done.returncode), ("", 0))
 
-    def test_it_draws_what_the_build_draws_where_home_is_not_writable(self):
+    def test_it_draws_the_builds_picture_without_a_writable_home(self):
         formats = re.search(r"writes (.*)", subprocess.run(
             [self.clrt, "a", "-o", "a.none"], capture_output=True, text=True
         ).stderr)[1].split(", ")
@@ -186,7 +186,7 @@ class Licenses(unittest.TestCase):
         done = subprocess.run(["reuse", "--root", ROOT, "lint", "--quiet"], capture_output=True)
         self.assertEqual(done.returncode, 0)
 
-    def test_the_package_tells_the_license_of_the_project(self):
+    def test_the_package_contains_the_license_of_the_project(self):
         def words(path):
             return re.sub(r"[\s.]+", " ", (ROOT / path).read_text())
 

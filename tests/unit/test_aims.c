@@ -79,7 +79,7 @@ TEST(an_open_edge_is_aimed_at_beyond_it_too)
     assert_int_equal(beyond, 3);
 }
 
-TEST(no_more_aims_are_kept_than_asked_for)
+TEST(no_more_aims_are_kept_than_requested)
 {
     FREED_BY(release) Fixture all = aimed(faces, 4, 3, false);
     assert_int_equal(all.aims.total, 10);

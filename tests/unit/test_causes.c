@@ -111,7 +111,7 @@ TEST(paths_that_end_before_the_limit_were_not_cut)
     assert_int_equal(find(images).pixels[CAUSE_REFLECTION], 1);
 }
 
-TEST(files_without_the_channels_tell_no_cause)
+TEST(files_without_the_channels_have_no_known_cause)
 {
     StoredImage images[2] = {gray_image("{\"samples\":1}"), gray_image("{\"samples\":1}")};
     strcpy(images[1].names[SHADOW], "Z");

@@ -189,7 +189,7 @@ TEST(nothing_of_an_empty_mesh_is_closed)
     assert_true(isinf(taken.census.meshes[0].features.edge.steps));
 }
 
-TEST(what_is_not_finite_is_counted_and_left_out)
+TEST(numbers_that_are_not_finite_are_counted_and_left_out)
 {
     FREED_BY(mesh_free)
     Mesh mesh = mesh_read("0 0 0  1 nan inf  0 1 0  0 0 1  -inf 0 0  1e300 2 3  1 0 0",
@@ -203,7 +203,7 @@ TEST(what_is_not_finite_is_counted_and_left_out)
         assert_true(isfinite(mesh.positions[vertex][0] + mesh.positions[vertex][1]));
 }
 
-TEST(what_is_not_finite_is_counted_in_binary_files_too)
+TEST(numbers_that_are_not_finite_are_counted_in_binary_files_too)
 {
     static const char head[] = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
                                "property float x\nproperty float y\nproperty float z\n"
@@ -224,7 +224,7 @@ TEST(what_is_not_finite_is_counted_in_binary_files_too)
     assert_false(ply_parse(&mesh, bytes, size, "t.ply", &error));
 }
 
-TEST(two_equal_corners_are_told_by_the_triangles_place_in_the_file)
+TEST(two_equal_corners_are_reported_with_the_triangles_number_in_the_file)
 {
     FREED_BY(mesh_free) Mesh mesh = mesh_read("0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 1 3  2 2 0");
     expect_fault(&mesh.equal_corners, (Expected){2, 1});

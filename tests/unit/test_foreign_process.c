@@ -58,7 +58,7 @@ static void expect_failure(const char *text, const char *sentence)
     assert_true(clock_seconds() - start < 10);
 }
 
-TEST(what_the_program_writes_about_the_file_is_the_stream)
+TEST(the_stream_is_the_output_of_the_program)
 {
     FREED_BY(file_free) File stream;
     Error error;
@@ -81,7 +81,7 @@ TEST(a_program_that_crashes_stays_or_gives_up_is_one_sentence)
     expect_failure("exit 1", "m.obj: clrt-foreign, which reads it, ended too early");
 }
 
-TEST(a_program_that_is_not_there_is_told)
+TEST(a_missing_program_is_reported)
 {
     const ForeignReader reader = {.program = "/nonexistent", .limits = {.seconds = 1, .bytes = 1}};
     File stream;

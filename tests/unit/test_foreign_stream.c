@@ -142,7 +142,7 @@ TEST(a_part_goes_through_the_checks_of_ply)
     expect_failure(&builder, "m.obj: part 1:3: element vertex lacks x, y or z");
 }
 
-TEST(a_reason_is_told_in_plain_letters)
+TEST(a_reason_is_reported_in_plain_letters)
 {
     Builder builder = {0};
     put_text(&builder, FOREIGN_FAILURE, "bad\x1b[31m\nthing \xc3\xa9");
@@ -188,7 +188,7 @@ TEST(every_stream_that_ends_early_is_damaged)
     }
 }
 
-TEST(what_follows_the_end_is_damage)
+TEST(bytes_after_the_end_are_damage)
 {
     Builder builder = whole_stream();
     put_bytes(&builder, "x", 1);

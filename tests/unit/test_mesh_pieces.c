@@ -80,7 +80,7 @@ static void expect_pieces(const Mesh *mesh, const MeshPieces *pieces, const uint
 #define TRIANGLES 80000
 
 // Random triangles. The vertices of each triangle are in one range of a thousand.
-TEST(pieces_are_what_shared_vertices_join)
+TEST(pieces_are_connected_by_shared_vertices)
 {
     uint64_t random = 1;
     Mesh mesh = mesh_of(VERTICES, TRIANGLES);

@@ -74,7 +74,7 @@ TEST(an_empty_scene_keeps_its_coordinates)
     assert_true(frame.scale == 1 && frame.center.x == 0);
 }
 
-TEST(what_lies_too_far_away_is_refused_by_name)
+TEST(lights_too_far_away_are_refused_by_number)
 {
     Error error = {0};
     FREED_BY(scene_free) Scene scene = parsed("sphere 0 0 0 1\nlight 0 0 5 1\nlight 0 0 1e20 1");

@@ -120,7 +120,7 @@ TEST(a_number_stops_where_the_grammar_does)
         assert_int_equal(number_length(wrong[i], strlen(wrong[i]), &value), -1);
 }
 
-TEST(nothing_beyond_the_end_is_looked_at)
+TEST(no_byte_beyond_the_end_is_read)
 {
     static const char text[] = "-12.75e-12";
     for (size_t size = 0; size <= strlen(text); size++) {
@@ -188,7 +188,7 @@ TEST(a_token_of_a_megabyte_is_still_rounded_correctly)
 
 // (2^53 - 1) / 2^1075 is halfway between the largest subnormal and the smallest normal number.
 // Rounding it depends on all of its 768 digits, the digits of (2^53 - 1) * 5^1075.
-TEST(a_tie_of_768_digits_is_told_from_its_neighbors)
+TEST(a_tie_of_768_digits_is_distinguished_from_its_neighbors)
 {
     enum { SIZE = 768 };
     static const char factor[] = "9007199254740991";

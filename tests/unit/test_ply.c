@@ -127,7 +127,7 @@ TEST(a_mesh_comes_back_in_floats_where_they_suffice_and_with_its_normals)
     expect_same((Mesh){0}, 0);
 }
 
-TEST(a_full_disk_is_told)
+TEST(a_full_disk_is_reported)
 {
     const Mesh mesh = {MESH, .positions = doubles};
     FILE *full = fopen("/dev/full", "wb");

@@ -123,7 +123,7 @@ static void check_square(const Mesh *mesh)
     assert_true(mesh->normals[3][2] == 0);
 }
 
-TEST(what_a_mesh_does_not_use_is_passed_over)
+TEST(elements_that_a_mesh_does_not_use_are_skipped)
 {
     for (int encoding = ASCII; encoding <= BIG; encoding++) {
         const Builder builder = square_with_extras(encoding);
@@ -245,7 +245,7 @@ TEST(any_line_ends_and_blanks_are_read)
     }
 }
 
-TEST(a_file_cut_anywhere_fails_or_is_complete)
+TEST(a_truncated_file_fails)
 {
     for (int encoding = ASCII; encoding <= BIG; encoding++) {
         const Builder builder = square_with_extras(encoding);

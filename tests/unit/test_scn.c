@@ -138,7 +138,7 @@ TEST(transforms_apply_in_the_order_written)
     assert_true(fabs(moved[0] - 2 * (plain[0] + 10)) < 1e-14);
 }
 
-TEST(the_hash_tells_scenes_apart)
+TEST(different_scenes_have_different_hashes)
 {
     FREED_BY(scene_free) Scene one = parsed("sphere 0 0 0 1"), same = parsed("sphere 0 0 0 1");
     FREED_BY(scene_free) Scene other = parsed("sphere 0 0 0 2");
@@ -289,7 +289,7 @@ TEST(a_camera_may_have_a_width)
                  "1:23: expected a number between 1e-06 and 180: found '180'" CAMERA);
 }
 
-TEST(a_scene_tells_the_courses_cameras_from_its_own)
+TEST(a_scene_distinguishes_the_courses_cameras_from_its_own)
 {
     FREED_BY(scene_free) Scene plain = parsed(""), own = parsed("camera 1 2 3 4 5 6 30");
     assert_true(plain.has_course_views);

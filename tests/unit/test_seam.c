@@ -79,7 +79,7 @@ static Seam border_seam(const SampleData cells[GROUP_CELLS])
     return seam;
 }
 
-TEST(what_lies_beyond_the_border_counts_only_once_a_sample_saw_it_inside)
+TEST(a_color_beyond_the_border_counts_only_after_a_sample_inside_has_it)
 {
     SampleData cells[GROUP_CELLS];
     uint32_t place[2];

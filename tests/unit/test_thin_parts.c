@@ -127,7 +127,7 @@ TEST(a_triangle_is_cut_from_either_side_only_if_it_has_two)
     assert_int_equal(cuts_of_triangle(a, c, b, true), 1);
 }
 
-TEST(what_is_edge_on_behind_or_beside_is_not_cut)
+TEST(triangles_edge_on_behind_or_beside_are_not_cut)
 {
     assert_int_equal(cuts_of_triangle(vec3(0, 5, 0), vec3(0, 9, 0), vec3(0, 7, 1e-300), true), 0);
     assert_int_equal(cuts_of_triangle(vec3(0, -5, 0), vec3(0.01, -5, 0), vec3(0, -5, 0.01), true),
@@ -137,7 +137,7 @@ TEST(what_is_edge_on_behind_or_beside_is_not_cut)
 }
 
 // A sliver below the eye that starts behind the eye appears from the picture's lower edge upward.
-TEST(a_sliver_through_the_plane_of_the_eye_is_cut_where_it_is_before_it)
+TEST(a_sliver_through_the_plane_of_the_eye_is_cut_in_front_of_the_eye)
 {
     const double side = 0.5 / FOCUS, far = 1000, end = 1 / ((70.5 - SIDE / 2.0) / FOCUS);
     FREED_BY(close_world) World world = world_of(2);

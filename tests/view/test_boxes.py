@@ -56,7 +56,7 @@ def count_shapes(shown, size, wanted):
     return shapes
 
 
-def as_many_boxes_are_seen_as_are_told(screen, folder):
+def the_window_shows_as_many_boxes_as_it_reports(screen, folder):
     size = (600, 600)
     scene = write_clusters(folder)
     for options in ([], ["--bvh", "midpoint"], ["--nodes", "pair"]):

@@ -32,7 +32,7 @@ def a_dropped_scene_or_mesh_is_shown_through_its_first_camera(screen, window, fo
     expect(window, ROOT / "scenes" / "simple.scn", "shows the first of two files")
 
 
-def a_dropped_file_that_is_no_scene_is_told_over_the_last_picture(screen, window, folder):
+def a_dropped_file_that_is_no_scene_is_reported_over_the_last_picture(screen, window, folder):
     before = window.read()
     other = folder / "notes.scn"
     other.write_text("spheer 0 0 0 1\n")

@@ -244,14 +244,14 @@ def keys_are_played_in_order_from_opengl_and_frames_counted(screen):
     window.end()
 
 
-def stats_tell_the_times_of_frames(screen):
+def stats_print_the_times_of_frames(screen):
     window = Window(screen, SCENE, "--keys", "ro", "--quit-after", "30", "--stats")
     window.wait("29 moving frames: median")
     window.wait("traced while moving")
     window.end()
 
 
-def options_choose_what_the_window_opens_with(screen):
+def options_set_the_windows_first_state(screen):
     window = Window(screen, SCENE, "--aa=3", "--no-bvh", "--view", "4", "--bvh", "midpoint", "--exposure", "1",
                     "--keys", "h")
     window.wait("view 4, AA 3x3, BVH off", "exposure +1.0", "320x240")

@@ -44,7 +44,7 @@ def pictures_of_any_size_are_the_same(screen):
     expect_same(window, SCENE)
 
 
-def a_moved_camera_prints_what_draws_the_same_picture(screen, folder):
+def the_printed_camera_draws_the_same_picture(screen, folder):
     scene = folder / "own.scn"
     scene.write_text("material 3\nsphere 0 0 0.5 1\nsphere 1 1 0.5 0.6\nlight 9 -4 10 0.7\n")
     window = opened(screen, scene)
@@ -80,7 +80,7 @@ def common_end(one, other):
     return length
 
 
-def saved_pictures_are_what_is_seen_and_what_was_traced(screen, folder):
+def saved_pictures_equal_the_picture_in_the_window(screen, folder):
     size = (160, 120)
     window = opened(screen, SCENE, size=size, folder=folder)
     window.press("s", "saved")

@@ -61,7 +61,7 @@ def a_changed_material_library_is_shown(screen, folder):
     expect(window, scene, "shows the second color")
 
 
-def a_fault_is_told_over_the_last_good_picture(screen, folder):
+def a_fault_is_reported_over_the_last_good_picture(screen, folder):
     scene = make_scene(folder)
     window = opened(screen, scene)
     before = window.read()

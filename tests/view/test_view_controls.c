@@ -113,7 +113,7 @@ static void see(const Viewpoint *camera, Vec3 point, double place[2])
     place[1] = vec3_dot(arm, vec3_cross(ahead, across)) / pixel;
 }
 
-TEST(what_is_looked_at_follows_a_drag_sideways)
+TEST(the_target_follows_a_drag_sideways)
 {
     double place[2];
     FREED_BY(release) Fixture fixture = opened("camera 5 4 3  1 0 2  30");
@@ -270,7 +270,7 @@ TEST(the_printed_camera_is_read_back_to_the_bit)
     assert_memory_equal(&back.state.camera, &fixture.state.camera, sizeof back.state.camera);
 }
 
-TEST(the_title_tells_view_and_progress)
+TEST(the_title_shows_view_and_progress)
 {
     char text[256];
     FREED_BY(release) Fixture fixture = opened("");
@@ -286,7 +286,7 @@ TEST(the_title_tells_view_and_progress)
     assert_string_equal(text, "a.scn - ray traced - clrt");
 }
 
-TEST(the_line_tells_messages_first_and_the_panel_failures_and_help)
+TEST(the_line_starts_with_messages_and_the_panel_shows_failures_and_help)
 {
     char text[STATUS_TEXT_SIZE];
     FREED_BY(release) Fixture fixture = opened("");

@@ -21,7 +21,7 @@ static const PlanRequest plain = {.is_wanted = true,
                                   .samples = 2,
                                   .sample_seconds = 1e-9};
 
-TEST(what_stands_still_sharpens_step_by_step)
+TEST(a_still_picture_sharpens_step_by_step)
 {
     PlanRequest request = plain;
     request.sample_seconds = 1e-6;
@@ -68,7 +68,7 @@ TEST(tiles_are_so_small_that_stopping_takes_no_time)
     }
 }
 
-TEST(nothing_is_traced_unasked_or_for_no_window)
+TEST(nothing_is_traced_without_a_request_or_without_a_window)
 {
     const PlanReached reached = {0};
     PlanRequest request = plain;
@@ -79,7 +79,7 @@ TEST(nothing_is_traced_unasked_or_for_no_window)
     assert_int_equal(plan_pass(&request, &reached).kind, PASS_NONE);
 }
 
-TEST(brute_force_is_expected_to_be_dear)
+TEST(brute_force_is_expected_to_be_slow)
 {
     assert_true(plan_first_guess(1000000, true) == plan_first_guess(10, true));
     assert_true(plan_first_guess(1000000, false) > 1e-4);
@@ -166,7 +166,7 @@ static void watched_free(WatchedFolder *watched)
     rmdir(watched->folder);
 }
 
-TEST(changed_files_are_told_once_and_when_they_stand_still)
+TEST(changed_files_are_reported_once_after_the_last_change)
 {
     Error error = {0};
     FREED_BY(watched_free) WatchedFolder watched = watched_make();
@@ -200,7 +200,7 @@ TEST(watching_other_files_too_loses_no_change)
     assert_true(watch_poll(&watched.watch));
 }
 
-TEST(a_folder_is_watched_for_what_is_in_it)
+TEST(a_new_file_in_a_watched_folder_is_a_change)
 {
     Error error = {0};
     FREED_BY(watched_free) WatchedFolder watched = watched_make();

@@ -34,7 +34,7 @@ EXTREME(lights_of_any_intensity_and_number_are_added_right_t54)
             "intensity=%g lights=%zu", cases[i].intensity, cases[i].lights);
 }
 
-EXTREME(cameras_of_any_angle_see_what_is_there_t56)
+EXTREME(cameras_of_any_angle_agree_with_the_oracle_t56)
 {
     // The narrowest angles show the outline of the globe, and the widest its inside.
     static const struct {

@@ -185,7 +185,7 @@ static bool judge_point(void *context, const Traced *traced)
     return !(distance <= sqrt(3) * 24 * 0x1p-24 * reach);
 }
 
-EXTREME(hits_of_rays_in_a_triangles_plane_lie_on_what_they_hit_t19)
+EXTREME(hits_of_rays_in_a_triangles_plane_lie_on_the_triangle_t19)
 {
     Random random = {1919};
     FREED_BY(rays_free) const Rays rays = rays_make(200000);

@@ -35,7 +35,7 @@ static void aim_at_scales(Rays rays, const Stage *stage, Random *random)
     }
 }
 
-EXTREME(triangles_of_three_scales_are_all_hit_where_they_are_t18)
+EXTREME(triangles_of_three_scales_have_the_exact_hits_t18)
 {
     Random random = {18};
     size_t clear = 0, small = 0;

@@ -110,7 +110,7 @@ static void judge_spoiled(RayBatch *batch, Rays rays, float value)
                    (double)value, slowest);
 }
 
-EXTREME(rays_of_no_direction_or_no_number_meet_nothing_and_end_t23)
+EXTREME(rays_without_direction_or_with_nan_hit_nothing_and_end_t23)
 {
     static const float values[] = {0, NAN, -NAN, INFINITY, -INFINITY, 0x1p100f};
     Random random = {23};
@@ -149,7 +149,7 @@ static void aim_from(Rays rays, float distance, Random *random)
     }
 }
 
-EXTREME(rays_from_very_far_meet_what_is_there_or_nothing_t24)
+EXTREME(rays_from_very_far_have_the_exact_hit_or_none_t24)
 {
     static const float distances[] = {1e3f, 1e6f, 1e9f, 1e12f, 1e18f, 1e24f, 1e30f, 3e38f};
     Random random = {24};

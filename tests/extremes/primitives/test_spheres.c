@@ -97,7 +97,7 @@ static Vec3 at_distance(double distance)
     return vec3_scale(vec3_normalize(vec3(3, -2, 1.5)), distance);
 }
 
-EXTREME(a_sphere_smaller_than_the_bits_of_its_place_gives_no_invalid_hit_t31)
+EXTREME(a_sphere_smaller_than_the_rounding_of_its_center_gives_no_invalid_hit_t31)
 {
     Random random = {31};
     FREED_BY(rays_free) const Rays rays = rays_make(tier_size(10000, 1000000));
@@ -114,7 +114,7 @@ static size_t limit_at(double distance, size_t count)
     return distance < 0.9e5 ? 0 : distance < 0.9e6 ? (size_t)(2e-5 * (double)count) : count;
 }
 
-EXTREME(far_spheres_are_met_and_missed_as_exactly_t32)
+EXTREME(far_spheres_are_hit_and_missed_exactly_t32)
 {
     Random random = {32};
     FREED_BY(rays_free) const Rays rays = rays_make(tier_size(10000, 300000));
