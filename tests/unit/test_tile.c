@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parts share the tiles of a picture evenly, wherever the costly tiles are.
-#include "cmocka_all.h"
 #include "render/renderer.h"
+#include "unit/cmocka_all.h"
 
 #include <stdlib.h>
 
@@ -20,9 +20,8 @@ static RenderSettings settings_of(uint32_t columns, uint32_t rows, uint32_t part
                             .parts = parts};
 }
 
-static void test_each_tile_is_in_one_part(void **state)
+TEST(each_tile_is_in_one_part)
 {
-    (void)state;
     static const uint32_t sizes[][3] = {{1, 1, 1}, {4, 6, 3},   {64, 64, 64}, {16, 9, 7},
                                         {3, 2, 9}, {100, 1, 8}, {1, 100, 8},  {97, 55, 100}};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
@@ -85,9 +84,8 @@ static double slowest(RenderSettings settings, Cost *cost)
     return most / (sum / settings.parts);
 }
 
-static void test_no_part_is_much_slower_than_the_mean(void **state)
+TEST(no_part_is_much_slower_than_the_mean)
 {
-    (void)state;
     static Cost *const costs[] = {flat, left_half, sky, disc};
     static const uint32_t columns[] = {30, 47, 64, 94, 128, 193};
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
@@ -98,13 +96,4 @@ static void test_no_part_is_much_slower_than_the_mean(void **state)
                 if (ratio > SLOWEST_RATIO)
                     fail_msg("%u columns, %u parts, cost %zu: %.2f", columns[i], parts, j, ratio);
             }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_each_tile_is_in_one_part),
-        cmocka_unit_test(test_no_part_is_much_slower_than_the_mean),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
