@@ -267,7 +267,7 @@ static Nearest meet_all(const Path *path, NUMBER reach)
 // The surface at a hit. Normals have any length.
 typedef struct {
     Vector point, normal, face;
-    Vector corner; // a corner of the triangle, exactly in the triangle's plane
+    Vector corner;                // a corner of the triangle, exactly in the triangle's plane
     const TriangleData *triangle; // NULL for a sphere
     uint32_t id, material;
     bool is_sphere, is_inside;

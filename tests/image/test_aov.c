@@ -38,9 +38,9 @@ static double apart(Vec3 a, Vec3 b)
 }
 
 typedef struct {
-    uint32_t pixels;                    // all of them
+    uint32_t pixels;                   // all of them
     uint32_t others, shadows, bounces; // with other primitives, shadows, bounces than the oracle's
-    double depth, normal, position; // largest differences on equal primitives
+    double depth, normal, position;    // largest differences on equal primitives
 } Judgment;
 
 // Returns the largest rounding of a point that is stored in floats.
