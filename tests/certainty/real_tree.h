@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stored triangles -> a tree for tests, which differs from the tracer's tree. It halves the
+// Stored triangles -> a tree for tests, which differs from the tracer's tree. This tree halves the
 // triangles in their stored order, in which neighbors are near each other. Boxes are so wide that
 // rounding cannot matter.
 #pragma once

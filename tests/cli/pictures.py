@@ -123,8 +123,8 @@ def read_exr_tiles(data):
 
 
 def read_exr(path, row=None):
-    """Returns the types and values of the channels. Missing tiles are 0. With a row, they begin
-    at the top of the row's tiles and end with this row."""
+    """Returns the types and values of the channels. Missing tiles are 0. If row is given,
+    the values begin at the top of the row's tiles and end with this row."""
     with open(path, "rb") as file:
         data = file.read()
     attributes, _ = read_header(data)

@@ -84,7 +84,7 @@ class Formats(Work):
         self.assertEqual(len({plain, smooth, self.picture("round.scn")}), 3)
         self.converts_to_flat("a.ply")
 
-    # A lone mesh has its own camera, so its converted scene is drawn with flat normals.
+    # A lone mesh has its own camera, so the flat picture comes from its converted scene.
     def converts_to_flat(self, name):
         self.clrt("convert", name, "lone.scn")
         self.expect_same(name, "lone.scn")

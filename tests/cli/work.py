@@ -28,7 +28,7 @@ def main(words):
 
 def no_fp64(library):
     """Returns the environment of a device without doubles. library is the path of the built tests/cli/no_fp64.c."""
-    # AddressSanitizer accepts libraries that are preloaded before its own.
+    # With this option, AddressSanitizer accepts libraries that are loaded before its own.
     sanitizer = "verify_asan_link_order=0:" + os.environ.get("ASAN_OPTIONS", "")
     return {"LD_PRELOAD": os.path.abspath(library), "ASAN_OPTIONS": sanitizer}
 

@@ -28,8 +28,8 @@ TEST(every_form_threads_and_tree_refine_the_same)
     }
 }
 
-// clrt refines 24 random pixels of each of the first twelve strata, or all if there are fewer, to
-// check that the pixels' centers are representative.
+// clrt refines 24 random pixels of each of the first twelve strata, or all pixels of smaller
+// strata, to check that centers are representative.
 TEST(with_a_goal_of_any_error_only_controls_are_refined)
 {
     uint64_t samples;

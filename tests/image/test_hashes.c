@@ -2,8 +2,8 @@
 // Pictures have the recorded pixel hashes, on every device, PoCL target and compiler setting.
 // Usage: test_hashes SIZE [VIEWS] checks the recorded pictures of size SIZE and of views up to
 // VIEWS. `test_hashes refined` checks refined pictures, with two settings each of --aa-adaptive and
-// --error. With `list` before these words, it prints the records with the rendered hashes. A new
-// record starts with the hash 0. CLRT_TEST_SCENES limits the scenes to the listed ones.
+// --error. With `list` before these words, the test prints the records with the rendered hashes.
+// A new record starts with the hash 0. CLRT_TEST_SCENES limits the scenes to the listed ones.
 // CLRT_TEST_OPTIONS contains options for the compiler of kernels.
 #include "image/course.h"
 #include "image/rendered.h"

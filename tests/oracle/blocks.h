@@ -2,7 +2,7 @@
 // Intersects rays with a scene's triangles in fp64, by the method of Moeller and Trumbore ("Fast,
 // minimum storage ray-triangle intersection", 1997). Blocks of successive triangles have a layout
 // that compilers vectorize. There is no tree: a ray skips the blocks whose bounding sphere it
-// misses, and tests all triangles of the others.
+// misses, and tests all triangles of the other blocks.
 #pragma once
 
 #include "scene/scene.h"

@@ -100,7 +100,7 @@ class Screen:
 
 
 class Window:
-    """clrt with a scene in a window. Because of -v, it prints its state after each picture."""
+    """clrt with a scene in a window. Because of -v, clrt prints the state after each picture."""
 
     def __init__(self, screen, scene, *options, size=(320, 240), folder=None):
         self.screen, self.size = screen, size

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests that the window shows as many boxes of a level as the tree has nodes on it. Compares the
-window's text, its picture and the statistics. Usage: CLRT=path/to/clrt test_boxes.py"""
+"""Tests that the window shows as many boxes of a level as the tree has nodes on this level.
+Compares the window's text and picture with the statistics.
+Usage: CLRT=path/to/clrt test_boxes.py"""
 
 import json
 import os

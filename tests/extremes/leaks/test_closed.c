@@ -37,8 +37,8 @@ static void judge_closed(RayBatch *batch, Scene scene, int exponent, const Close
     }
 }
 
-// Returns a sphere at shape_center(exponent). It has 200 rings, or 20 if exponent is 20 or more,
-// because floats there are too far apart for most vertices of a finer sphere.
+// Returns a sphere at shape_center(exponent). It has 200 rings. From exponent 20 on it has 20
+// rings, because floats are too far apart there for most vertices of a finer sphere.
 static Scene closed_sphere(int exponent)
 {
     return shape_scene(shape_sphere(exponent < 20 ? 200 : 20, shape_center(exponent)));

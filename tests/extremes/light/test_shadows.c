@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadows that are hard to get right: on convex shapes of any size and place, in rooms with and
-// without a door, under contacts, in grazing light, and of lights on and inside shapes.
+// Tests shadows that are hard to get right: inside a closed shape with lights around it, at points
+// of contact, and of lights on surfaces and in the eye.
 #include "support/shapes.h"
 #include "support/varied_scene.h"
 #include "unit/parsed.h"

@@ -167,8 +167,8 @@ typedef struct {
 } Soup;
 
 // Along each axis, the error of the ray's point at t is at most 24 roundings of the largest
-// distance between origin and corners: 22 by the proof of the box slack, and 2 when the point is
-// computed.
+// distance between origin and corners. The proof of the box slack gives 22 roundings, and the
+// computation of the point adds 2.
 static bool judge_point(void *context, const Traced *traced)
 {
     Soup *soup = context;

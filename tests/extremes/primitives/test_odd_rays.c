@@ -26,8 +26,8 @@ static TestRay special_ray(size_t number, const Room *room, Random *random)
 }
 
 // Every direction leads from inside a closed shape to the shape. Directions of camera and reflected
-// rays have a length near 1, and shadow rays are at least as long as their origin's distance from
-// the surface. The test skips much shorter directions, whose reciprocals can overflow.
+// rays have a length near 1. Shadow rays are at least as long as their origin's distance from the
+// surface. The test skips much shorter directions, whose reciprocals can overflow.
 EXTREME(directions_of_special_values_leave_no_closed_shape_t21)
 {
     Random random = {21};
@@ -123,7 +123,7 @@ EXTREME(rays_without_direction_or_with_nan_hit_nothing_and_end_t23)
         judge_spoiled(*state, rays, values[i]);
 }
 
-// The hit must be the exact one, and its distance not NaN. clrt does not follow rays from beyond
+// The hit must be exact, and its distance must not be NaN. clrt does not follow rays from beyond
 // 2^46, so these may hit nothing.
 static bool judge_far(void *triangles, const Traced *traced)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shears the triangle along the ray's longest axis, so that the ray becomes the origin of a plane.
-// Edge functions decide whether the triangle contains the origin. In 64 bits, their products of
-// differences of floats lose few bits.
+// Edge functions decide whether the triangle contains the origin. Long double loses few bits in
+// products of differences of floats.
 #include "exact.h"
 
 #include <math.h>

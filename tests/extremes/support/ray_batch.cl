@@ -156,9 +156,9 @@ static inline void leave_surfaces(const Tracer *tracer, const TestRays *all, con
     store_hits(hits, all, ray->active, met ? second.t : 0.0f, met ? second.id : (UInt)(NOTHING));
 }
 
-// Finds the surface that each ray hits, and then the hit of a ray that leaves this surface along
-// outward or against it, whichever leaves the face. The id can be LEAVE_SHADOWED. t is 0 without a
-// surface.
+// Finds the surface that each ray hits, and traces a second ray from this surface. The second ray's
+// direction is outward or its opposite, whichever leaves the face. The id can be LEAVE_SHADOWED.
+// t is 0 without a surface.
 kernel void batch_leave(BATCH_ARGUMENTS)
 {
     BATCH_TRACER

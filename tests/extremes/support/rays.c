@@ -48,7 +48,7 @@ Vec3 rays_target(Aim aim, const Triangles *triangles, Random *random)
     return vec3_add(a, vec3_scale(vec3_sub(b, a), along));
 }
 
-// Returns a float between zero and coordinate whose distance from coordinate is a float, too: both
+// Returns a float between zero and coordinate whose distance from coordinate is a float, too. Both
 // are multiples of one unit, and need no more bits than coordinate.
 static double exact_part(double coordinate, double part)
 {
