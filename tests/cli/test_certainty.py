@@ -52,11 +52,11 @@ class Certainty(SharedWork):
         self.assertLess(found, self.json_of("certain.json")["certainty"]["certified"])
 
     def test_adaptive_samples_and_fp64_are_refused(self):
-        for option, words in (
-            ("of the samples of --aa: leave out --aa-adaptive, --error and --time", ["--aa-adaptive"]),
-            ("of pictures in fp32: leave out --precision fp64", ["--precision", "fp64"]),
+        for message, words in (
+            ("certifies the samples of --aa: leave out --aa-adaptive, --error and --time", ["--aa-adaptive"]),
+            ("certifies pictures in fp32: leave out --precision fp64", ["--precision", "fp64"]),
         ):
-            self.refuses(2, f"--aov certainty is {option}", *PICTURE, "a.exr", *CERTAIN, *words)
+            self.refuses(2, f"--aov certainty {message}", *PICTURE, "a.exr", *CERTAIN, *words)
 
     def test_a_device_without_fp64_is_exit_4(self):
         told = self.clrt(SCENE, "-s", "8x8", "-o", "a.exr", *CERTAIN, code=4, **no_fp64(sys.argv[2]))
