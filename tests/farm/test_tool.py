@@ -137,7 +137,7 @@ class Tool(unittest.TestCase):
                                 (["--frames", "3-2"], "--frames wants A-B or A-B:S, within the turntable"),
                                 (["--turntable", "5", "--frames", "1-6"], "--frames wants"),
                                 (["--parts", "2", "--on", "pbs"], "--on wants slurm, parallel=HOSTS or local"),
-                                (["--turntable", "5", "-o", "a.gif"], "a GIF comes from one machine")):
+                                (["--turntable", "5", "-o", "a.gif"], "cannot write a GIF")):
             self.assertIn(sentence, self.farm("-o", "a.exr", *words, code=2))
 
 

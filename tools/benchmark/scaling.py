@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Measures frame times for meshes with more triangles, and for pictures with more pixels."""
+"""Measures frame times for meshes of growing size and for pictures of growing size."""
 
 import pathlib
 import statistics

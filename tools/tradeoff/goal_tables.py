@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Creates the page's tables of goals."""
+"""Creates the tables of error and time goals for trade.html."""
 
 import html
 
@@ -42,7 +42,7 @@ ERROR_HEAD = ["goal E", "true RMSE", "in units of E", "estimated", "ms", "on the
 TIME_HEAD = ["goal", "time", "true RMSE", "estimated", "on the front",
              "compared with the best fixed setting that takes no longer"]
 NOTE = ('<p class="note">The estimate includes the largest possible effect of rays beyond the '
-        "highest level. An error goal lowers this effect, a time goal does not.</p>")
+        "highest level. An error goal lowers this effect; a time goal does not.</p>")
 
 
 def of_scene(scene):
