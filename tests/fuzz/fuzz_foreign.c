@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: parses any bytes as the output of clrt-foreign. A parsed model must fulfill
 // mesh/foreign_stream.h. A failure must return a message and no model.
+#include "demand.h"
+
 #include "mesh/foreign_stream.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void demand(bool promise)
-{
-    if (!promise)
-        abort();
-}
 
 static void check_material(const ForeignMaterial *material)
 {

@@ -2,6 +2,8 @@
 // libFuzzer target: reads any bytes as a model with Assimp, like clrt-foreign without its process
 // limits. The first byte selects the format. The result must be a valid stream or a message.
 // Crashes in Assimp are not findings, because clrt expects them.
+#include "demand.h"
+
 #include "foreign/model.h"
 #include "mesh/foreign_stream.h"
 
@@ -9,18 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 static const char *const names[] = {"./m.obj", "./m.stl", "./m.glb",  "./m.gltf", "./m.off",
                                     "./m.dae", "./m.3ds", "./m.fbx",  "./m.x",    "./m.x3d",
                                     "./m.ac",  "./m.dxf", "./m.3mf",  "./m.lwo",  "./m.nff",
                                     "./m.raw", "./m.smd", "./m.ms3d", "./m.amf",  "./m.md2"};
-
-static void demand(bool promise)
-{
-    if (!promise)
-        abort();
-}
 
 static void open_bytes(Files *files, const uint8_t *data, size_t size)
 {

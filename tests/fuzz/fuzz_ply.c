@@ -2,20 +2,14 @@
 // libFuzzer target: parses any bytes as a PLY file. Besides the sanitizers' checks, a parsed mesh
 // must fulfill mesh/mesh.h, also with computed normals. A failure must return a message and no
 // mesh. The tolerant reader's mesh must fulfill mesh.h too, and be valid input for clrt check.
+#include "demand.h"
+
 #include "check/census.h"
 #include "mesh/mesh.h"
 #include "mesh/ply.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void demand(bool promise)
-{
-    if (!promise)
-        abort();
-}
 
 static void check_mesh(const Mesh *mesh)
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: parses any bytes as scene text. Meshes resolve to a missing folder, so only the
 // text is tested. fuzz_ply.c tests meshes.
+#include "demand.h"
+
 #include "scene/normalize.h"
 #include "scene/scn.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -93,13 +93,6 @@ static Vec3 random_direction(uint64_t *random)
     return vec3_normalize(vec3(x, y, 2 * random_unit(random) - 1));
 }
 
-static void store_vector(float values[3], Vec3 vector)
-{
-    values[0] = (float)vector.x;
-    values[1] = (float)vector.y;
-    values[2] = (float)vector.z;
-}
-
 // Returns a case whose half vector equals the normal, is near it, is perpendicular to it, or is at
 // any angle to it.
 static Highlight highlight_case(int number, double shininess, uint64_t *random)
@@ -113,8 +106,8 @@ static Highlight highlight_case(int number, double shininess, uint64_t *random)
                               random_unit(random) * acos(-1)};
     const double angle = angles[number % 4];
     const Vec3 half = vec3_add(vec3_scale(normal, cos(angle)), vec3_scale(aside, sin(angle)));
-    store_vector(made.normal, normal);
-    store_vector(made.half_vector, number % 4 == 0 ? normal : vec3_normalize(half));
+    vec3_store(made.normal, normal);
+    vec3_store(made.half_vector, number % 4 == 0 ? normal : vec3_normalize(half));
     return made;
 }
 

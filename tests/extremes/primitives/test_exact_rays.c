@@ -174,8 +174,8 @@ static bool judge_point(void *context, const Traced *traced)
     Soup *soup = context;
     double reach = 0;
     const uint32_t id = traced->hit->id;
-    const Vec3 origin = vec3_of(traced->ray->origin);
-    const Vec3 along = vec3_scale(vec3_of(traced->ray->direction), (double)traced->hit->t);
+    const Vec3 origin = vec3_of_floats(traced->ray->origin);
+    const Vec3 along = vec3_scale(vec3_of_floats(traced->ray->direction), (double)traced->hit->t);
     if (id == NOTHING)
         return false;
     soup->hits += traced->tracer == BY_CLRT;

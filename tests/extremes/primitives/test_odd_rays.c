@@ -37,7 +37,7 @@ EXTREME(directions_of_special_values_leave_no_closed_shape_t21)
     rays.count = 0;
     for (size_t i = 0; i < DIRECTIONS * INNER_RAYS; i++) {
         const TestRay ray = special_ray(i / INNER_RAYS, &room, &random);
-        if (vec3_extent(vec3_of(ray.direction)) >= (double)1e-20f)
+        if (vec3_extent(vec3_of_floats(ray.direction)) >= (double)1e-20f)
             rays.data[rays.count++] = ray;
     }
     outcome_report(rig_judge(&rig, rays, judge_misses, NULL), "shape=cube");
@@ -128,7 +128,7 @@ EXTREME(rays_without_direction_or_with_nan_hit_nothing_and_end_t23)
 static bool judge_far(void *triangles, const Traced *traced)
 {
     const float *origin = traced->ray->origin;
-    const bool is_followed = vec3_extent(vec3_of(origin)) <= 0x1p46;
+    const bool is_followed = vec3_extent(vec3_of_floats(origin)) <= 0x1p46;
     if (!(traced->hit->t > 0))
         return true;
     return judge_exactly(triangles, traced) && (is_followed || traced->hit->id != NOTHING);

@@ -13,7 +13,7 @@ static SphereData sphere_of(Vec3 center, double radius)
 {
     SphereData data = {.radius = (float)radius};
     shape_store(data.center, center);
-    shape_store(data.center_low, vec3_sub(center, vec3_of(data.center)));
+    shape_store(data.center_low, vec3_sub(center, vec3_of_floats(data.center)));
     data.radius_low = (float)(radius - (double)data.radius);
     return data;
 }

@@ -11,7 +11,7 @@
 // Returns the scene coordinates of a normalized point.
 static void fill_point(float place[3], const float point[3], const Normalization *normalization)
 {
-    shape_store(place, denormalize_point(normalization, vec3_of(point)));
+    shape_store(place, denormalize_point(normalization, vec3_of_floats(point)));
 }
 
 static void fill_triangles(RTCGeometry geometry, const Stage *stage)
@@ -73,7 +73,7 @@ static TestHit trace(RTCScene scene, const TestRay *ray, const Normalization *no
     struct RTCRayHit traced = {.ray.tfar = INFINITY, .ray.mask = UINT32_MAX};
     rtcInitIntersectContext(&context);
     fill_point(origin, ray->origin, normalization);
-    shape_store(direction, vec3_scale(vec3_of(ray->direction), 1 / normalization->scale));
+    shape_store(direction, vec3_scale(vec3_of_floats(ray->direction), 1 / normalization->scale));
     traced.ray.org_x = origin[0];
     traced.ray.org_y = origin[1];
     traced.ray.org_z = origin[2];

@@ -73,7 +73,7 @@ static Vec3 float_place(const Normalization *normalization, Vec3 point)
 {
     float place[3];
     shape_store(place, denormalize_point(normalization, point));
-    return normalize_point(normalization, vec3_of(place));
+    return normalize_point(normalization, vec3_of_floats(place));
 }
 
 Vec3 room_point(const Room *room, Random *random)

@@ -14,11 +14,6 @@ static inline double shape_rounded(double value)
     return (double)rounded;
 }
 
-static inline Vec3 vec3_of(const float values[3])
-{
-    return vec3((double)values[0], (double)values[1], (double)values[2]);
-}
-
 static inline void shape_store(float values[3], Vec3 vector)
 {
     values[0] = (float)shape_rounded(vector.x);

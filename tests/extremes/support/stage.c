@@ -115,7 +115,7 @@ void stage_free(Stage *stage)
 
 Vec3 corner_of(const Triangles *triangles, size_t triangle, size_t corner)
 {
-    return vec3_of(triangles_corner(triangles, triangle, (int)corner));
+    return vec3_of_floats(triangles_corner(triangles, triangle, (int)corner));
 }
 
 static Vec3 edge_of(const Triangles *triangles, size_t triangle, size_t corner)
