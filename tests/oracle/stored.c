@@ -90,6 +90,8 @@ bool stored_round(Scene *scene, const Normalization *normalization, Error *error
         Light *light = &scene->lights.data[i];
         light->position = rounded_point(normalization, light->position);
         light->intensity = rounded(light->intensity);
+        light->color =
+            vec3(rounded(light->color.x), rounded(light->color.y), rounded(light->color.z));
     }
     for (size_t i = 0; i < scene->spheres.count; i++)
         round_sphere(&scene->spheres.data[i], normalization);
