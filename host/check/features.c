@@ -147,9 +147,10 @@ static MeshFault flat_triangles(const Mesh *mesh)
 static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fault,
                      const char *text, Error *error)
 {
-    return fault.count == 0 || error_set(error, "%s: triangle %zu, the first of %zu, %s",
-                                         scene->inputs.data[object->input],
-                                         fault.first + object->number_before, fault.count, text);
+    return fault.count == 0 ||
+           error_set(error, "%s: triangle %zu, the first of %zu such triangles, %s",
+                     scene->inputs.data[object->input], fault.first + object->number_before,
+                     fault.count, text);
 }
 
 bool bad_geometry_none_dropped(const Scene *scene, Error *error)

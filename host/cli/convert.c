@@ -61,8 +61,8 @@ static ExitCode write_joined(const Conversion *conversion, Error *error)
     Error cause = {0};
     const Scene *scene = &conversion->scene;
     if (scene->spheres.count > 0 && scene->mesh_up == UP_AUTO) {
-        error_set(error, "%s: PLY cannot store its %zu spheres: convert it to .scn",
-                  conversion->options->scene_path, scene->spheres.count);
+        error_set(error, "%s: PLY cannot store spheres: convert the scene to .scn",
+                  conversion->options->scene_path);
         return EXIT_SCENE;
     }
     if (!mesh_join(&mesh, scene, &cause)) {

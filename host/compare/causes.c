@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Channels describe only the ray through a pixel's center. If the channels agree, the pixel's
-// samples determine the cause. If both pictures have the same samples, the cause is rounding, which
-// can also change a sample's hit. Otherwise, every difference above rounding counts as coverage.
+// primitive, shadow and bounces describe only the ray through a pixel's center. If they agree, the
+// pixel's samples determine the cause. If both pictures have the same samples, even a large
+// difference is rounding, because rounding can change a sample's hit. Otherwise, every difference
+// above rounding counts as coverage.
 #include "compare/difference.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-// Rounding changes a color in [0, 1] by at most this much.
+// Rounding changes a color in [0, 1] by at most this much, unless it changes a hit or a shadow.
 #define ROUNDING_MOST 1e-5
 
 const char *const cause_names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
                                               "reflection", "coverage", "rounding"};
 const char *const cause_meanings[CAUSE_KINDS] = {
     "another primitive is hit first",
-    "other lights reach it",
+    "other lights reach the hit",
     "--max-level ends its reflections",
     "its reflections differ",
-    "it has other samples",
+    "the samples differ",
     "the same samples: rounding, if the scene is the same"};
 
 // The channels that show causes.

@@ -38,7 +38,8 @@ typedef struct {
     int is_8_bit;
     char names[IMAGE_MODULE_CHANNELS][IMAGE_MODULE_NAME_SIZE];
     char texts[IMAGE_MODULE_TEXTS][IMAGE_MODULE_TEXT_SIZE];
-    void *values; /* unsigned char or float, all channels of a pixel together, top row first */
+    void *values; /* unsigned char, or float (32-bit integers in channels of ids); all channels of
+                    a pixel together, top row first */
 } ImageModuleContent;
 
 /* Reads a file in this OpenImageIO format. Returns 0 on failure, with the reason in message. The

@@ -65,7 +65,7 @@ CellGrid thin_parts_grid(const ThinParts *parts, uint32_t pixel, uint32_t level,
                        (double)(pixel / parts->width) * REFINE_GRID - before}};
 }
 
-// Makes room at all levels for the slots that were added last.
+// Makes room for all slots at the levels that the sample budget covers.
 static bool complete_room(ThinParts *parts, Error *error)
 {
     parts->levels = parts->cuts[0] > 0 ? thin_parts_affordable(parts) : 0;

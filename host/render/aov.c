@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The table of channels and the functions that compute their values. Compositors expect the names
 // Z, N and P. Ids are integers, because float cannot represent all of them exactly. Counts are
-// floats, which every program displays unchanged.
+// floats, because some programs display integers as fractions of the largest integer.
 #include "render/aov.h"
 
 #include "base/word.h"
@@ -35,7 +35,7 @@ const Aov aov_table[] = {
      {"material"},
      true,
      AOV_NEEDS_PATH,
-     "number of the material: the course's 0 to 3, then each define"},
+     "number of the material: 0 to 3, then the materials of define and of meshes"},
     {"shadow", {"shadow"}, false, AOV_NEEDS_PATH, "share of the lights that reach the point"},
     {"bounces", {"bounces"}, false, AOV_NEEDS_PATH, "reflected rays followed"},
     {"samples", {"samples"}, false, AOV_NEEDS_PATH, "samples taken"},
@@ -45,8 +45,8 @@ const Aov aov_table[] = {
      {"certainty"},
      false,
      AOV_NEEDS_CERTAINTY,
-     "1 if no rounding can change a decision, 0.5 if fp64 decided again and replaced the color, 0 "
-     "otherwise"},
+     "1 if rounding cannot change a decision, 0.5 if it could in fp32 but not in fp64, whose color "
+     "the pixel then has, 0 otherwise"},
     {ERROR_CHANNEL,
      {ERROR_CHANNEL},
      false,
@@ -74,8 +74,8 @@ static bool unknown_name(const char *name, size_t length, Error *error)
     if (length > 0 && nearest != NULL)
         return error_set(error, "--aov knows no channel '%.*s', perhaps %s", (int)length, name,
                          nearest);
-    return error_set(error, "--aov wants names among %s, with commas between, not '%.*s'", list,
-                     (int)length, name);
+    return error_set(error, "--aov wants a list like depth,normal: '%.*s' is none of %s, all",
+                     (int)length, name, list);
 }
 
 static bool read_name(const char *name, size_t length, AovSet *set, Error *error)
@@ -173,7 +173,7 @@ void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScen
 
 void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KINDS])
 {
-    TallyKind kind = TALLY_BOX_TESTS; // the first kind in the table
+    TallyKind kind = TALLY_BOX_TESTS; // aov_table has boxtests before tritests
     for (size_t i = 0; i < aov_count; i++) {
         if (aov_has(set, i) && aov_table[i].need == AOV_NEEDS_TESTS)
             *values = float_bits(tests[kind]);

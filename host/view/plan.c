@@ -4,12 +4,12 @@
 
 #define TRACE_SECONDS (PLAN_FRAME_SECONDS * 0.6)
 
-// Tiles take little time, because a stopped picture still finishes the two tiles in flight.
+// A tile should take little time, because a stopped picture still finishes the two tiles in flight.
 #define TILE_SECONDS  0.012
 #define TILE_LARGEST  128
 #define TILE_SMALLEST 8
 
-// Seconds per sample with a tree, and additional seconds per triangle without a tree.
+// Seconds per sample with a tree, and additional seconds per sample and triangle without one.
 #define SAMPLE_GUESS   4e-7
 #define TRIANGLE_GUESS 1e-9
 

@@ -90,7 +90,7 @@ class Scenes(Convert):
 
     def test_spheres_do_not_become_a_mesh(self):
         self.write(a_scn="sphere 0 0 0 1\n")
-        self.refuses(3, "a.scn: PLY cannot store its 1 spheres: convert it to .scn",
+        self.refuses(3, "a.scn: PLY cannot store spheres: convert the scene to .scn",
                      "convert", "a.scn", "b.ply")
         self.assertFalse((self.work / "b.ply").exists())
 
@@ -119,7 +119,7 @@ class Refusals(Convert):
 
     def test_bad_geometry_is_refused_on_request(self):
         self.write(a_ply=models.ply([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)]))
-        self.refuses(3, "a.ply: triangle 0, the first of 1, has its corners on a line",
+        self.refuses(3, "a.ply: triangle 0, the first of 1 such triangles, has its corners on a line",
                      "a.ply", "b.ply", "--bad-geometry", "fail")
 
 

@@ -24,7 +24,7 @@ MESH = [FLAT, "-s", "24x16", "-o", "a.pfm"]
 EXPLAIN = [SCENE, "-s", "24x16", "--explain-pixel"]
 COMPARE = ["compare", "black.pfm", "white.pfm"]
 
-# For each option, arguments without and with the option. Their effects must differ. If the option
+# For each option, arguments without it (or with another value) and with it. Their effects must differ. If the option
 # changes the picture, the arguments write no statistics, because statistics repeat the settings.
 TRIALS = {
     "output": (PLAIN, [SCENE, "-s", "24x16", "-o", "b.pfm"]),

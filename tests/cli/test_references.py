@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Compares clrt with the course's pictures and counts of rays. The course's tracer uses floats and another
-# triangle test, so a few pixels on edges differ. tests/image/test_oracle.c compares the same scenes pixel by pixel.
+# triangle test, so a few pixels on edges differ. tests/image/test_oracle.c compares the same
+# scenes with the tests' own tracer, pixel by pixel.
 # Usage: test_references.py CLRT FORMATS
 import os
 import pathlib
@@ -11,7 +12,7 @@ from work import ROOT, Work, main, needs_exr
 
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT.parent / "shared/course"))
 # Camera rays that hit, shaded points, reflected rays and shadow rays. The course's tracer also
-# casts shadow rays that cannot reach the light.
+# casts shadow rays toward lights behind the surface.
 COUNTS = {"silhouette": (95935, 95935, 0, 0), "matte": (95935, 95935, 0, 191870),
           "blinn_phong": (95935, 95935, 0, 191870), "simple": (98036, 98036, 0, 196072),
           "reflections": (95935, 118573, 114328, 237146), "cow": (95935, 95935, 0, 191870),

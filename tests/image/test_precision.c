@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-// The largest difference of two colors rounded to float, plus a rounding to steps of 2^-32.
+// Two steps of floats below 1 and two of 2^-32: both colors are rounded to such steps.
 #define ROUNDED 0x1.01p-23f
 
 #define FP64 (&form_all[FORMS_FP32])
@@ -124,9 +124,9 @@ TEST(every_pixel_of_unusual_scenes_is_the_oracles)
         check_oracle(unusual_scenes[scene], unusual);
 }
 
-// share is the number of pixels in 100,000 of all views that may differ in fp32 by more than an
-// 8-bit step. Mirrors that face each other amplify every rounding. Only the showcase has many such
-// mirrors.
+// share is the permitted number of pixels, per 100,000 pixels, at which fp32 and fp64 differ by
+// more than an 8-bit step. Mirrors that face each other amplify every rounding. Only the showcase
+// has many such mirrors.
 TEST(fp32_differs_in_few_pixels)
 {
     static const struct {

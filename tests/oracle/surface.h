@@ -7,17 +7,18 @@
 typedef struct {
     Vec3 point;
     Vec3 normal; // interpolated, of length 1
-    Vec3 face;   // of the true surface, toward the viewer, of length 1
+    Vec3 face;   // unit normal of the true surface, toward the viewer
     Vec3 toward_viewer;
-    double near; // the least distance of hits of rays from this point
+    double near; // rays from this point ignore nearer hits
     uint32_t id, material;
-    uint32_t object; // the number of the sphere, or of the mesh plus the number of spheres
+    uint32_t object; // the sphere's index, or the mesh's index plus the count of spheres
     bool front;
 } OracleSurface;
 
 OracleSurface surface_at(const Scene *scene, const OracleRay *ray, OracleHit hit);
 
 // Returns whether the surface itself occludes a light in this direction. In the course, shadow rays
-// start at a small distance from the point. As this distance shrinks, the surface becomes its
-// tangent plane. The plane occludes the light unless light and viewer are on the same side.
+// start at a small distance from the point. In the limit of distance zero, the surface near the
+// point is its tangent plane. The plane occludes the light unless light and viewer are on the same
+// side.
 bool surface_blocks(const OracleSurface *surface, Vec3 toward_light);

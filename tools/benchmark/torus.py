@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes a closed, bumpy torus with any number of triangles. A torus has no poles, so triangles
+"""Writes a closed, bumpy torus with about the requested number of triangles. A torus has no poles, so triangles
 resemble their neighbors in meshes of every size."""
 
 import array
