@@ -24,6 +24,7 @@ REFUSALS = [
     (2, KEYS, [*FILE, "--quit-after", "1"]),
     (2, "--quit-after wants an integer between 1 and 1000000, not '0'", [SCENE, "--quit-after", "0"]),
     (2, "unknown option '--sise', perhaps --size", [*FILE, "--sise", "4x4"]),
+    (2, "unknown option '--preciasion', perhaps --precision", [*FILE, "--preciasion", "fp64"]),
     (2, "unknown option '-z'; clrt --help lists them", ["-z"]),
     (2, "--size wants a value", [SCENE, "--size"]),
     (2, "--size wants WIDTHxHEIGHT, each between 1 and 131072, not '0x5'", [*FILE, "--size", "0x5"]),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares computed normals with the true normals of simple shapes.
+#include "unit/random.h"
 #include "unit/small_mesh.h"
 
 #include <math.h>
@@ -107,6 +108,24 @@ TEST(a_cylinder_is_round_on_its_side_and_sharp_at_its_rims)
             }
         }
     }
+}
+
+// The points are integers and lie exactly in a plane, but the triangles' normals are rounded.
+TEST(a_plane_of_random_triangles_is_smooth_at_0_degrees)
+{
+    const uint32_t spokes = 500;
+    uint64_t random = 1;
+    FREED_BY(mesh_free) Mesh mesh = new_mesh(spokes + 1, spokes);
+    mesh.triangle_count = 0;
+    set_vertex(&mesh, spokes, 0, 0, 0);
+    for (uint32_t i = 0; i < spokes; i++) {
+        const double turn = 2 * PI * i / spokes, length = 1e4 * (1 + random_unit(&random));
+        const double x = round(length * cos(turn)), y = round(length * sin(turn));
+        set_vertex(&mesh, i, x, y, 2 * x - 3 * y);
+        add_triangle(&mesh, spokes, i, (i + 1) % spokes);
+    }
+    compute(&mesh, 0);
+    assert_int_equal(mesh.vertex_count, spokes + 1);
 }
 
 TEST(given_normals_are_kept)
