@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Mesh -> rays toward its edges and points. The target of a ray is called an aim. In a closed mesh,
-// the ray must hit a triangle there. The first rays start at eyes, which are a few positions around
-// the mesh. Aims without a ray, or hidden from their eye, get a ray from nearby.
+// the ray must hit a triangle there or earlier. The first rays start at eyes, which are a few
+// positions around the mesh. Aims without a ray, or hidden from their eye, get a ray from nearby.
 #pragma once
 
 #include "accel/triangles.h"
@@ -14,7 +14,7 @@ typedef struct {
 } AimRay;
 
 typedef enum {
-    AIM_UNTRIED, // no ray: its angles are too sharp or its triangles too small
+    AIM_UNTRIED, // no ray: the angles are too sharp or the triangles too small
     AIM_REACHED,
     AIM_HIDDEN, // the ray hit something before the aim
     AIM_LEAKED  // the ray passed through the mesh at the aim

@@ -25,10 +25,10 @@ bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld,
 
 // Mesh -> its finest details, in units of float spacing, as written and as traced.
 
-// The smallest length of one kind over all triangles. A step is the spacing of floats at the
-// triangle's largest coordinate.
+// Among all triangles' lengths of one kind, the length with the fewest steps. A step is the spacing
+// of floats at the triangle's largest coordinate.
 typedef struct {
-    double steps; // the length in steps; INFINITY without triangles
+    double steps; // the length in steps; INFINITY if there is no length
     double size;  // the length in the scene's units
     size_t triangle;
 } Feature;

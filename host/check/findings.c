@@ -12,13 +12,13 @@
 // thirtieth or more, which is visible.
 #define FEW_STEPS 16.0
 
-// If the mesh's offset or the scene's size is more than this many times the mesh's size, advice
-// names it as the cause.
+// Advice names the mesh's offset or the scene's size as the cause of short edges if this cause is
+// more than this many times as large as the mesh.
 #define MUCH 4.0
 
 static const struct {
     const char *kind, *text;
-    const char *place; // printed before the number of the first fault
+    const char *place; // printed before the index of the first vertex or triangle
     bool fails;
 } faults[FAULT_KINDS] = {
     [FAULT_BAD_POSITIONS] = {"not_finite_positions",

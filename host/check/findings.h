@@ -24,9 +24,9 @@ typedef struct {
     Normalization normalization;
     Census census;
     Device device;      // may be closed if leaks is NULL
-    LeakCount *leaks;   // by object; NULL without a device; owned
+    LeakCount *leaks;   // by object; NULL if no rays were traced; owned
     Error frame_fault;  // why the scene cannot be drawn; empty if it can
-    Error device_fault; // why there is no device
+    Error device_fault; // why rays could not be traced; empty otherwise
     ARRAY(Finding) findings;
     bool is_cut; // memory ran out, so findings are missing
     double seconds;

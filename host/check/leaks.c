@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prepares a scene that contains only the mesh for the device, and casts rays at the mesh's edges
-// and vertices (check/aims.h).
+// Prepares the mesh alone for the device, and casts rays at its edges and vertices (check/aims.h).
 #include "check/leaks.h"
 
 #include <stdlib.h>

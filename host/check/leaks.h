@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> the number of rays toward its edges and points that pass through it. The mesh is traced
-// alone and two-sided, in its scene's frame.
+// Mesh -> the number of rays that pass through it at its edges and points. The mesh is traced alone
+// and two-sided, in its scene's frame.
 #pragma once
 
 #include "check/aims.h"

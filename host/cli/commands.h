@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The commands of clrt. Functions return the exit status. They fill error unless they return
-// EXIT_DONE. check and compare leave error empty if they return EXIT_FAULTS.
+// The commands of clrt. They return the exit status and fill error unless they return EXIT_DONE.
+// check and compare leave error empty if they return EXIT_FAULTS.
 #pragma once
 
 #include "base/file_plan.h"
@@ -26,7 +26,7 @@ ExitCode explain_scene(Run *run, Error *error);
 // clrt --explain-pixel: prints how clrt computes a pixel's color.
 ExitCode explain_pixel(Run *run, Error *error);
 
-// clrt --list-devices: prints the OpenCL devices as clinfo does, or as versioned JSON.
+// clrt --list-devices: prints the OpenCL devices as `clinfo -l` does, or as versioned JSON.
 ExitCode device_report_write(bool as_json, Error *error);
 
 // clrt check: reports faults of a scene's geometry. A missing device is an error only if the
@@ -34,7 +34,7 @@ ExitCode device_report_write(bool as_json, Error *error);
 ExitCode check_scene(Run *run, Error *error);
 
 // Checks the scene for commands other than check. With --bad-geometry fail, rejects triangles
-// without area. Otherwise prints the scene's notes and the first mesh with dropped triangles.
+// without area. Otherwise prints notes and the first mesh with dropped triangles, unless quiet.
 bool check_geometry(const Options *options, const Scene *scene, Error *error);
 
 // clrt compare: reports the differences of two pictures, and draws them if the options name an
@@ -52,8 +52,8 @@ ExitCode convert_scene(const Options *options, Error *error);
 // Adds every file that the options name, and the files of scene unless it is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
 
-// Fails if an output would replace an input or another output. Commands call it twice: before any
-// work, and again when the scene's meshes are known.
+// Fails if an output would replace an input or another output. main calls it before any work;
+// run_start and check_scene call it again when the scene's meshes are known.
 bool command_files_check(const Options *options, const Scene *scene, Error *error);
 
 // Writes the text of --help.

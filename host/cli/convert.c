@@ -75,7 +75,7 @@ static ExitCode write_joined(const Conversion *conversion, Error *error)
     return ok ? EXIT_DONE : EXIT_OUTPUT;
 }
 
-// Names the meshes of STEM.scn STEM-1.ply, STEM-2.ply and so on.
+// Gives the meshes of STEM.scn the paths STEM-1.ply, STEM-2.ply and so on.
 static bool name_meshes(Conversion *conversion, Error *error)
 {
     const char *path = conversion->options->other_path;

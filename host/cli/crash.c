@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Reports whether clrt or a driver crashed. The executable contains no drivers, libraries or
 // kernels, and OpenCL never calls back into it. A program counter outside the executable therefore
-// means that a driver crashed. LLVM installs its own handlers while it compiles a kernel. LLVM's
+// counts as a driver's crash. LLVM installs its own handlers while it compiles a kernel. LLVM's
 // SIGABRT handler does not pass the signal on to ours. If two threads crash at once, LLVM's other
 // handlers do not restore ours. The executable therefore overrides the C library's sigaction and
-// ignores requests to replace these handlers. Only SIGFPE stays replaceable, because PoCL uses it
-// to step over divisions by zero.
+// ignores requests to replace our handlers. Only SIGFPE stays replaceable, because PoCL uses it to
+// step over divisions by zero.
 #include "cli/process.h"
 
 #include "cli/options/options.h"
@@ -44,7 +44,7 @@ static void print_message(const char *message)
     (void)written; // if standard error is closed, there is no message
 }
 
-// Only the first thread that crashes prints; other threads wait here for the exit.
+// The first thread that gets here prints and exits; later threads wait for the exit.
 static _Noreturn void end(const char *message)
 {
     while (atomic_flag_test_and_set(&has_ended))
@@ -53,7 +53,7 @@ static _Noreturn void end(const char *message)
     _exit(EXIT_DEVICE);
 }
 
-// Only the process that called crash_watch prints. Its forks, which read or write pictures, do not.
+// Only the process that called crash_watch prints. Its forks, such as readers of pictures, do not.
 static void handle(int number, siginfo_t *info, void *context)
 {
     char message[160];

@@ -105,5 +105,5 @@ void options_write_help(FILE *stream)
         stream,
         "\nExit status: 0 done; 1 faults found by check, a limit of compare exceeded, or a hash,\n"
         "             error or time goal missed; 2 usage; 3 scene, mesh or picture;\n"
-        "             4 device; 5 output; 128 + signal if stopped.\n");
+        "             4 device; 5 output; 75 busy (--resume); 128 + signal if stopped.\n");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads the parts one after another and copies their tiles into the whole picture. The parts must
-// have the same scene, version and settings, and each part must occur once. Only formats other than
-// EXR need memory for the whole picture.
+// have the same scene, version and settings, and each part must occur once. If can_join() is true,
+// the whole picture is never in memory.
 #include "cli/commands.h"
 
 #include "base/output_file.h"

@@ -240,8 +240,8 @@ static bool write_statistics(Run *run, double start, Error *error)
     return report_write_json(run, options->statistics_path, error);
 }
 
-// Rejects an invalid SOURCE_DATE_EPOCH and unwritable outputs before any work. Looks for an earlier
-// run.
+// Rejects an invalid SOURCE_DATE_EPOCH and unwritable pictures before any work. With --resume,
+// looks for an earlier run.
 static ExitCode check_files(Picture *picture, Error *error)
 {
     Run *run = picture->run;

@@ -17,7 +17,7 @@ typedef struct {
     Framebuffer film;       // the frames of an animated file, below each other; empty without one
     Framebuffer reference;  // empty without --reference
     Layers layers;          // the channels besides the colors
-    uint32_t *samples;      // of each pixel, for the layers; NULL if all pixels have equally many
+    uint32_t *samples;      // of each pixel; NULL if no layer needs it or all are equal
     CertaintyMap certainty; // empty without --aov certainty
     Resume resume;          // empty without --resume
     int stopped_by;         // the signal that stopped the picture, or 0
@@ -34,7 +34,7 @@ void picture_warn_of_few_tiles(const Run *run);
 void picture_print_setup(const Run *run);
 void picture_print_beginning(const Picture *picture);
 
-// Prints the file's name, the picture's size and the seconds since picture->moment on a terminal.
+// On a terminal, prints the file's name, the picture's size and the seconds since picture->moment.
 // Sets the moment to the current time.
 void picture_print_end(Picture *picture);
 

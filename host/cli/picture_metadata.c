@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fills the metadata of a picture. The stored settings are only those that can change a pixel. One
-// device therefore always writes the same file for the same picture.
+// Fills the metadata of a picture. Settings that cannot change a pixel are left out, so that they
+// do not change the file. Only parts and unfinished pictures also record their tiles.
 #include "cli/picture.h"
 
 #include "image/json_file.h"

@@ -14,8 +14,7 @@
 static volatile sig_atomic_t stopped_by, waits_for_tiles;
 static pid_t watcher;
 
-// Ends the process. Only the process that installed the handlers prints a message. Its forks, which
-// read or write pictures, end silently.
+// Ends the process. Only the process that installed the handlers prints a message, not its forks.
 static void end_process(int number)
 {
     static const char sentence[] = "clrt: stopped before the first tile: no picture is written\n";

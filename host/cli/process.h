@@ -4,7 +4,7 @@
 
 #include "render/renderer.h"
 
-// Observes a picture's tracing: prints progress on standard error, and stops it after a signal.
+// Observes a picture's tracing: prints progress on standard error; a signal stops the tracing.
 typedef struct {
     bool silent;
     bool terminal;    // standard error is a terminal, so one line is rewritten
@@ -30,7 +30,7 @@ int progress_end(Progress *progress);
 
 // The signals that stop rendering. Before the first tile there is nothing to write, so a signal
 // ends the process. Afterwards, clrt writes the finished tiles at the first signal. A second signal
-// ends the process at once.
+// of the same number ends the process at once.
 
 // Installs handlers for SIGINT and SIGTERM, unless they are ignored, for the life of the process.
 // Before stop_wait_for_tiles, a signal ends the process with a message and status 128 + its

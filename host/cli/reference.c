@@ -23,7 +23,7 @@
 #define ACROSS 0.7548776662466927
 #define DOWN   0.5698402909980532
 
-// One of this many passes is drawn in fp64 too.
+// About one of this many passes, and at least two passes, are drawn in fp64 too.
 #define EXACT_STEP 16
 
 // A run that draws passes in one precision.
@@ -39,7 +39,7 @@ typedef struct {
     Progress progress;
     uint32_t passes, exact_passes; // even numbers, at least 2
     uint32_t passes_done;
-    uint32_t draws_done; // passes in either precision
+    uint32_t draws_done; // fp32 passes plus fp64 passes
     bool stopped;
 } Reference;
 

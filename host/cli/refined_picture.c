@@ -67,8 +67,7 @@ static bool draw_adaptively(Picture *picture, const CameraData *camera, ThreadPo
     return ok;
 }
 
-// Refines until the time or error goal is met. Does nothing if truncation alone exceeds the error
-// goal.
+// Refines toward the time or error goal. Does nothing if truncation alone exceeds the error goal.
 static bool refine(const Run *run, Ladder *ladder, double start, GoalOutcome *outcome, Error *error)
 {
     const GoalTime time = {start, run->options->time_goal};

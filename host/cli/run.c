@@ -95,7 +95,7 @@ bool run_load_scene(Run *run, Error *error)
     return ok;
 }
 
-// Returns whether to build a tree. An explicit --bvh always builds one.
+// Returns whether to build a tree. With --bvh, few triangles get a tree too.
 static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
 {
     const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;

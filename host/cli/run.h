@@ -42,7 +42,7 @@ typedef struct {
     double turned; // the turntable's angle in degrees
     uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
     uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at each depth
-    double estimate;   // of the RMSE, including truncation by --error; 0 without a goal
+    double estimate;   // of the RMSE, with --error including truncation; 0 without a goal
     double bound;      // upper bound of the RMSE with 95 % confidence
     bool goal_missed;  // the goal of --error or --time
     double truncation; // bound on the color error caused by max_level

@@ -38,16 +38,16 @@ void run_begin(Run *run)
         open_device(run);
 }
 
-// Single rays take longer than packets. Samples of --aa are the unit for the additional time.
+// The choice of quick kernels depends on the work of the run, measured in samples of --aa.
 
-// With --error E, a pixel counts as ERROR_SAMPLES / E samples, four for each sample that it takes.
+// With --error E, a pixel counts as 1 + ERROR_SAMPLES / E samples, four for each that it takes.
 #define ERROR_SAMPLES 0.08
 
-// With --aa-adaptive T, a pixel counts as CONTRAST_SAMPLES / sqrt(T) samples. Measured: 0.4 to 0.5
-// in a small scene, 2.2 to 2.6 with a mesh.
+// With --aa-adaptive T, a pixel counts as 1 + CONTRAST_SAMPLES / sqrt(T) samples. CONTRAST_SAMPLES
+// was measured as 0.4 to 0.5 in a small scene, and as 2.2 to 2.6 with a mesh.
 #define CONTRAST_SAMPLES 1
 
-// Returns the number of samples of --aa as which a pixel counts.
+// Returns a pixel's work, in samples of --aa.
 static double samples_per_pixel(const Options *options, const RenderSettings *settings)
 {
     if (options->error_goal > 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compiles the general kernels, and the specialized kernels of a scene if the command line names
-// one.
+// one. --specialize always or never can exclude one of the two.
 #include "cli/commands.h"
 
 #include <stdio.h>

@@ -47,8 +47,7 @@ double difference_psnr(const Difference *difference);
 double image_pair_difference(const ImagePair *pair, size_t pixel, int color);
 
 // Makes a picture of the absolute differences of two pictures. With for_the_eye, each color is
-// sqrt(difference / (64/255)), at most 1. All pictures have this scale, so that users can compare
-// them.
+// sqrt(difference / (64/255)), at most 1. The scale is fixed, so that users can compare pictures.
 bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool for_the_eye,
                              Error *error);
 

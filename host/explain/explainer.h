@@ -31,11 +31,11 @@ typedef struct {
     bool uses_lights;             // false for silhouettes
     double share;                 // weight of `shaded` in the sample's color
     Vec3 shaded;                  // surface color without reflections
-    const ExplainedLight *lights; // one per light of the scene
+    const ExplainedLight *lights; // one per light of the scene; unset unless uses_lights
 } ExplainedRay;
 
-// If the last ray hits a reflective surface, it has reached max_level, and its reflection shows the
-// background.
+// A reflective surface that rays[ray_count - 1] hits shows the background, because the next ray
+// would have the level max_level.
 typedef struct {
     uint32_t ray_count;
     const ExplainedRay *rays; // the camera ray, then the reflected rays
@@ -79,8 +79,8 @@ bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t ind
 // Stores the color of the pixel after all its samples are traced.
 void explainer_mix(const Explainer *explainer, float color[3]);
 
-// A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and its
-// number in that file.
+// A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and
+// number in that file, not counting triangles that were dropped from the same MeshObject.
 typedef struct {
     bool is_sphere;
     size_t number;    // spheres from 1, triangles from 0
@@ -89,8 +89,8 @@ typedef struct {
 
 PrimitiveName name_primitive(const Scene *scene, uint32_t id);
 
-// Returns the name that a define statement gave the material, or the course's number. The string
-// belongs to the scene or is static.
+// Returns the name of a defined or imported material, or the number of a material of the course.
+// The string belongs to the scene or is static.
 const char *name_material(const Scene *scene, uint32_t material);
 
 typedef struct {
@@ -103,8 +103,8 @@ typedef struct {
     bool is_brief; // only the first sample and its important rays, with fewer facts and digits
 } ExplainReport;
 
-// Traces the pixel's samples with a new explainer and writes them as text. Returns false if the
-// device fails.
+// Traces the pixel's samples with explainer and writes them as text. Returns false if the device
+// fails.
 bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
                         Error *error);
 

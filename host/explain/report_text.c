@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes one paragraph per ray and one fact per line.
+// Writes a paragraph for each ray, with a line for each of its lights.
 #include "explain/explainer.h"
 
 #include <string.h>

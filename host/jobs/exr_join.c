@@ -52,8 +52,8 @@ typedef struct {
     int output;
 } TileJoin;
 
-// Fills bytes with the tile's head and compressed data. Returns false if the tile is damaged or has
-// another size than in the first pass.
+// Fills bytes with the tile's head and compressed data. Returns false if the tile is damaged or,
+// unless it is the last of the picture, has another size than in the first pass.
 static bool read_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {
     const ExrJoin *join = work->join;

@@ -15,7 +15,7 @@ typedef struct {
     atomic_int write_error; // the errno of a failed write; 0 without one
 } ExrJoin;
 
-// Allocates the memory for the whole picture, of which file is a part. The caller frees starts.
+// Allocates starts for the whole picture, of which file is a part. The caller frees starts.
 bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error);
 
 // First pass: records the sizes of the part's tiles. Fails if a tile is missing.
@@ -27,7 +27,7 @@ bool exr_join_measure(ExrJoin *join, const ExrFile *file, const RenderSettings *
 bool exr_join_write_head(ExrJoin *join, const ImageSettings *settings, const RenderSettings *place,
                          FILE *stream);
 
-// Second pass: copies the part's tiles. Fails if writing fails, if the part is damaged, or if it
-// has changed since the first pass.
+// Second pass: copies the part's tiles. Fails if writing fails, or if a tile is damaged or no
+// longer fits into its place.
 bool exr_join_copy(ExrJoin *join, const ExrFile *file, const RenderSettings *settings, FILE *stream,
                    Error *error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The settings text of a picture file, without its entries on tiles, identifies the whole picture.
+// Files of one picture have equal settings texts, apart from the entries on parts and tiles.
 #include "jobs/stored_tiles.h"
 
 #include "base/processors.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A partly finished picture file -> its settings, and the number and pixel values of its finished
-// tiles.
+// The file of a part or of an unfinished picture -> its settings, and the number and pixel values
+// of its finished tiles.
 #pragma once
 
 #include "image/exr_file.h"
@@ -12,7 +12,7 @@
 #include <jansson.h>
 
 typedef struct {
-    RenderSettings settings; // only sizes, tile size and part are set
+    RenderSettings settings; // only sizes, left, top, tile size and part are set
     Encoding encoding;
     json_t *whole; // the settings text without `part` and `tile`; owned
 } StoredTiles;
@@ -55,7 +55,7 @@ bool stored_tiles_find(const ExrFile *file, const Tile *tile, exr_chunk_info_t *
 typedef struct {
     Framebuffer *framebuffer;
     Layers *layers;
-    bool is_whole; // have the whole picture's size, even for a part (tile_frame_size)
+    bool is_whole; // both have the whole picture's size; otherwise the size of tile_frame_size
 } TileTarget;
 
 // Copies tiles 0 to count - 1 of the file. The file must have the settings' tile size, colors, and

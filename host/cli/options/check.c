@@ -9,7 +9,7 @@
 // Options that exclude each other, regardless of their values.
 typedef struct {
     const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL after the last name
-    const char *sentence;                               // a format; %s is the first name
+    const char *sentence;                               // a format; %s is the given one of names
 } Conflict;
 
 #define REFINES "aa-adaptive", "error", "time"
@@ -31,7 +31,7 @@ static const Conflict conflicts[] = {
      "--frames and --turntable draw many pictures, and --expect-hash checks one"},
 };
 
-// Returns the first of these options on the command line, or NULL. Skips the option `but`.
+// Returns the first of these names that the command line contains, or NULL. Skips the name `but`.
 static const char *first_given(const Options *options, const char *const names[NAMES_MOST],
                                const char *but)
 {
@@ -52,7 +52,7 @@ bool options_check_conflicts(const Options *options, Error *error)
     return true;
 }
 
-// Returns the first option on the command line that is valid for use but not for other, or NULL.
+// Returns the table's first given option that is valid for use but not for other, or NULL.
 static const char *first_for(const Options *options, unsigned use, unsigned other)
 {
     for (size_t i = 0; i < option_count; i++)

@@ -54,10 +54,10 @@ enum {
     FOR_PIXEL = 64,    // --explain-pixel
     FOR_EXPLAIN = 128, // --explain
     FOR_PICTURE = FOR_FILE | FOR_WINDOW,
-    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN // all uses that trace rays
+    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN // all uses that need a device
 };
 
-// Parses text and stores the value in options. text is NULL if the option has no argument.
+// Parses text and stores the value in options. text is NULL if the argument was omitted.
 typedef bool SetOption(Options *options, const char *text, Error *error);
 
 typedef struct {
@@ -80,7 +80,7 @@ bool option_argument_is_optional(const Option *option);
 // Returns whether the option's argument is a file name.
 bool option_names_file(const Option *option);
 
-// Parses text and stores the value in the option's field. On failure, the message names the option.
+// Parses text and stores the value. On failure, the message names the option, or auto/N's variable.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);
 
 // Rejects options that exclude each other, for any command.

@@ -34,7 +34,7 @@ uint32_t share_begin(const Share *share, uint32_t total);
 #define FRAMES_MOST 1000000
 
 typedef struct {
-    uint32_t first, last, step; // last is 0 without --frames
+    uint32_t first, last, step; // last is 0 without a range
     uint32_t turntable;         // steps per full turn; 0: frames are views
     bool is_film;               // one animated file instead of numbered files
     Share share;                // of these frames; frames_complete applies and clears it
@@ -135,16 +135,16 @@ typedef enum {
 #define THREADS_MOST    4096
 #define QUIT_AFTER_MOST 1000000
 
-// Strings point into the command line.
+// Strings point into the command line or are static.
 typedef struct {
     Action action;
     uint64_t given;         // bit i: the command line contains the option of row i of option_table
-    const char *scene_path; // the first picture of ACTION_COMPARE; may be NULL for ACTION_WARM
+    const char *scene_path; // the first picture of ACTION_COMPARE; NULL if no scene is named
     char **part_paths;      // part_count file names of ACTION_MERGE
     int part_count;
     const char *other_path;  // the second picture of ACTION_COMPARE; the output of ACTION_CONVERT
-    const char *output_path; // "-": standard output; NULL: no -o, so the window opens
-    const char *format;      // one of image_format_names; NULL without an output
+    const char *output_path; // "-": standard output; NULL without -o
+    const char *format;      // a result of image_format_named; NULL without an output
     AovSet aovs;             // channels besides the colors
     uint32_t samples;        // per pixel and axis
     double contrast;         // the argument of --aa-adaptive; 0 without it
@@ -157,7 +157,7 @@ typedef struct {
     uint32_t part, parts; // from 1; 0, 0: the whole picture
     bool resume;          // for one picture; frames have skips_finished
     Frames frames;
-    int64_t max_level; // negative: the scene's
+    int64_t max_level; // negative: not given as a number
     bool fits_level; // use the smallest max_level whose error is invisible in a file of the format
     bool no_bvh;
     BvhBuilder builder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses shares. The share "auto" is the task number in a variable of the environment.
+// Parses shares. "auto/N" takes the share from the task number in an environment variable.
 #include "cli/options/options.h"
 
 #include "base/number.h"

@@ -68,13 +68,13 @@ const Option option_table[] = {
 
     {"bvh", "sah|midpoint", 0, WORD(builder), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
      "build the tree by the surface area heuristic (default) or by midpoints; without this "
-     "option, up to 32 triangles get no tree"},
+     "option, up to 32 triangles get no tree with wide nodes"},
     {"no-bvh", NULL, 0, FLAG(no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
      "build no tree and test every triangle"},
     {"tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT, FOR_FILE,
      "size of the tiles in which the picture is traced (default: 128x128; for parts 64x64)"},
     {"work-group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
-     FOR_PICTURE, "size of the device's work-groups (default: 8x8; for packets 2x2)"},
+     FOR_PICTURE, "size of the device's work-groups (default: 8x8; with wide nodes 2x2)"},
     {"specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN,
      "compile kernels for this scene: if it pays (default), always or never"},
