@@ -35,5 +35,5 @@ void *memory_raw(size_t count, size_t size, Error *error);
 // Returns a copy of text, which the caller frees, or NULL if memory runs out.
 char *text_copy(const char *text, Error *error);
 
-// Like memory_raw, but without the alignment and without huge pages: for mostly untouched arrays.
+// Like memory_raw, but without alignment or a request for huge pages: for partly untouched arrays.
 void *memory_sparse(size_t count, size_t size, Error *error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Starts programs, exchanges messages with them, collects their output, and limits this process.
+// Starts programs, collects their output, sends and receives messages, and limits this process.
 #include "base/child_process.h"
 
 #include "base/array.h"

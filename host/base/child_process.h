@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Child processes run code that may crash, hang or hold locks. The parent and a child communicate
-// over a pair of sockets. The parent survives every fault of the child.
+// Child processes run code that may crash or hang. The parent and a child communicate over a pair
+// of sockets. The parent survives every fault of the child.
 #pragma once
 
 #include "base/file.h"
@@ -22,13 +22,13 @@ typedef void ChildWork(int socket, const void *context);
 // threads start. On failure, returns false, and *cause receives the reason without a file name.
 bool child_fork(ChildProcess *child, ChildWork *work, const void *context, Error *cause);
 
-// Starts a program with one argument. Its standard output is the socket, and it inherits no other
-// file. Any thread may call child_spawn. On failure, returns false, and *cause receives the reason
-// without a file name.
+// Starts a program with one argument. Its standard output is the socket, and its standard input and
+// error are /dev/null. Any thread may call child_spawn. On failure, returns false, and *cause
+// receives the reason without a file name.
 bool child_spawn(ChildProcess *child, const char *program, const char *argument, Error *cause);
 
 // Kills the child and closes the socket. A child that has ended by itself keeps its status.
-// Returns the status, as waitpid does.
+// Returns the status that waitpid stores, or 0 if there is no child.
 int child_end(ChildProcess *child);
 
 // Send and receive whole messages. They return false if the other process has closed its socket.
@@ -49,9 +49,9 @@ typedef enum {
     CHILD_FAILED   // exited with a nonzero status
 } ChildFate;
 
-// Reads output until the child closes the socket, then ends the child. The caller frees output,
-// also after a failure. *signal is the signal that ended the child, or 0. error receives a message
-// only if memory runs out.
+// Reads output until the child closes the socket or exceeds a limit, then ends the child. The
+// caller frees output, also after a failure. *signal is the signal that ended the child, or 0.
+// error receives a message only if memory runs out.
 ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *output, int *signal,
                         Error *error);
 

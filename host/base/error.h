@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The first cause of a failure, as one sentence for the user. Functions that fail return false and
-// fill an Error. Programming errors assert. If a function cannot make, open or read a value,
-// freeing the value is unnecessary but harmless. Headers name the exceptions.
+// The first cause of a failure, as one sentence for the user. Functions that fail return false or
+// NULL, and fill an Error. Programming errors assert. If a function cannot make, open or read a
+// value, freeing the value is unnecessary but harmless. Headers name the exceptions.
 #pragma once
 
 #include <stdbool.h>

@@ -9,11 +9,11 @@
 #include <stdio.h>
 
 typedef struct {
-    char *bytes; // `size` bytes and a terminating zero; owned
+    char *bytes; // `size` bytes and, except after child_collect, a terminating zero; owned
     size_t size;
 } File;
 
-// Reads the regular file or pipe at path. The error message names path and the system's reason.
+// Reads the regular file or pipe at path. Unless memory runs out, the error message names path.
 bool file_read(File *file, const char *path, Error *error);
 
 // Returns whether file_read can open path. If not, the error message is the same as file_read's.

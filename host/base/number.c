@@ -2,9 +2,9 @@
 // Converts decimal text to int64_t or to a correctly rounded double, in every locale. Up to 19
 // digits fit in a 64-bit integer. If that integer and the power of ten are exact doubles, one
 // multiplication or division rounds once and is correct (William D. Clinger, "How to Read Floating
-// Point Numbers Accurately", PLDI 1990). For powers from 10^-27 to 10^27, 128-bit integers hold the
-// result, and only the conversion to double rounds. All other numbers are rewritten as
-// DIGITSeEXPONENT for strtod. No locale misreads this form, because it has no decimal point.
+// Point Numbers Accurately", PLDI 1990). For powers from 10^-27 to 10^27, 128-bit integers hold
+// enough of the result, and only the conversion to double rounds. All other numbers are rewritten
+// as DIGITSeEXPONENT for strtod. No locale misreads this form, because it has no decimal point.
 #include "base/number.h"
 
 #include <float.h>

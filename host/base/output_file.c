@@ -26,7 +26,7 @@ static bool is_replaceable(const char *path)
 }
 
 // Creates an empty file with an unused name. Writes the name's last SUFFIX_SIZE bytes to suffix.
-// Unlike mkstemp, open applies the umask, which programs can read only by changing it.
+// Unlike mkstemp, open applies the umask, which umask() can report only by changing it.
 static bool make_file(char *suffix, const char *name)
 {
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Output files appear complete or not at all. clrt writes a temporary file beside the final name
-// and then renames it. Renaming would replace links, pipes and devices, so clrt copies the finished
-// bytes into them.
+// A regular output file appears complete or not at all. clrt writes a temporary file beside the
+// final name and then renames it. Renaming would replace links, pipes and devices, so clrt copies
+// the finished bytes into them.
 #pragma once
 
 #include "base/error.h"
@@ -17,8 +17,8 @@ typedef struct {
 // Creates an empty temporary file. The error message names the path.
 bool output_file_begin(OutputFile *file, const char *path, Error *error);
 
-// Moves the temporary file to its final name or, if ok is false, removes it. Returns false if ok is
-// false or the move fails. If the move fails, cause holds the reason without the path.
+// If ok, renames or copies the temporary file to its final name; otherwise removes it. Returns
+// false if ok is false or the move fails. If it fails, cause holds the reason without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
 // Creates the file from the bytes that `write` writes to its stream. If `write` fails, it returns

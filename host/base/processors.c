@@ -68,8 +68,8 @@ static bool names_cpu(char *controllers)
     return false;
 }
 
-// Returns the least quota of a version 1 group. The controller is mounted alone, as "cpu", or
-// together with others, as "cpu,cpuacct".
+// Returns the least quota of a version 1 group and its ancestors. The controller is mounted alone,
+// as "cpu", or together with others, as "cpu,cpuacct".
 static uint32_t controller_grant(const char *mount, char *controllers, const char *group)
 {
     char folder[PATH_SIZE];

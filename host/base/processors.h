@@ -6,7 +6,7 @@
 
 uint32_t processors_present(void);
 
-// Returns the number allowed by the process's affinity and by its control groups' quotas.
+// Returns the number allowed by the calling thread's affinity and by its control groups' quotas.
 uint32_t processors_usable(void);
 
 // Returns the least quota of a control group and its ancestors, in processors, rounded up, or

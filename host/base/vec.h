@@ -89,9 +89,9 @@ static inline Vec3 vec3_normalize(Vec3 a)
     return vec3_scale(unit, 1 / sqrt(vec3_dot(unit, unit)));
 }
 
-// Return the sine and cosine of degrees, which must be finite and below 1e9. Accurate within 2 ulp;
-// exact at multiples of 90. The polynomials are fixed, because the last bits of the C library's
-// sine differ between processors with and without fma, and would change the camera.
+// Return the sine and cosine of degrees, which must be below 1e9 in magnitude. Accurate within 2
+// ulp; exact at multiples of 90. The polynomials are fixed, because the last bits of the C
+// library's sine differ between processors with and without fma, and would change the camera.
 double sine_of_degrees(double degrees);
 double cosine_of_degrees(double degrees);
 

@@ -21,19 +21,19 @@ typedef struct {
 // Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt, ~/.cache/clrt and a private
 // temporary folder that is writable and has free space. If hosts share the file system of the
 // second or third, clrt-hosts/HOST/clrt replaces clrt. Sets POCL_CACHE_DIR to a subfolder of the
-// chosen folder. If all folders are full, PoCL lists no device. Only main may call cache_open,
+// chosen folder. If no folder qualifies, PoCL lists no device. Only main may call cache_open,
 // before the first OpenCL call.
 void cache_open(Cache *cache);
 
 // Opens a cache for libraries, which needs no cache_close. Leaves the environment unchanged, so
-// PoCL stores its kernels in POCL_CACHE_DIR or in its default folder. The lock and the manifests
-// are in the subfolder clrt/library. cache->folder is empty if no folder is writable.
+// PoCL stores its kernels in POCL_CACHE_DIR or in its default folder. cache->folder is clrt/library
+// in $POCL_CACHE_DIR, $XDG_CACHE_HOME or ~/.cache, or empty if no folder is writable.
 void cache_open_for_library(Cache *cache);
 
 // Removes the folder if it is temporary. No OpenCL object may be in use.
 void cache_close(Cache *cache);
 
-// Creates the folder `base` + `rest`. If it is not writable, returns false and empties the cache.
+// Clears *cache, then creates cache->folder = `base` + `rest`. Returns false if it is not writable.
 bool cache_take_folder(Cache *cache, const char *base, const char *rest);
 
 // Removes a file or a folder with its contents, as far as possible.

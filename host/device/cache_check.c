@@ -138,8 +138,8 @@ void cache_check_begin(CacheCheck *build, const Cache *cache, const char *key)
         sweep(cache);
 }
 
-// Writes the program's manifest. It is empty if the process had loaded the program before, because
-// the program's files are then unknown.
+// Writes the program's manifest. It is empty if the process loaded no new kernel from PoCL's folder
+// during the build, because the program's files are then unknown.
 static void write_manifest(const CacheCheck *build, LoadedKernels *kernels)
 {
     char path[MANIFEST_PATH_SIZE];

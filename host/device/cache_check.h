@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Guards the build of a program: holds the cache's lock, and first compares PoCL's files for the
 // program with a manifest of checksums. PoCL crashes or computes wrong results with damaged files,
-// so clrt removes them, and PoCL compiles again.
+// so clrt removes the program, and PoCL compiles again.
 #pragma once
 
 #include "device/cache.h"
@@ -15,12 +15,13 @@ typedef struct {
     bool is_announced; // cache->announce(true) was called
 } CacheCheck;
 
-// Waits for the lock. If some of the program's files are damaged, removes them. If the program has
-// no manifest, also removes all programs that no manifest lists. Borrows cache and key.
+// Waits for the lock. If any file of the program is damaged, removes all its files. If the program
+// has no manifest and only clrt uses PoCL's folder, removes all programs that no manifest lists.
+// Borrows cache and key.
 void cache_check_begin(CacheCheck *build, const Cache *cache, const char *key);
 
-// Ends the build and unlocks the cache. Writes the program's manifest if `works`, which means that
-// the build and a first run of the kernels succeeded.
+// Ends the build and unlocks the cache. `works` means that the build and a first run of the kernels
+// succeeded. If so, writes the program's manifest if it is missing or incomplete.
 void cache_check_end(CacheCheck *build, bool works);
 
 // Returns whether the program with this key was built before and has an intact manifest.

@@ -87,8 +87,7 @@ void cache_open(Cache *cache)
     if (!take_chosen(cache) && !take_users(cache, getenv("XDG_CACHE_HOME"), "") &&
         !take_users(cache, getenv("HOME"), "/.cache") && !take_temporary(cache))
         *cache = (Cache){0};
-    // Without a usable folder, makes PoCL list no CPU: PoCL cannot create a folder in a device
-    // file.
+    // Without a usable folder, PoCL lists no device, because it cannot create /dev/null/clrt.
     setenv("POCL_CACHE_DIR", cache->folder[0] != '\0' ? cache->kernels : "/dev/null/clrt", 1);
 }
 

@@ -42,7 +42,7 @@ typedef struct {
     unsigned count;
 } DeviceList;
 
-// Lists all devices. Fails if there are none.
+// Lists all devices, but at most DEVICES_MOST. Fails if there are none.
 bool device_list(DeviceList *list, Error *error);
 
 #define DEVICE_TEXT_SIZE 4096

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chooses kernels from the user's request and the device, as the switches of kernels/config.h. All
-// choices with the same precision render the same picture.
+// Chooses kernels from the user's request and the device, and writes the choice as switches for the
+// compiler (kernels/config.h). All choices with the same precision render the same picture.
 #pragma once
 
 #include "accel/flat.h"
@@ -39,7 +39,7 @@ bool kernel_check_request(const KernelRequest *request, Error *error);
 // otherwise single rays with pair nodes. fp64 always uses single rays with pair nodes.
 KernelChoice kernel_choose(const KernelRequest *request, const Device *device);
 
-// Returns whether packets finish a picture sooner than single rays, including compilation.
+// Returns whether packets should finish a picture sooner than single rays, including compilation.
 bool kernel_suits_packets(const Device *device);
 
 // Returns the side of the kernels' square work-groups, in work-items.

@@ -18,8 +18,8 @@ typedef ARRAY(char) Lines;
 // Returns false if memory runs out, and then leaves the lines unchanged.
 bool lines_append(Lines *lines, const char *text);
 
-// Returns all lines after the first of a manifest file. Returns NULL if the file is missing or
-// damaged. The caller frees the result.
+// Returns all lines of a manifest file except the first line. Returns NULL if the file is missing
+// or damaged. The caller frees the result.
 char *manifest_read(const char *path);
 
 // Returns whether the folder contains all listed files with their checksums.

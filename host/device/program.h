@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Builds a program for a device from the embedded kernel source, SceneTraits and a KernelChoice.
+// Builds a program for a device from the kernels' source, SceneTraits and a KernelChoice.
 #pragma once
 
 #include "accel/flat.h"
 #include "device/device.h"
 #include "device/kernel_choice.h"
 
-// All kernel files, joined at build time in the order of their includes.
+// kernels/render.cl and all files that it includes, joined at build time.
 extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
@@ -22,7 +22,7 @@ typedef struct {
 } Program;
 
 typedef struct {
-    const char *kernel_folder; // folder of the kernels' source; NULL for the embedded source
+    const char *kernel_folder; // replaces kernel_source by the folder's render.cl; may be NULL
     const char *extra_options; // compiler options after clrt's own; NULL without any
     const char *appended;      // source to compile after the kernels; NULL without any
     KernelChoice choice;
@@ -40,6 +40,6 @@ void program_free(Program *program);
 
 #define PROGRAM_KEY_SIZE 33
 
-// Writes the program's key for cache_check_begin: a hash of everything that determines the program.
+// Writes the key for cache_check_begin: a hash of all inputs except the files in kernel_folder.
 void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
                  char key[PROGRAM_KEY_SIZE]);

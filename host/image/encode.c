@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rounds to the nearest byte. The course's program truncates, which doubles the error.
+// Rounds to the nearest byte. Truncation would double the largest error.
 #include "image/image_file.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // OpenEXRCore parses the file. A tile with ZIP compression ends with the Adler-32 checksum of its
-// values, which libdeflate verifies in half the time of zlib.
+// uncompressed bytes, which libdeflate verifies in half the time of zlib.
 #include "image/exr_file.h"
 
 #include <errno.h>

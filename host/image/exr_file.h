@@ -40,22 +40,21 @@ bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const size_t position[2]);
 
 // Points the channels of a tile to their values in framebuffer and layers, from the pixel at
-// position on. layers may be NULL. Channels that both lack point to NULL.
+// position on. layers may be NULL. Channels that both lack keep their pointers.
 void exr_place_channels(exr_coding_channel_info_t *channels, int count,
                         const Framebuffer *framebuffer, const Layers *layers,
                         const size_t position[2]);
 
-// The bytes in front of a compressed tile: column, row, two zeros for the level of detail, and
-// size.
+// The bytes before a compressed tile: column, row, two zeros for the level of detail, and size.
 typedef struct {
     uint32_t column, row, levels[2], size;
 } ExrTileHead;
 
 ExrTileHead exr_tile_head(const exr_chunk_info_t *tile, uint64_t size);
 
-// Writes the header of a picture of this size, or of settings->part. The caller then writes the
-// table of the tiles' positions and the tiles. Returns false if writing fails. The caller ends the
-// context with exr_finish in both cases.
+// Writes the header of a picture of this size, also if the file gets only the tiles of a part. The
+// caller then writes the table of the tiles' positions and the tiles. Returns false if writing
+// fails. The caller ends the context with exr_finish in both cases.
 bool exr_file_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
                     uint32_t height, FILE *stream);
 

@@ -16,12 +16,11 @@ typedef struct {
 bool framebuffer_make(Framebuffer *framebuffer, uint32_t width, uint32_t height, Error *error);
 void framebuffer_free(Framebuffer *framebuffer);
 
-// Writes 32 hexadecimal digits that identify the size and the exact bits of all pixels (XXH3, 128
-// bits).
+// Writes 32 hexadecimal digits that identify the picture's size and exact bits (128-bit XXH3).
 #define FRAMEBUFFER_HASH_SIZE 33
 void framebuffer_hash(const Framebuffer *framebuffer, char hash[FRAMEBUFFER_HASH_SIZE]);
 
-// A picture's channels beside its colors, with values of 32 bits: floats or unsigned integers.
+// The type of a channel, whose values have 32 bits: floats or unsigned integers.
 typedef struct {
     const char *name; // the channel's name in the file; borrowed
     bool is_integer;
@@ -29,6 +28,7 @@ typedef struct {
 
 #define LAYERS_MOST 64
 
+// A picture's channels beside its colors.
 typedef struct {
     LayerType list[LAYERS_MOST];
     uint32_t count;

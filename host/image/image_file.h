@@ -8,21 +8,22 @@
 
 typedef enum { ENCODE_RAW, ENCODE_SRGB } Encoding;
 
-// A text in the file: under its name in PNG and EXR, as a line of the description in TIFF and JPEG.
+// A text in the file. PNG stores it under its name. So does EXR, but with another name for the date
+// and without the hash of the pixels. In TIFF and JPEG, clrt:NAME texts are lines of a description.
 typedef struct {
     const char *name, *value;
 } ImageText;
 
 // A part of a picture: the tiles that the framebuffer contains, below each other.
 typedef struct {
-    uint32_t width, height;           // of the whole picture
+    uint32_t width, height;           // of the picture or crop that is divided into parts
     uint32_t tile_width, tile_height; // of unclipped tiles
-    uint32_t (*tiles)[2];             // X and Y of each tile in the whole picture; owned; NULL: all
+    uint32_t (*tiles)[2];             // X and Y of each tile in this picture or crop; owned
     size_t tile_count;
 } ImagePart;
 
 typedef struct {
-    const char *format; // png, jpg, tif, ppm, exr, hdr, gif or pfm
+    const char *format; // png, jpg, jpeg, tif, tiff, ppm, exr, hdr, gif or pfm
     Encoding encoding;  // for 8-bit formats; float formats store values unchanged
     double exposure;    // for 8-bit formats, in stops
     uint32_t frames;    // of a GIF, below each other in the framebuffer; 0 counts as 1

@@ -17,7 +17,7 @@
 namespace
 {
 
-// TIFF and JPEG have no fields with custom names, so their description has one line per text.
+// TIFF and JPEG have no fields with custom names, so clrt:NAME texts are lines of a description.
 void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
 {
     std::string lines;
@@ -136,8 +136,8 @@ bool holds_ids(const OIIO::ImageSpec &spec, int channel)
            !is_color(spec.channel_name(channel));
 }
 
-// Channels of 32-bit integers hold ids, which are stored unchanged in place of floats. Other
-// channels are converted to type. Each read_image call reads adjacent channels of one kind.
+// 32-bit integers, except in color channels, are ids, which are stored unchanged instead of floats.
+// Other channels are converted to type. Each read_image call reads adjacent channels of one kind.
 bool read_channels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
                    void *values)
 {

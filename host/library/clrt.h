@@ -66,8 +66,8 @@ typedef enum { CLRT_SHADING_SILHOUETTE, CLRT_SHADING_MATTE, CLRT_SHADING_BLINN_P
 
 // The visible color is (1 - reflectivity) * shaded + reflectivity * the reflected ray's color. For
 // SILHOUETTE, shaded is diffuse. For MATTE, shaded is diffuse * (ambient + kd * D), where D sums
-// intensity * cosine over the visible lights. BLINN_PHONG adds specular * ks * S, where S sums
-// intensity * (normal . half vector) ^ shininess.
+// light * cosine over the visible lights, and light is intensity * color. BLINN_PHONG adds specular
+// * ks * S, where S sums light * (normal . half vector) ^ shininess. shaded is limited to 1.
 typedef struct {
     size_t size;
     ClrtShading shading;
@@ -86,7 +86,7 @@ CLRT_API bool clrt_scene_add_sphere(ClrtScene *scene, const double center[3], do
                                     uint32_t material, ClrtError *error);
 
 // A triangle mesh. Corners are in counter-clockwise order, seen from the front. clrt drops
-// triangles with two equal corners.
+// triangles with two corners at one position.
 typedef struct {
     size_t size;
     const double *positions;   // X Y Z per vertex, each below 1e30 in magnitude
@@ -132,7 +132,7 @@ typedef struct {
     uint32_t view_count;
     uint32_t light_count, material_count, sphere_count;
     uint64_t triangle_count;
-    uint64_t dropped_triangle_count; // triangles dropped because of two equal corners
+    uint64_t dropped_triangle_count; // triangles dropped for two corners at one position
 } ClrtSceneInfo;
 
 // Describes the scene in the first info->size bytes of *info. The caller sets info->size.
@@ -142,10 +142,9 @@ CLRT_API bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, C
 
 typedef struct ClrtRenderer ClrtRenderer;
 
-// Opens an OpenCL device and compiles the kernels, which takes one to two seconds unless the driver
-// has cached them. device has the syntax of `clrt --device`: PLATFORM:DEVICE, a type (cpu, gpu,
-// accelerator, all) or part of a name. NULL selects the first GPU or, without a GPU, the first
-// device.
+// Opens an OpenCL device and compiles the kernels, which takes seconds unless the driver has cached
+// them. device has the syntax of `clrt --device`: PLATFORM:DEVICE, a type (cpu, gpu, accelerator,
+// all) or part of a name. NULL selects the first GPU or, without a GPU, the first device.
 //
 // threads is the number of threads that build trees. 0 selects as many as the affinity mask and the
 // control groups' quotas allow. The driver sets the number of threads that draw on a CPU device. To
@@ -162,8 +161,8 @@ CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads
 // Frees the renderer. Accepts NULL.
 CLRT_API void clrt_renderer_free(ClrtRenderer *renderer);
 
-// A function that the drawing thread calls after every finished tile. It returns whether to
-// continue. It must not free the renderer or call clrt_render with the same renderer.
+// A function that clrt_render calls in the caller's thread after every finished tile. It returns
+// whether to continue. It must not free the renderer or call clrt_render with the same renderer.
 typedef bool ClrtProgress(void *user, uint64_t tiles_done, uint64_t tiles);
 
 typedef struct {
@@ -178,10 +177,10 @@ typedef struct {
 } ClrtPicture;
 
 // Draws the scene into rgb, an array of 3 * width * height floats: R G B in [0, 1], top row first.
-// The first picture of a new or changed scene also builds the scene's tree. A new size or camera
-// costs nothing. Returns false with CLRT_STOPPED if progress stops the picture before its last
-// tile. In this case, rgb contains complete tiles of 128 x 128 pixels, and its other values are
-// unchanged.
+// Unless the renderer's previous picture shows the same unchanged scene, the call also builds a
+// tree. A new size or camera needs none. Returns false with CLRT_STOPPED if progress stops the
+// picture before its last tile. Then, or if the device fails, rgb contains complete tiles of up to
+// 128 x 128 pixels, and its other values are unchanged.
 CLRT_API bool clrt_render(ClrtRenderer *renderer, const ClrtScene *scene,
                           const ClrtPicture *picture, float *rgb, ClrtError *error);
 

@@ -9,7 +9,7 @@
 
 #include <stdatomic.h>
 
-// Validates the arguments of the library's callers. Other code only asserts its requirements.
+// The check functions validate the callers' arguments. Other code only asserts its requirements.
 
 // Fills error unless it is NULL, and returns false.
 __attribute__((format(printf, 3, 4))) bool check_fail(ClrtError *error, ClrtFault fault,
@@ -18,8 +18,8 @@ __attribute__((format(printf, 3, 4))) bool check_fail(ClrtError *error, ClrtFaul
 // Calls check_fail with the message of cause.
 bool check_fail_for(ClrtError *error, ClrtFault fault, const Error *cause);
 
-// Return false with CLRT_ARGUMENT if the argument is invalid. The parameter what names the
-// argument. Vector components are in [-most, most], colors in [0, 1].
+// Return false with CLRT_ARGUMENT if the argument is invalid. `what` is its name in messages.
+// Vector components are in [-most, most], colors in [0, 1].
 bool check_given(ClrtError *error, const char *what, const void *pointer);
 bool check_number(ClrtError *error, const char *what, double number, double low, double high);
 bool check_vector(ClrtError *error, const char *what, const double vector[3], double most);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws all scenes with the general kernels, so that a renderer compiles kernels only once.
+// All scenes use the general kernels, so that a renderer compiles kernels only once.
 #include "library/handles.h"
 
 #include "accel/flat.h"
