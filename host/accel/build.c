@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A split partitions a node's triangles from one array into the same positions of a second array.
-// The splits of the children write the triangles back into the first array. An explicit stack holds
-// the pending nodes, so that no recursion overflows.
+// A split partitions a node's triangles from one array into the same range of a second array. The
+// splits of the children write the triangles back into the first array. An explicit stack holds the
+// pending nodes, so that no recursion overflows.
 #include "accel/build.h"
 
 #include <assert.h>
@@ -30,7 +30,7 @@ static BuildRange range_of(const Build *build, const BuildTask *task)
     return range;
 }
 
-// Copies the left items and then the right items to other, each in unchanged order.
+// Copies the left items to `other`, followed by the right items. Each side keeps its order.
 static void move_sides(const BuildRange *range, const Split *split, BuildItem *other)
 {
     BuildItem *left = other, *right = other + split->left;
@@ -61,8 +61,8 @@ static int compare_centers(const void *first, const void *second, void *axis)
     return a->number < b->number ? -1 : 1;
 }
 
-// Copies the items to other, sorted by center along the longest axis. The caller halves the result.
-// This works for any set of items, even if all are equal.
+// Copies the items to `other`, sorted by center along the axis on which the centers extend most.
+// The caller halves the result. This works even if all centers are equal.
 static void move_halves(const BuildRange *range, BuildItem *other)
 {
     int axis = longest_axis(&range->centers);

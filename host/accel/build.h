@@ -15,7 +15,7 @@ typedef float Float4 __attribute__((vector_size(16)));
 typedef uint32_t Uint4 __attribute__((vector_size(16)));
 
 typedef struct {
-    Float4 low, negated_high; // x, y, z; BuildItem keeps its number in a fourth component
+    Float4 low, negated_high; // x, y, z; in a BuildItem, low[3] holds the triangle's index
 } Bounds;
 
 // A triangle to sort.
@@ -150,7 +150,7 @@ static inline bool split_is_left(const Split *split, const BuildItem *item)
     return (item_center(item, split->axis) - split->origin) * split->scale < split->limit;
 }
 
-// A node that is not divided yet.
+// A node to divide.
 typedef struct {
     uint32_t node;
     uint32_t first, count; // range of its triangles in Bvh::order

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Builds the tree top down. Threads divide the large nodes, level by level. One thread builds each
-// remaining subtree. Every subtree has its own node indices, so the tree does not depend on the
-// schedule.
+// Builds the tree top down. Threads divide the large nodes, level by level. Afterwards, each thread
+// builds one remaining subtree at a time. Every subtree has its own node indices, so the tree does
+// not depend on the schedule.
 #include "accel/bvh.h"
 
 #include "accel/build.h"

@@ -140,8 +140,8 @@ static float rounded_up(double value)
     return -rounded_down(-value);
 }
 
-// Grows each plane by BVH_SLACK times the box's largest coordinate. The sum is nearly exact in fp64
-// and rounded outward to float. The slack makes the device's culling conservative
+// Moves each plane outward by BVH_SLACK times the box's largest coordinate. The sum is nearly exact
+// in fp64 and rounded outward to float. The slack makes the device's culling conservative
 // (kernels/search.cl).
 static Box box_grow(const Box *box)
 {
@@ -192,7 +192,7 @@ void compile_stages_free(CompileStages *stages)
     bvh_free(&stages->bvh);
 }
 
-// Called only for materials that primitives use. A defined but unused material costs nothing.
+// Called only for materials that primitives use. A defined but unused material sets no trait.
 static void add_material(SceneTraits *traits, const Material *material)
 {
     traits->mirrors |= material->reflectivity > 0;

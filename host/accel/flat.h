@@ -7,8 +7,8 @@
 
 // The memory layout of triangles and their tree. Both layouts render the same picture.
 typedef enum {
-    NODES_PAIR, // two children per node, single triangles: for GPUs
-    NODES_WIDE  // eight children per node, blocks of eight triangles: for vector instructions
+    NODES_PAIR, // two children per node, single triangles: suits GPUs
+    NODES_WIDE  // up to eight children per node, blocks of eight slots: for vector instructions
 } NodeLayout;
 
 typedef struct {
@@ -48,7 +48,7 @@ void flat_free(FlatScene *flat);
 typedef struct {
     const char *name; // for users
     const void *data;
-    size_t bytes; // 0 if the scene does not need the array
+    size_t bytes; // 0 if the array is empty
 } FlatArray;
 
 #define FLAT_ARRAYS 7
@@ -73,7 +73,7 @@ typedef struct {
     Bvh bvh;
 } CompileStages;
 
-// Fills flat, and *stages unless stages is NULL. The caller frees both.
+// Fills *flat, which must be {0}, and *stages unless stages is NULL. The caller always frees both.
 bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
                    Error *error);
 void compile_stages_free(CompileStages *stages);

@@ -8,7 +8,7 @@ typedef struct {
     const MeshObject *object;
     const uint8_t *orders;  // the object's section of Triangles::orders
     TriangleLook *looks;    // the object's section of FlatScene::looks
-    CornerNormals *normals; // and of FlatScene::normals; NULL for flat shading
+    CornerNormals *normals; // its section of FlatScene::normals; NULL for flat shading
     uint32_t first_normals; // index in FlatScene::normals of the section's first element
 } ObjectLooks;
 
@@ -31,8 +31,7 @@ static double larger(double a, double b)
     return a > b ? a : b;
 }
 
-// Returns 2^-floor(log2(value)) for a positive value that is a normal number, faster than ilogb and
-// scalbn.
+// Returns 2^-floor(log2(value)) for values in [2^-1022, 2^1023), faster than ilogb and scalbn.
 static double inverse_power(double value)
 {
     uint64_t bits;

@@ -9,12 +9,12 @@
 // flat_pair_make or flat_wide_make moves them.
 bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error);
 
-// Fills the pair layout: a BvhPair for every inner node, and the triangles in leaf order. The looks
-// move into the triangles.
+// Fills the pair layout: a BvhPair for every inner node or for a root that is a leaf, and the
+// triangles in leaf order. The looks move into the triangles.
 bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error);
 
 // Fills the wide layout: nodes of up to eight children, and blocks of triangles. The triangles'
-// flags move from the looks to the blocks. Without a tree, the triangles are in file order.
+// flags move from the looks to the blocks. Without a tree, both layouts keep the file's order.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);
 
 // Operations on axis-aligned boxes.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Collapses the binary tree into nodes of up to eight children. A wide node starts with a binary
-// node's two children. While it has fewer than eight, two parts replace its child with the largest
-// surface area, which rays hit most often. A child with at most eight leaves is opened only if all
-// its leaves fit. This rule avoids nodes of only two or three blocks. One thread walks the tree,
-// and then all threads fill the blocks. Nodes and blocks are in depth-first order.
+// node's two children or a large leaf's two halves. While it has fewer than eight, two parts
+// replace its divisible child of largest surface area, which rays hit most often. A child with at
+// most eight leaves is opened only if all its leaves fit. This rule avoids nodes of only two or
+// three blocks. One thread walks the tree, and then all threads fill the blocks. Nodes and blocks
+// are in depth-first order.
 #include "accel/flat_parts.h"
 
 #include <stdlib.h>
@@ -51,7 +52,7 @@ static Part part_of(const Bvh *bvh, uint32_t number)
 }
 
 // Opens *part and stores the result in *part and *second. An inner node becomes its two children. A
-// leaf's range is halved between two blocks.
+// leaf's range is halved at a multiple of WIDE triangles.
 static void open_part(const Bvh *bvh, Part *part, Part *second)
 {
     const Part whole = *part;
@@ -137,7 +138,7 @@ static uint32_t add_block(const Collapse *collapse, uint32_t first, uint32_t cou
 }
 
 // Writes the wide node of a part and all nodes below. Returns the index of the part's node. The
-// depth of the binary tree bounds the recursion.
+// depth of the binary tree and the halving of large leaves bound the recursion.
 static uint32_t write_node(const Collapse *collapse, const Part *part)
 {
     Part parts[WIDE] = {*part};
@@ -195,7 +196,7 @@ static void unmark_chunk(void *context, uint32_t first, uint32_t end)
 }
 
 // A leaf of n triangles makes at most n / WIDE + 1 blocks. Each wide node replaces an inner node or
-// divides the blocks of a leaf.
+// covers blocks of one leaf.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
 {
     const size_t leaves = source->bvh->leaf_count, inner = source->bvh->node_count - leaves;

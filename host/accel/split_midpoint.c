@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The midpoint split of the course (docs/scenes.md): a plane through the middle of the box, across
-// its longest axis. If a side is empty or a child is hardly smaller than its parent, the next axis
-// is tried.
+// The midpoint split of the course that docs/scenes.md names: a plane through the middle of the
+// box, across its longest axis. If a side is empty, or a child is hardly shorter than its parent
+// along this axis, the next axis is tried.
 #include "accel/build.h"
 
 #define LEAF_TRIANGLES 4
-#define LARGEST_CHILD  0.9f // largest extent of a child, as a fraction of its parent's
+#define LARGEST_CHILD  0.9f // limit of a child's extent along the axis, divided by its parent's
 
 // Returns the most levels: 10 more than a balanced tree with four triangles per leaf has.
 static uint32_t deepest_level(uint32_t triangle_count)

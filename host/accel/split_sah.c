@@ -30,7 +30,7 @@ typedef struct {
     Uint4 counts[BINS];
 } Bins;
 
-// An item's bin is floor((doubled center - origin) * scale). On an axis without extent, scale is 0.
+// An item's bin is floor((doubled center - origin) * scale). Too short an axis has scale 0.
 typedef struct {
     Float4 origin, scale;
     int bins;

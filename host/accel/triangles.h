@@ -11,7 +11,7 @@
 
 // The order in which a triangle's corners are stored for the device (kernels/shared.h).
 typedef struct {
-    uint8_t places[3]; // corners in file order, 0 to 2, sorted by x, then y, then z
+    uint8_t places[3]; // places in the file, 0 to 2, of the corners sorted by x, then y, then z
     bool reversed;     // sorting swaps front and back
 } CornerOrder;
 
@@ -28,7 +28,7 @@ typedef struct {
     size_t count, point_count;
 } Triangles;
 
-// Returns false if memory runs out or the scene has too many triangles or vertices.
+// Returns false if memory runs out or the scene has too many triangles, spheres or vertices.
 bool triangles_make(Triangles *triangles, const Scene *scene, const Normalization *normalization,
                     ThreadPool *pool, Error *error);
 void triangles_free(Triangles *triangles);

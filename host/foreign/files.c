@@ -155,8 +155,8 @@ static void flush_nothing(struct aiFile *interface)
     (void)interface;
 }
 
-// Records a missing material library. Assimp then tries other names for the library, so only the
-// first counts.
+// Records a material library that Assimp cannot open. Assimp then tries other names for the
+// library, so only the first counts.
 static void note_missing(Files *files, const char *path)
 {
     const size_t folder = folder_length(files);

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// Returns a stream for the original standard output, and then redirects standard output to
-// /dev/null, because importers print there.
+// Redirects standard output to /dev/null, because importers print to it. Returns a stream for the
+// original standard output.
 static FILE *take_output(void)
 {
     const int own = dup(STDOUT_FILENO);

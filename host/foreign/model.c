@@ -7,8 +7,8 @@
 #include <assimp/postprocess.h>
 #include <string.h>
 
-// Returns the model in the file's coordinates, or NULL on failure. The settings disable Assimp's
-// change of the up axis and its meshes for skeletons.
+// Returns the model, or NULL on failure. The settings keep Assimp from turning Collada files to y
+// up, and from adding meshes for skeletons.
 static const struct aiScene *import(Files *files)
 {
     struct aiPropertyStore *settings = aiCreatePropertyStore();

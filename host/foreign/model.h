@@ -23,7 +23,7 @@ typedef struct {
     const char *model;         // the model's path, which includes a folder
     ARRAY(OpenedFile) opened;  // the files read so far; the model file is first
     size_t outside_count;      // number of requests for files outside of the folder
-    char missing[256]; // path of the first missing material library, relative to the folder; or ""
+    char missing[256];         // path of the first material library that was not opened, or ""
 } Files;
 
 // Initializes files for the model at this path. The path must outlive files.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Merges the vertices of a mesh at equal positions into points, because a ray cannot distinguish
-// them. Finds the edges between points with their triangles, and joins triangles into fans.
+// Merges vertices at equal positions into points, because rays cannot distinguish such vertices.
+// Finds the edges between points and each edge's triangles, and joins corners of triangles to fans.
 #pragma once
 
 #include "base/error.h"
@@ -18,7 +18,7 @@ typedef struct {
 bool weld_make(Weld *weld, const Mesh *mesh, Error *error);
 void weld_free(Weld *weld);
 
-// A triangle at an edge.
+// A triangle at an edge. The higher of two points is the one with the larger index.
 typedef struct {
     uint32_t high;     // the edge's higher point
     uint32_t opposite; // the triangle's third point
@@ -63,6 +63,6 @@ bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error);
 // Joins the fans of two triangles at one of their common points.
 void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t other);
 
-// Replaces each parent by the number of the corner's fan. Numbers are in the order of the fans'
-// lowest corners. Returns the number of fans. No other call for these fans may follow.
+// Replaces each parent by the index of the corner's fan, in the order of the fans' lowest corners.
+// Returns the number of fans. No other call for these fans may follow.
 uint32_t fans_number(Fans *fans);

@@ -14,7 +14,7 @@ typedef struct {
     ChildLimits limits;
 } ForeignReader;
 
-// Limits that suit any model that clrt can render.
+// The defaults: this build's clrt-foreign, and the same limits for every model.
 extern const ForeignReader foreign_reader;
 
 // Fills stream; on failure returns false with a message about the file at path.

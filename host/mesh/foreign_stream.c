@@ -14,7 +14,7 @@
 typedef struct {
     ForeignModel *model;
     const char *next, *end;
-    ForeignHead head; // head of the record at next
+    ForeignHead head; // head of the record whose data begins at next
     const char *name;
     PlyParse *parse;
     Error *error;

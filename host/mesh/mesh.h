@@ -21,17 +21,17 @@ static inline void mesh_fault_add(MeshFault *fault, size_t place)
 }
 
 typedef struct {
-    double (*positions)[3]; // vertex_count finite points, each |component| < 1e30
+    double (*positions)[3]; // vertex_count finite points, each |component| <= 1e30
     float (*normals)[3]; // vertex_count finite vectors of any length, zero for vertices without a
-                         // normal; NULL if the file has no normals
+                         // normal; NULL if the mesh has no normals
     uint32_t (
         *triangles)[3]; // triangle_count vertex triples, counter-clockwise seen from the front
     size_t vertex_count, triangle_count;
     size_t dropped_count;    // triangles that mesh_drop_triangles removed
     MeshFault equal_corners; // removed triangles with two equal corners
     MeshFault lost_corners;  // removed triangles with a bad position
-    // Vertices whose bad position or normal became zero. Only tolerant readers accept such
-    // vertices.
+    // Vertices whose bad position, or bad components of the normal, became zero. Only tolerant
+    // readers accept such vertices.
     MeshFault bad_positions, bad_normals;
 } Mesh;
 
@@ -79,9 +79,9 @@ void mesh_turn_up(Mesh *mesh, UpAxis up);
 
 // Computes a unit normal for each used vertex that lacks one: the mean normal of the faces around
 // the vertex, weighted by their angles. Vertices at one position count as one. Edges stay sharp if
-// the normals of their faces differ by more than crease_degrees, from 0 to 180. The mesh gets new
-// vertices, one for each normal at a position. The triangles keep their order. No computed normal
-// differs by more than crease_degrees from the normal of its triangle. Corners of triangles without
-// area may stay without a normal. Equal arguments give equal bits. On failure, the mesh is
+// the normals of their faces differ by more than crease_degrees (0 to 180). If a normal is missing,
+// new vertices replace all vertices. The triangles keep their order. No computed normal differs by
+// more than crease_degrees from the normal of its triangle. Corners of triangles with hardly any
+// area stay without a computed normal. Equal arguments give equal bits. On failure, the mesh is
 // unchanged.
 bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error);

@@ -17,7 +17,7 @@
 // Rounding must not separate coplanar faces at 0 degrees or opposite faces at 180 degrees.
 #define COSINE_SLACK 0x1p-40
 
-// A face is a sliver if the sines of its angles add up to less. Rounded coordinates can turn the
+// The sum of the sines of a sliver's angles is about this or less. Rounded coordinates can turn the
 // normal of a sliver by any angle.
 #define SINE_LEAST 0x1p-20
 
@@ -124,8 +124,8 @@ static bool make_vertices(Smoothing *smoothing, Error *error)
     return vertices != NULL;
 }
 
-// Gives a corner its own vertex in two cases. Either the file has a normal for the corner, or the
-// fan's mean normal differs from the face's by more than the crease angle, as at the tip of a cone.
+// Gives a corner its own vertex if the file has a normal for the corner, or if the fan's mean
+// normal is zero or differs from the face's by more than the crease angle, as at the tip of a cone.
 static bool split_corners(Smoothing *smoothing, Error *error)
 {
     for (size_t i = 0; i < 3 * smoothing->mesh->triangle_count; i++) {

@@ -34,11 +34,11 @@ typedef struct {
     const char *name;        // the file's name, for messages
     const char *start, *end; // the file's bytes
     const char *next;        // the first byte not yet read
-    const char *place;       // start of the last line or value read; failures report this position
+    const char *place;       // position that failures report, usually a line's or value's start
     PlyFormat format;        // PLY_ASCII throughout the header
     PlyWord element;         // name of the element being read; empty in the header
     int64_t index;           // index of the element being read; negative: messages omit it
-    bool is_tolerant;        // reads words such as inf and nan as NaN
+    bool is_tolerant;        // accepts bad numbers; reads words such as inf and nan as NaN
     Error *error;
 } PlyReader;
 
@@ -57,15 +57,15 @@ PlyQuote ply_reader_quote(PlyWord word);
 // Returns the minimum size in bytes of a value of this type in the reader's format.
 size_t ply_reader_value_size(const PlyReader *reader, PlyType type);
 
-// Fails unless count items of size bytes fit into the rest of the file. Callers check a count from
-// the file before they allocate memory or loop.
+// Fails unless `count` items of `size` bytes each fit into the rest of the file. Callers check a
+// count from the file before they allocate memory or loop.
 bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size);
 
 // Read the next value. ply_reader_read_integer accepts only integer types.
 bool ply_reader_read_number(PlyReader *reader, PlyType type, double *value);
 bool ply_reader_read_integer(PlyReader *reader, PlyType type, int64_t *value);
 
-// Skips count values. ASCII values need not be numbers.
+// Skips `count` values. ASCII values need not be numbers.
 bool ply_reader_skip_values(PlyReader *reader, PlyType type, int64_t count);
 
 bool ply_reader_is_space(char character);
@@ -127,15 +127,15 @@ PlyProperties ply_header_properties(const PlyHeader *header, const PlyElement *e
 // The fast path for binary PLY files with the usual layout. It stops before the first unusual or
 // invalid element. The general reader continues there and reports faults.
 
-// Reads vertices from reader->index up to count. Reads no vertex if a property is a list or a used
-// property is not a float. Advances reader->index and reader->next past the vertices read.
+// Reads vertices from reader->index up to count. Reads none if a property is a list or a used
+// property is an integer. Advances reader->index and reader->next past the vertices read.
 void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t count, Mesh *mesh);
 
 // Returns the size of a triangle in the file in bytes, or 0 for unusual layouts. In the usual
 // layout, a face has one list: its corners, with a 1-byte length and 4-byte indices.
 size_t ply_bulk_triangle_size(const PlyReader *reader, PlyProperties properties);
 
-// Reads at most room triangles from reader->index on. Stops at a face that does not have three
+// Reads at most `room` triangles from reader->index on. Stops at a face that does not have three
 // corners in [0, vertex_count). Advances the reader and returns the number of triangles read.
 size_t ply_bulk_triangles(PlyReader *reader, PlyProperties properties, int64_t vertex_count,
                           size_t room, uint32_t (*triangles)[3]);

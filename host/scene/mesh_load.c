@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Moves meshes into the scene's objects. Materials are named FILE:NAME, so that two files'
-// materials do not collide.
+// materials rarely have the same name.
 #include "scene/mesh_load.h"
 
 #include "mesh/foreign_process.h"

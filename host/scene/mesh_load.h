@@ -23,13 +23,13 @@ typedef struct {
 bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLoadOptions *options,
                   Error *error);
 
-// Adds an object for each part of the file at path, and its materials if requested. Adds all files
-// read to the inputs. Returns false with a message that names the file.
+// Adds an object for each part of the file at path, and the file's materials if requested. Adds all
+// files read to the inputs. On failure, returns false with a message that names the file.
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
 
-// Drops or computes normals of the scene's objects from number `first` on. Meshes read by
-// ply_parse_tolerantly stay unchanged, because reports count their file's own vertices. Returns
-// false with a message that names the file.
+// Drops or computes normals of the scene's objects from index `first` on. Meshes read by
+// ply_parse_tolerantly stay unchanged, because reports count their file's own vertices. On failure,
+// returns false with a message that names the file.
 bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
                        Error *error);
 

@@ -13,7 +13,7 @@
 // axis of the picture, touch() finds two planes of equal slope that touch the meshes.
 
 #define VIEWS         6
-#define DISTANCE      4.0 // of the eye from the center, in radii
+#define DISTANCE      4.0 // of the eye from the look-at point, in radii
 #define FILLED        0.8 // fraction of the picture's width or height that the meshes span
 #define RUN_TRIANGLES 64
 #define MOST_STEPS    32
@@ -200,8 +200,8 @@ static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
 }
 
 // Returns the up axis of the file's format, or UP_AUTO if the format has none. 3MF and AMF define z
-// as up, and glTF defines y. Modeling programs write OBJ with y up, and Assimp turns other formats
-// to y up.
+// as up, and glTF defines y. Modeling programs write OBJ with y up, and Assimp turns several other
+// formats to y up. The rest counts as y up.
 static UpAxis up_axis_of_format(const char *path)
 {
     if (file_has_ending(path, ".stl") || file_has_ending(path, ".off"))

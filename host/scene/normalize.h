@@ -22,6 +22,6 @@ Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 // Returns the scene coordinates of a normalized point.
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 
-// Fails if a normalized coordinate of a light, eye or sphere center exceeds 2^40, or a normalized
-// radius is outside [2^-40, 2^40]. Float arithmetic could overflow beyond these limits.
+// Fails if a normalized coordinate of a light, eye or sphere center is outside [-2^40, 2^40], or a
+// normalized radius is outside [2^-40, 2^40]. Beyond that, float could overflow or underflow.
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);

@@ -203,8 +203,7 @@ static double largest_reflectivity(const Scene *scene)
     return largest;
 }
 
-// A ray's weight is the product of the reflectivities on its path. The weight is at most a power of
-// the largest reflectivity in use.
+// A ray's weight is at most a power of the largest reflectivity in use.
 double truncation_bound(const Scene *scene, uint32_t max_level)
 {
     const double reflectivity = largest_reflectivity(scene);

@@ -12,7 +12,7 @@
 #define PICTURE_SIZE_MAX 131072
 #define MAX_LEVEL_LIMIT  1000
 
-#define COURSE_MATERIALS 4 // the course's materials come first in every scene
+#define COURSE_MATERIALS 4 // every scene begins with the course's materials (docs/scenes.md)
 
 // If the scene's file is a mesh, these materials follow: for meshes without materials, and for the
 // floor. The file's own materials come last.
@@ -71,8 +71,8 @@ typedef struct {
     ARRAY(char *) inputs; // paths of the files read; owned
     ARRAY(char *) notes;  // messages about omitted parts of the files; owned
     double mesh_seconds;  // time spent on loading meshes
-    // hash combines the XXH3 hashes of the scene file and its meshes, in the order read. mesh_hash
-    // combines only the hashes of the meshes, and is zero without meshes.
+    // hash combines the XXH3 hashes of the scene's text, of its meshes and of a lone mesh's up
+    // axis. mesh_hash combines only the hashes of the meshes, and is zero without meshes.
     uint64_t hash[2], mesh_hash[2];
 } Scene;
 
@@ -115,8 +115,8 @@ typedef struct {
 // Returns the first missing part: objects to render, or lights for surfaces that need them.
 MissingPart scene_missing(const Scene *scene);
 
-// Colors are at most 1, so the error of a maximum level is at most the remaining weight of a ray of
-// that level.
+// Colors are at most 1, so the error of a maximum level is at most the weight of a ray of that
+// level, which is the product of the reflectivities on the ray's path.
 
 // Returns an upper bound on the error of every color if rays of max_level return the background.
 double truncation_bound(const Scene *scene, uint32_t max_level);

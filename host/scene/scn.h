@@ -10,8 +10,8 @@
 
 #include <stdio.h>
 
-// Parses the size bytes of a scene file. Mesh paths are relative to the folder of the file called
-// name. Returns false with "name:line:column: ..." at the first error.
+// Parses the `size` bytes of a scene file. Mesh paths are relative to the folder of the file called
+// name. Returns false at the first error, with "name:line:column: ..." if the text itself is wrong.
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
 
 // Loads a scene file or a lone mesh file (mesh_load.h). parse_mesh reads PLY meshes: ply_parse or
@@ -31,6 +31,6 @@ void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream);
 // Returns whether scene text can quote the name: it is not empty and has no quotes or line ends.
 bool scn_write_can_name(const char *name);
 
-// Concatenates the meshes of a scene into one, all triangles in the scene's order. Objects without
-// normals get zero normals.
+// Concatenates the meshes of a scene into one, all triangles in the scene's order. If any object
+// has normals, the objects without normals get zero normals.
 bool mesh_join(Mesh *mesh, const Scene *scene, Error *error);

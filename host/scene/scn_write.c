@@ -145,7 +145,7 @@ static void choose_names(Writer *writer)
     }
 }
 
-// Writes the define statements. Only Blinn-Phong materials have specular properties.
+// Writes the define statements. Only Blinn-Phong materials use their specular properties.
 static void write_defines(const Writer *writer)
 {
     FILE *stream = writer->stream;

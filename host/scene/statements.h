@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The longer statements of scene text. `define` and `material` name materials beside the course's
-// four numbered ones. `mesh` and `ply_file` add a mesh file, and `mesh` also transforms it.
+// The longer statements of scene text. `define` adds a material to the course's four, and
+// `material` selects one. `mesh` and `ply_file` add a mesh file, and `mesh` also transforms it.
 #pragma once
 
 #include "scene/mesh_load.h"

@@ -37,7 +37,7 @@ Token tokens_next(Tokens *tokens);
 // Returns whether token is exactly this word.
 bool token_is(Token token, const char *word);
 
-// Read numbers. tokens_numbers reads count numbers from -COORDINATE_MOST to COORDINATE_MOST;
+// Read numbers. tokens_numbers reads `count` numbers from -COORDINATE_MOST to COORDINATE_MOST;
 // tokens_number_within reads one number from low to high.
 bool tokens_numbers(Tokens *tokens, int count, double *values);
 bool tokens_number_within(Tokens *tokens, double *value, double low, double high);
