@@ -131,7 +131,7 @@ static bool trace_pixels(Adaptive *adaptive, const RenderObserver *observer, Err
     return ok;
 }
 
-// Traces the new groups and listed seams, pass by pass, until nothing more is subdivided.
+// Traces new groups and listed seams, pass by pass, until there are no more of either.
 static bool refine(Adaptive *adaptive, SeamSearch *search, float threshold,
                    const RenderObserver *observer, Error *error)
 {

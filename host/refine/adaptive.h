@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Adaptive anti-aliasing: one sample per pixel, then more where neighbors differ. Decisions depend
-// on the whole picture and not on the order of work, so every device renders the same bits.
+// Adaptive anti-aliasing: one sample per pixel, then more where neighbors differ or parts are thin.
+// The selection of cells is independent of the order of work, so all devices render the same bits.
 #pragma once
 
 #include "base/thread_pool.h"
@@ -30,8 +30,8 @@ typedef struct {
 bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
                    Error *error);
 
-// Subdivides cells whose contrast exceeds the threshold, down to the last level, until the observer
-// returns false. The caller may refine at most once.
+// Subdivides cells whose contrast exceeds the threshold, and cells with thin parts, down to the
+// last level. Stops if the observer returns false. The caller may refine at most once.
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 

@@ -71,7 +71,7 @@ void ladder_close(Ladder *ladder)
 
 // The samples that advance a pixel by one rung.
 typedef struct {
-    uint32_t first;   // index of its first sample
+    uint32_t first;   // index of the first of these samples
     uint32_t samples; // per request
     uint32_t requests;
 } Step;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Refines a picture for error and time goals. Each pixel climbs a ladder of samples: its center,
 // then 4, 8, 16 ... 1024 points of its own sequence. Statistics of similar pixels decide how many
-// pixels advance, and hashes of pixel positions decide which. The picture therefore depends neither
-// on the order of work nor on the device.
+// pixels advance, and hashes of pixel positions decide which. With an error goal, the picture
+// therefore depends neither on the order of work nor on the device.
 #pragma once
 
 #include "base/array.h"
@@ -22,7 +22,7 @@ typedef struct {
     const RenderObserver *observer; // borrowed; may be NULL
     ThreadPool *pool;               // borrowed; NULL for none
     PixelRequest *requests;         // room for REQUESTS_MOST, all with equal sample counts
-    PixelSums *sums;                // of the requests traced last
+    PixelSums *sums;                // of the requests in the latest trace
     uint32_t count;                 // requests in the list
 } PixelRequests;
 
@@ -39,7 +39,7 @@ PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t sam
 // Returns false if the observer has stopped a trace.
 bool pixel_requests_are_whole(const PixelRequests *requests);
 
-// Traces the requests and stores their sums. If the observer stops the trace, sums are missing.
+// Traces the requests and stores their sums, except some if the observer stops the trace.
 bool pixel_requests_trace(PixelRequests *requests, Error *error);
 
 // Renders a picture of the frame's size with one sample at each pixel's center.
@@ -71,7 +71,7 @@ typedef struct {
     uint8_t *strata;       // of each pixel
     ARRAY(PixelSums) sums; // of the pixels above rung 0
     Strata statistics;
-    Strata chosen_by; // the statistics at the last selection of pixels
+    Strata chosen_by; // the statistics at the latest selection of pixels
     uint64_t samples; // taken so far
 } Ladder;
 
@@ -118,7 +118,7 @@ typedef struct {
     bool reached;
 } GoalOutcome;
 
-// Refines until the bound is at most `most`, or until no pixel can advance.
+// Refines until the bound is at most `most`, no pixel can advance, or too many rounds have passed.
 bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
 
 // A time budget, on the clock of clock_seconds.
@@ -129,7 +129,7 @@ typedef struct {
 // Refines until about time->seconds have passed since time->start.
 bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);
 
-// The bend of a pixel measures how far its color differs from its neighbors' colors.
+// The bend of a pixel measures how far its color is from the means of opposite neighbors.
 
 // Fills bends, row by row, for a picture with one sample per pixel. A pixel's bend is the largest
 // |2 c - a - b|, where c is a channel of the pixel, and a and b are this channel of two opposite

@@ -23,8 +23,8 @@ static float larger(float one, float other)
 }
 
 // Raises each value of `most` to at least the absolute second difference of its pixel and channel.
-// Both arrays begin at the same pixel. `step` is the index distance of neighbors in the direction,
-// and `range` holds the first pixel and the end.
+// Both arrays begin at the same pixel. `step` is the distance between neighbors, in pixels of the
+// arrays, and `range` holds the first pixel and the end.
 static void raise_bends(float *most, const float *colors, ptrdiff_t step, const uint32_t range[2])
 {
     for (ptrdiff_t i = 3 * (ptrdiff_t)range[0]; i < 3 * (ptrdiff_t)range[1]; i++)

@@ -29,8 +29,8 @@ uint64_t ladder_hash(uint32_t pixel, uint64_t seed)
 }
 
 // Converts the strata's fractions into limits. If a stratum's fraction and pixels have not
-// changed, it has no new pixel to select. Skipping it avoids most hashes. Returns false if all
-// strata are skipped.
+// changed, it has no new pixel to select. Skipping it avoids most hashes. Returns false if no
+// stratum selects pixels.
 static bool set_limits(Choosing *choosing)
 {
     bool is_any = false;

@@ -10,8 +10,8 @@
 // After this many rounds, clrt gives up the error goal.
 #define ROUNDS_MOST 300
 
-// A round takes PART_OF_ROUND of the remaining time. If less than PART_OF_LAST of the budget
-// remains, one round takes the rest. Below PART_UNSPENT, no further round starts.
+// A round should take at most PART_OF_ROUND of the remaining time, or all of it if less than
+// PART_OF_LAST of the budget remains. If less than PART_UNSPENT remains, no further round starts.
 #define PART_OF_ROUND 0.5
 #define PART_OF_LAST  0.2
 #define PART_UNSPENT  0.03
@@ -46,7 +46,7 @@ bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *
     return ok;
 }
 
-// Returns the number of samples that fit into the next round, at the speed of the last one.
+// Returns the number of samples that fit into the next round, at the previous round's speed.
 static double samples_in_time(const GoalTime *time, double seconds_per_sample)
 {
     const double left = time->seconds - (clock_seconds() - time->start);

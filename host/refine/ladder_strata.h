@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Estimates a picture's error by stratified sampling of its pixels (Cochran, "Sampling techniques",
 // 1977). A pixel on rung i has the mean color of ladder_samples[i] samples. Similar pixels of a
-// rung form a stratum. In every stratum, random pixels advance to the next rung. These pixels are
-// controls: their change estimates the error of the pixels that stay.
+// rung form a stratum. Hashes select the pixels of a stratum that advance to the next rung. These
+// pixels are controls: their change estimates the error of the pixels that stay.
 #pragma once
 
 #include <stdbool.h>
@@ -69,7 +69,7 @@ StrataEstimate strata_estimate(const Strata *strata);
 // The aim of a round of advances.
 typedef struct {
     double mean_square; // upper limit for StrataEstimate::bound
-    double samples;     // sample limit of the round; INFINITY for none
+    double samples;     // about the most samples of the round; INFINITY for no limit
 } StrataAim;
 
 typedef enum {
@@ -78,6 +78,6 @@ typedef enum {
     STRATA_EXHAUSTED // no stratum can advance more pixels
 } StrataOutcome;
 
-// Raises fractions to move the bound toward the aim, first in the strata where a sample lowers the
-// bound most.
+// Raises fractions to move the bound toward the aim: in strata that lack controls, and then where a
+// sample lowers the bound most.
 StrataOutcome strata_raise(Strata *strata, const StrataAim *aim);

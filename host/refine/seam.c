@@ -24,7 +24,7 @@ bool seam_asks(const Seam *seam, uint32_t place[2])
     return seam->assumed != SEAM_ENDS || seam->high - seam->low > 1;
 }
 
-// Returns whether a sample clearly resembles one end more than the other.
+// Returns whether a sample clearly resembles `end`, and not `other`.
 static bool is_like(const SampleData *sample, const SampleData *end, const SampleData *other)
 {
     return sample->signature == end->signature &&
@@ -33,7 +33,7 @@ static bool is_like(const SampleData *sample, const SampleData *end, const Sampl
 }
 
 // Replaces the assumed end by a sample at the line's end. If this sample resembles the nearest
-// cell's, the color does not change between the two.
+// cell's, there is no seam between the two.
 static void take_border(Seam *seam, const SampleData *sample)
 {
     if (is_like(sample, &seam->ends[SEAM_END_LAST - seam->assumed], &seam->ends[seam->assumed]))

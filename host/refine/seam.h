@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A seam is the place where a line of samples crosses from one surface to another. Bisection
-// locates it with one sample per bit; subdividing cells takes eight samples for 1.6 bits.
+// A seam is the place where colors change abruptly along a line of samples, for example between two
+// surfaces. Bisection locates a seam with one sample per bit; subdividing takes eight for 1.6 bits.
 #pragma once
 
 #include "scene/scene.h"
@@ -40,11 +40,11 @@ static inline float seam_difference(const SampleData *one, const SampleData *oth
 // Returns the remaining error: contrast times the uncertain fraction of the pixel.
 float seam_contrast(const Seam *seam);
 
-// Returns whether another sample would narrow the interval, and stores its place.
+// Returns whether another sample may narrow the interval, and stores the sample's place.
 bool seam_asks(const Seam *seam, uint32_t place[2]);
 
-// Updates the seam with the requested sample. Returns whether the sample sees a third surface. In
-// that case, the caller must add *rest as the next seam.
+// Updates the seam with the requested sample. Returns whether the sample splits the seam, because
+// it resembles neither end. In that case, the caller must add *rest as the next seam.
 bool seam_take(Seam *seam, const SampleData *sample, Seam *rest);
 
 // Colors in steps of 2^-32, multiplied by twice the cell's area.

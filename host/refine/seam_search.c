@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The lines of a group run along the axis with the larger color differences, so that they cross
-// color edges. Three lines locate a straight edge exactly.
+// color edges. Three lines locate a straight edge.
 #include "refine/seam_search.h"
 
 #include <stdlib.h>
@@ -78,8 +78,8 @@ static Seam seam_in_gap(const RefineTree *tree, const GroupLine *line, uint32_t 
     return seam;
 }
 
-// Returns whether colors change abruptly in a gap: to another surface, or by more than twice as
-// much as in the gaps beside it.
+// Returns whether colors change abruptly in a gap: the signatures differ, or the color changes by
+// more than LEAST_STEP and by more than twice as much as in the gaps beside it.
 static bool is_step(const GroupLine *line, uint32_t gap)
 {
     const SampleData *const *samples = line->samples;

@@ -10,11 +10,11 @@ typedef struct {
     uint32_t seen;         // seams with a lower index are listed, or precise enough
 } SeamSearch;
 
-// Adds the seams of the groups from first on. All groups must have their samples.
+// Adds the seams of groups from first on, except on the last level. All groups must have samples.
 bool seam_search_open(RefineTree *tree, uint32_t first, Error *error);
 
-// Lists the seams that a sample would narrow and whose contrast exceeds the threshold. Examines
-// only listed and new seams.
+// Lists the seams that a sample may narrow and whose contrast exceeds the threshold. Examines only
+// listed and new seams.
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);
 
 // Updates the listed seams with their samples.

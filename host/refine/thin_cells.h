@@ -29,7 +29,7 @@ uint32_t thin_parts_affordable(const ThinParts *parts);
 // Returns the cells of a pixel at a level, and `margin` cells around them.
 CellGrid thin_parts_grid(const ThinParts *parts, uint32_t pixel, uint32_t level, uint32_t margin);
 
-// Adds the cells around spheres smaller than a pixel.
+// Adds the cells around spheres with a diameter below the cells' diagonal.
 bool thin_spheres_find(ThinParts *parts, const ThinSource *source, Error *error);
 
 // Adds the cells around thin parts of meshes.

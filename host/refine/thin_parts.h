@@ -9,8 +9,8 @@
 // finds its outline. At levels above 0, the search considers only thin triangles that touch the
 // pixel or its margin.
 //
-// A sample therefore hits each sphere and each triangle whose incircle is at least 1/57 pixel
-// across, except
+// A sample therefore hits each sphere at least 1/57 pixel across and each triangle whose incircle
+// is at least 1/57 pixel across, except
 // - triangles within two pixels of a wider part of the same piece, and at deeper levels within two
 //   cells of it;
 // - hidden triangles and spheres, on which samples are wasted;

@@ -21,9 +21,9 @@ typedef struct {
     uint32_t first, end;
 } PixelRun;
 
-// A piece has at most PAIRS_MOST pairs or PAIRS_OF_PIXEL pairs per pixel of the picture, whichever
-// is more. This limit bounds memory. A thin triangle counts as AROUND pairs in each pixel that it
-// touches.
+// A piece with more than PAIRS_MOST pairs and more than PAIRS_OF_PIXEL per pixel of the picture is
+// searched only at level 0, to save memory. A thin triangle counts as AROUND pairs in each pixel
+// that it makes thin.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 #define AROUND         9
@@ -41,9 +41,9 @@ typedef struct {
     MeshPieces pieces;          // of the mesh
     uint32_t first, count;      // the piece's triangles, in the order of the pieces
     uint32_t number;            // of the piece, from 1
-    _Atomic uint32_t *covered;  // by pixel: the last piece that contains its sample
-    _Atomic uint32_t *touched;  // by pixel: the last piece that is thin there
-    _Atomic uint64_t nearby;    // the number of pairs, counted as AROUND per touched pixel
+    _Atomic uint32_t *covered;  // by pixel: the latest piece that contains its sample
+    _Atomic uint32_t *touched;  // by pixel: the latest piece that is thin there
+    _Atomic uint64_t nearby;    // an estimate of the number of pairs (AROUND)
     PairList *lists;            // of each range
     ARRAY(PixelTriangle) pairs; // of the piece, sorted by pixel
     ARRAY(PixelRun) runs;       // of all pixels with pairs
@@ -90,7 +90,7 @@ static bool is_covered(const Search *search, uint32_t column, uint32_t row)
                                 memory_order_relaxed) == search->number;
 }
 
-// Returns whether the piece is wide at a pixel. Tests the nearest corners first.
+// Returns whether the piece is wide at a pixel. Along each axis, tests near corners first.
 static bool is_wide(const Search *search, uint32_t column, uint32_t row)
 {
     static const int steps[4] = {-1, 0, -2, 1};

@@ -34,7 +34,7 @@ typedef enum {
 
 typedef struct {
     const char *name;                     // name in --aov
-    const char *channels[AOV_COMPONENTS]; // names in the file; NULL after the last
+    const char *channels[AOV_COMPONENTS]; // names in the file; unused ones are NULL
     bool is_integer;                      // unsigned integers; otherwise floats
     AovNeed need;
     const char *help;
@@ -46,8 +46,8 @@ extern const size_t aov_count; // at most 32
 // A set of channels: one bit per table index.
 typedef uint32_t AovSet;
 
-// Adds the channels of a comma-separated list to *set. "all" adds all without a reference.
-// Fails on an unknown or repeated name.
+// Adds the channels of a comma-separated list to *set. "all" adds all that need no reference.
+// Fails on an unknown name or a repeated channel.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
 // Returns whether any channel in set has this need.

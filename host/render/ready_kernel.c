@@ -27,8 +27,8 @@ typedef struct {
     const RendererSetup *setup;
 } Making;
 
-// Creates the kernel and runs one work-group of it over a tile without pixels, with a dummy
-// renderer and empty buffers.
+// Creates the kernel and runs one of its work-groups without pixels, with a dummy renderer and
+// dummy buffers.
 static bool run_once(void *context, Error *error)
 {
     const Making *making = context;

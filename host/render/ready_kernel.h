@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A program on a device -> a kernel that is ready to draw. The kernel has run once over an empty
-// tile, because drivers finish compiling in the first run. Making a kernel needs no scene, so
-// another thread can read the scene meanwhile.
+// A program on a device -> a kernel that is ready to draw. The kernel has run once without pixels,
+// because some drivers finish compiling in the first run. Making a general kernel needs no scene,
+// so another thread can read the scene meanwhile.
 #pragma once
 
 #include "device/cache_check.h"
@@ -24,7 +24,7 @@ typedef struct {
     ReadyKernel *ready; // may be NULL; the renderer takes this kernel if it fits
 } RendererSetup;
 
-// Runs each kernel of a new program once, because drivers finish compiling in the first run.
+// Runs the kernels of a new program once, because some drivers finish compiling in the first run.
 typedef struct {
     bool (*run)(void *context, Error *error);
     void *context;

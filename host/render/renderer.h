@@ -103,7 +103,7 @@ bool renderer_set_scene(const Renderer *renderer, cl_kernel kernel, const FrameD
                         Error *error);
 
 // Splits a picture into tiles, row by row from its upper left corner, and selects the tiles to
-// draw. A part draws every parts-th tile of each row, from a column that differs between rows.
+// draw. A part draws every parts-th tile of each row, from a column that varies between rows.
 typedef struct {
     uint32_t x, y, width, height; // in pixels of the crop
     uint32_t left, top;           // position in the framebuffer
@@ -135,7 +135,7 @@ typedef struct {
     int outputs;     // 1 or 2
     size_t sizes[2]; // bytes per pixel of each output; 0 if the kernel does not write the second
     uint64_t first;  // the number of the first tile to draw
-    // Receives the outputs of a tile, pixel by pixel, in the order of the tiles' numbers.
+    // Receives a tile's outputs, row by row. The tiles come in the order of their numbers.
     void (*take)(void *context, const Tile *tile, void *const values[2]);
     void *context;
 } TilePass;
@@ -147,7 +147,7 @@ bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderO
 // Runs the pass once over an empty tile, because some drivers finish compiling at the first run.
 bool tile_pass_warm_up(const TilePass *pass, const Renderer *renderer, Error *error);
 
-// Sample positions in a picture -> the color and signature of the camera ray at each position.
+// Sample positions in a picture -> colors and signatures, or sums of colors (KERNEL_LADDER).
 // Signatures differ if rays hit different surfaces, or if different lights reach the hit points.
 
 // A position in sub-pixels of the whole picture. The kernel skips samples whose x is NOTHING.
@@ -165,7 +165,7 @@ typedef struct {
 
 // Traces the requests in list. The renderer's kernel must be KERNEL_SAMPLES or KERNEL_LADDER.
 // renderer->progress counts launches as tiles and adds to its previous counts. If the observer
-// returns false, tiles_done stays below tiles and some results are missing.
+// stops the trace, tiles_done stays below tiles and some results are missing.
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
                    const RenderObserver *observer, Error *error);
 

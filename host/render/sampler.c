@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Splits a list of requests into launches and keeps two launches in the queue, so that the device
-// never waits. PoCL compiles a second version of a kernel for grids of 65535 work-items or more.
+// need not wait. PoCL compiles a second version of a kernel for grids of 65535 work-items or more.
 // LAUNCH_ITEMS keeps all grids smaller.
 #include "render/renderer.h"
 

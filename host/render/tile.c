@@ -23,7 +23,7 @@ static uint64_t columns_of(const RenderSettings *settings)
 }
 
 // Returns the column of the part's first tile in a row. The golden ratio spreads these columns
-// evenly, so a part never collects the tiles of one column, regardless of the picture's width.
+// evenly. Otherwise, a part could consist of whole columns, depending on the picture's width.
 static uint64_t first_column(const RenderSettings *settings, uint64_t row)
 {
     const uint32_t golden = 2654435769U; // 2^32 / 1.618...
@@ -58,7 +58,7 @@ uint64_t tile_count(const RenderSettings *settings)
 Tile tile_at(const RenderSettings *settings, uint64_t number)
 {
     const uint32_t stride = stride_of(settings);
-    // For whole pictures, a division replaces the search.
+    // Without parts, a division replaces the search.
     uint64_t row = stride == 1 ? number / columns_of(settings) : 0;
     uint64_t place = stride == 1 ? number % columns_of(settings) : number;
     for (uint64_t count; place >= (count = row_count(settings, row)); row++)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The effect of each key; view/status_text.c lists the keys.
+// The effects of keys and mouse actions, which view/status_text.c lists.
 #include "view/controls.h"
 
-// These constants are from the course's viewer.
+// These constants, except the last, are from the course's viewer.
 
 #define DEGREES_PER_PIXEL  0.25
 #define LENGTH_PER_PIXEL   0.15
@@ -64,7 +64,7 @@ static double limited(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// orbit_turn and orbit_zoom apply a mouse drag in pixels, within the course's limits.
+// orbit_turn and orbit_zoom apply a mouse drag, within the course's limits.
 static void orbit_turn(Orbit *orbit, double right, double down)
 {
     orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);
@@ -82,8 +82,8 @@ static void orbit_zoom(Orbit *orbit, double down)
     set_distance(orbit, orbit->distance + LENGTH_PER_PIXEL * orbit->unit * down);
 }
 
-// Moves camera and pivot sideways by a mouse drag in pixels. The pivot follows the pointer if the
-// window has the course's height.
+// Moves camera and pivot sideways by a mouse drag. The pivot follows the pointer if the window has
+// the course's height.
 static void orbit_pan(Orbit *orbit, double right, double down)
 {
     const Viewpoint view = orbit_viewpoint(orbit);

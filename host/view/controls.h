@@ -41,8 +41,8 @@ typedef enum {
 typedef struct {
     EventKind kind;
     int key;
-    // The drag in pixels. For EVENT_WHEEL, `down` counts notches, positive away from the user. For
-    // EVENT_CLICK, both are the pixel's position, counted from the upper left corner.
+    // The drag in screen coordinates. For EVENT_WHEEL, `down` counts notches, positive away from
+    // the user. For EVENT_CLICK, both are the pixel's position, counted from the upper left corner.
     double right, down;
 } Event;
 
@@ -80,7 +80,7 @@ typedef struct {
     Viewpoint camera;
 } State;
 
-// Returns the initial state: the switches of `state`, with the scene's camera number state.view.
+// Returns `state` with text switched on, and with the scene's camera number state.view.
 State state_begin(const StateScene *scene, State state);
 
 // Applies an event to the state and returns the bits of the event's commands.
@@ -90,7 +90,7 @@ unsigned state_apply(State *state, const Event *event, const StateScene *scene);
 void state_advance(State *state, double seconds);
 
 // Switches to a scene that was read again. A camera that has not moved takes the new file's
-// viewpoint.
+// viewpoint. A camera whose viewpoint is gone takes the first viewpoint.
 void state_adopt(State *state, const StateScene *scene);
 
 // Switches to another scene and its first viewpoint.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Chooses the next pass, so that the camera moves smoothly and a still picture becomes sharp. The
-// first pass traces as many pixels as a frame's time allows. The next passes trace all pixels, then
-// all samples. The last pass counts rays and tests.
+// first pass should fit a frame's time, if necessary at a lower resolution. The next passes trace
+// all pixels, then all samples. The last pass counts rays and tests.
 #pragma once
 
 #include <stdbool.h>
@@ -12,10 +12,10 @@
 // The requested picture and its cost.
 typedef struct {
     bool is_wanted;
-    uint64_t subject; // identifies scene, camera and size; pictures of other subjects are useless
+    uint64_t subject; // identifies scene, camera and size; pictures of other subjects do not count
     uint32_t width, height;
     uint32_t samples;      // along each side of a pixel
-    double sample_seconds; // measured tracing time per sample
+    double sample_seconds; // tracing time per sample, guessed at first, then measured
 } PlanRequest;
 
 // The best picture so far.
@@ -27,7 +27,7 @@ typedef struct {
 
 typedef enum {
     PASS_NONE,
-    PASS_MOVING, // fits a frame's time; camera motion does not stop it, so a picture appears
+    PASS_MOVING, // should fit a frame's time; camera motion does not stop it, so a picture appears
     PASS_FULL,   // all pixels, with one sample or with all samples
     PASS_COUNT   // the full picture again, with counters
 } PassKind;

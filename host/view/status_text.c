@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texts depend only on the arguments, so the same state always gives the same text.
+// The texts depend only on the arguments, so the same arguments always give the same text.
 #include "view/status_text.h"
 
 #include "scene/scn.h"

@@ -17,7 +17,7 @@ typedef struct {
     uint32_t divisor;       // one traced pixel covers divisor x divisor pixels
     bool is_finished;       // nothing remains to be traced
     double progress;        // of the current pass, from 0 to 1
-    double frame_seconds;   // of the latest frame
+    double frame_seconds;   // that the latest complete picture took to trace
     bool has_counts;        // rays and tests_per_ray are known
     uint64_t rays;
     double tests_per_ray;
@@ -27,11 +27,11 @@ typedef struct {
     const char *notice;      // the latest result
     const char *missing;     // missing objects or lights of the scene
     const char *hint;        // the key for help
-    const char *failure;     // the reason that the latest change has no effect
+    const char *failure;     // failure of the scene, the device or the window
     const char *explanation; // of the clicked pixel
 } Figures;
 
-// Writes the state alone, as one line without a line end, for tests and -v.
+// Writes the state as one line without a line end, for saved pictures and -v.
 void status_text_state(char *text, size_t size, const State *state, const Figures *figures);
 
 // Writes the line at the top: messages, state and figures, the most important first.

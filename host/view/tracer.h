@@ -60,5 +60,5 @@ bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observe
 bool tracer_explain(Tracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
                     Error *error);
 
-// Returns the progress and counters of the latest pass of this kind.
+// Returns the progress and counters of a pass that tracer_draw has just drawn.
 const RenderProgress *tracer_progress(const Tracer *tracer, const Pass *pass);

@@ -89,8 +89,8 @@ static void play_key(Viewer *viewer)
     take_event(viewer, &event);
 }
 
-// Removes an old hint. Turns the camera if it turns automatically. The camera waits until its
-// traced picture is complete, and does not turn while a save is requested.
+// Removes an old hint. Turns the camera if it turns automatically. The camera waits for the
+// traced picture of its current position, and does not turn while a save is requested.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();

@@ -14,14 +14,14 @@
 #include <stdint.h>
 #include <stdio.h>
 
-// The times between displayed frames of a moving camera.
+// The times between displayed frames while the camera turns automatically.
 typedef struct {
     ARRAY(double) seconds; // from each frame to the next
     double latest; // clock time of the latest frame; 0 without one or if the camera has stopped
 } FrameTimes;
 
-// Prints the statistics. frames is the number of pictures traced while the camera moved. coarse is
-// how many of these had fewer pixels than the window.
+// Prints the statistics. frames is the number of complete pictures of PASS_MOVING. coarse is how
+// many of these had fewer pixels than the window.
 void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream);
 void frame_times_free(FrameTimes *times);
 
@@ -77,14 +77,14 @@ bool viewer_follow_worker(Viewer *viewer, Error *error);
 // Switches to the worker's latest model.
 bool viewer_adopt_model(Viewer *viewer, Error *error);
 
-// Watches the files of the model or, without a model, the scene's path. If the latest read failed,
-// also watches the path's folder, because a file may be missing.
+// Watches the scene's path and, with a model, the model's files. If the latest read failed, also
+// watches the path's folder, because a file may be missing.
 bool viewer_watch_files(Viewer *viewer, Error *error);
 
 // Switches to a file that was dropped on the window, if any.
 bool viewer_take_drop(Viewer *viewer, Error *error);
 
-// Requests a new read of changed files.
+// Requests a new read of changed scene files, and a new build of changed kernels.
 void viewer_follow_files(Viewer *viewer);
 
 // Reopens the window and rebuilds its contents if the driver has lost the context.

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Records a displayed frame of a moving camera. moment is in seconds.
+// Records a displayed frame of a turning camera. moment is in seconds.
 static bool frame_times_add(FrameTimes *times, double moment, Error *error)
 {
     const double before = times->latest;
@@ -138,8 +138,8 @@ static void update_title(Viewer *viewer, const Figures *figures)
         glfwSetWindowTitle(viewer->window.handle, text);
 }
 
-// Prints each new failure. With -v, also prints a changed state when nothing moves. The window
-// continues to display both.
+// Prints each new failure. With -v, also prints a changed state once the picture is complete and
+// the camera does not turn.
 static void print_news(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE] = "";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Surfaces also hide the lines behind them in the ray-traced view. OpenGL first draws the scene,
-// and the traced picture then replaces the colors, but not the depth.
+// Surfaces also hide the lines behind them in the ray-traced view. For lines, OpenGL first draws
+// the scene, and the traced picture then replaces the colors, but not the depth.
 #include "view/views.h"
 
 #include "image/image_file.h"
@@ -83,7 +83,7 @@ static void clear(const Frame *frame)
 static void draw_scene(Views *views, const Frame *frame, const Lens *lens)
 {
     const Tone tone = tone_of(frame);
-    // Moves surfaces away from the eye, so that lines on them stay visible.
+    // Moves triangles away from the eye, so that lines on them stay visible.
     if (frame->state->boxes || frame->state->normals)
         glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1, 1);

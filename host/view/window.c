@@ -58,7 +58,7 @@ static int find_key(int key, int code, int modifiers)
     return name != NULL && (name[0] == 's' || name[0] == 'q') ? name[0] : 0;
 }
 
-// Only arrows repeat while they are held, because other keys switch something.
+// Keys without a character switch something and do not repeat while held, except arrows.
 static void take_key(GLFWwindow *handle, int key, int code, int action, int modifiers)
 {
     const int found = find_key(key, code, modifiers);

@@ -15,7 +15,7 @@ typedef struct {
     Event events[WINDOW_EVENTS]; // the user's actions, added by GLFW's callbacks
     int event_count;             // the caller resets it
     char *dropped;               // path of the latest dropped file, or NULL; owned
-    double mouse_x, mouse_y;     // pointer position after the latest drag or motion
+    double mouse_x, mouse_y;     // pointer position, without small motions during a click
     int modifiers;               // GLFW's modifier bits at the latest button event
     bool may_click;              // the left button is pressed, and the pointer has hardly moved
     bool is_touched;             // the window must be drawn again
@@ -26,8 +26,8 @@ typedef struct {
 // Connects to the display. On failure, the message suggests -o FILE.
 bool window_connect(Error *error);
 
-// Opens a window of this size in pixels, or as large as the screen permits. Makes the window's
-// context current.
+// Opens a window of this size in screen coordinates, or as large as the screen permits. Makes the
+// window's context current.
 bool window_open(Window *window, const char *title, uint32_t width, uint32_t height, Error *error);
 void window_close(Window *window);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A thread that reads scenes and traces pictures, so that the window never waits. The window posts
-// requests and polls the status. The two threads also share the canvas and finished models, and
-// nothing else.
+// A thread that reads scenes and traces pictures, so that the window need not wait. The window
+// posts requests and polls the status. The two threads also share the canvas and published models,
+// and nothing else.
 #pragma once
 
 #include "view/draw/canvas.h"
@@ -34,14 +34,14 @@ typedef struct {
     WorkerFault fault;   // a fault after which nothing can be displayed
     Error scene_failure; // failure to read the scene; empty if reading succeeded
     Error failure;       // failure of the device or the kernels
-    uint64_t models;     // number of models read
+    uint64_t models;     // number of published models
     bool has_tree;       // the latest model's tree is built
     const char *busy;    // the current operation; empty while tracing or idle
     WorkerRequest done;  // completed loads, renewals and explains; uses_bvh, camera and gain in use
     PlanReached reached;
     double progress;                    // finished fraction of the current pass
-    double frame_seconds;               // duration of the latest pass
-    uint64_t moving_frames;             // number of pictures traced while the camera moved
+    double frame_seconds;               // tracing time of the latest complete picture
+    uint64_t moving_frames;             // number of complete pictures of PASS_MOVING
     uint64_t moving_coarse;             // number of moving_frames at reduced resolution
     uint64_t tallies[TALLY_KINDS];      // valid if reached.is_counted
     char explanation[EXPLANATION_SIZE]; // of the latest pixel, or why there is none
@@ -65,7 +65,7 @@ void worker_poll(Worker *worker, WorkerStatus *status);
 // Returns the latest model with a reference, which the caller releases, or NULL.
 Model *worker_model(Worker *worker);
 
-// Returns whether the request is fulfilled: nothing is left to read or trace.
+// Returns whether the request is fulfilled: nothing but PASS_COUNT is left to do.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
 // Stops and frees the worker. If the worker does not stop within this many seconds, worker_stop

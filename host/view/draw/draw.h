@@ -70,7 +70,7 @@ void cube_fill_edges(const Drawing *drawing);
 
 // The scene's lights and materials -> the uniforms of shaders/light.glsl.
 
-// The largest number of lights. The course's viewer has eight, because it uses OpenGL's fixed
+// The most lights that OpenGL shows. The course's viewer has eight, because it uses OpenGL's fixed
 // pipeline.
 #define LIGHT_LIMIT 64
 
@@ -80,7 +80,7 @@ typedef struct {
     bool is_srgb;
 } Tone;
 
-// Sets the uniforms of the lights, which all objects share. program must be the current program.
+// Sets the uniforms that objects share: lights, background, tone. program must be the current one.
 void light_apply(const Scene *scene, const Normalization *normalization, const Tone *tone,
                  GLuint program);
 
@@ -190,7 +190,7 @@ void target_close(Target *target);
 // Begins a picture of width x height pixels, with factor x factor samples per pixel.
 bool target_begin(Target *target, uint32_t width, uint32_t height, uint32_t factor, Error *error);
 
-// Finishes the picture and displays it in the window.
+// Finishes the picture and copies it to the window's buffer.
 void target_show(const Target *target);
 
 // Reads the displayed picture into a new framebuffer, with colors from 0 to 1.

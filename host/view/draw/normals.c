@@ -12,7 +12,7 @@ typedef struct {
     Error *error;
 } Collection;
 
-// Adds the boxes of the subtree at node `number`. The depth of the tree bounds the recursion.
+// Adds a subtree's boxes of collection->level. The depth of the tree bounds the recursion.
 static bool collect(const Collection *collection, uint32_t number, uint32_t level)
 {
     const BvhNode *node = &collection->bvh->nodes[number];

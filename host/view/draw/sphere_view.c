@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes each sphere's position relative to the eye in fp64 for every frame. For a ground sphere
-// of radius 1e9, float cannot resolve this position.
+// Computes each sphere's position relative to the eye in fp64 for every frame. In float, the eye's
+// height above a ground sphere of radius 1e9 would be lost.
 #include "view/draw/draw.h"
 
 #include <stdlib.h>

@@ -74,7 +74,7 @@ static void set_size(Font *font, float size)
     font->size = size;
 }
 
-// Returns a character's number in the font. Other characters look like a question mark.
+// Returns a character's number in the font. Unknown characters look like a question mark.
 static int number_of(char character)
 {
     return (character >= ' ' && character <= '~' ? character : '?') - ' ';
