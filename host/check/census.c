@@ -83,9 +83,23 @@ static bool find_unused_materials(Census *census, const Scene *scene, Error *err
     return true;
 }
 
-static bool take_mesh(MeshCensus *census, const Mesh *mesh, const Normalization *normalization,
-                      Error *error)
+// Replaces indices of triangles by their numbers in the file.
+static void number_triangles(MeshCensus *census, const MeshObject *object)
 {
+    Closedness *closed = &census->closedness;
+    Features *features = &census->features;
+    size_t *const triangles[] = {
+        &closed->open.first,      &closed->crowded.first,     &closed->turned.first,
+        &closed->pinched.first,   &closed->duplicates.first,  &features->flat.first,
+        &features->edge.triangle, &features->height.triangle, &features->written_edge.triangle};
+    for (size_t i = 0; i < sizeof triangles / sizeof *triangles; i++)
+        *triangles[i] = (size_t)number_in_file(object, *triangles[i]);
+}
+
+static bool take_mesh(MeshCensus *census, const MeshObject *object,
+                      const Normalization *normalization, Error *error)
+{
+    const Mesh *mesh = &object->mesh;
     Weld weld = {0};
     Edges edges = {0};
     const bool ok = weld_make(&weld, mesh, error) && edges_make(&edges, mesh, &weld, error) &&
@@ -93,6 +107,7 @@ static bool take_mesh(MeshCensus *census, const Mesh *mesh, const Normalization 
     census->features = features_of(mesh, normalization);
     census->unused_vertices = weld.unused_count;
     census->repeated_vertices = weld.repeated_count;
+    number_triangles(census, object);
     edges_free(&edges);
     weld_free(&weld);
     return ok;
@@ -105,9 +120,9 @@ bool census_take(Census *census, const Scene *scene, const Normalization *normal
     census->meshes = memory_zeroed(scene->objects.count, sizeof *census->meshes, error);
     bool ok = census->meshes != NULL;
     for (size_t i = 0; ok && i < scene->objects.count; i++) {
-        const Mesh *mesh = &scene->objects.data[i].mesh;
-        census->empty_meshes += mesh->triangle_count == 0;
-        ok = take_mesh(&census->meshes[i], mesh, normalization, error);
+        const MeshObject *object = &scene->objects.data[i];
+        census->empty_meshes += object->mesh.triangle_count == 0;
+        ok = take_mesh(&census->meshes[i], object, normalization, error);
     }
     ok = ok && find_duplicates(census, scene, error) && find_unused_materials(census, scene, error);
     if (!ok)

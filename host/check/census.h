@@ -54,7 +54,8 @@ bool bad_geometry_none_dropped(const Scene *scene, Error *error);
 // Fails if any triangle has no area, dropped or not.
 bool bad_geometry_none(const Scene *scene, Error *error);
 
-// The counts of one mesh. The Mesh itself holds the faults that its file reader found.
+// The counts of one mesh. Triangles are named by their numbers in the file. The Mesh itself holds
+// the faults that its file reader found.
 typedef struct {
     Closedness closedness;
     Features features;

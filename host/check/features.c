@@ -30,10 +30,14 @@ static Shape scaled_shape(const Shape *shape, double scale)
                     vec3_scale(shape->corners[2], scale)}};
 }
 
-// Returns whether the corners lie on one line, up to the rounding of fp64.
+// Returns whether the corners lie on one line, up to the rounding of fp64. Scales the longest edge
+// to about 1 first, because the area of a tiny triangle may be below the range of fp64.
 static bool is_flat(const Shape *shape)
 {
-    return vec3_extent(doubled_area(shape)) == 0;
+    const double size = fmax(vec3_extent(vec3_sub(shape->corners[1], shape->corners[0])),
+                             vec3_extent(vec3_sub(shape->corners[2], shape->corners[0])));
+    const Shape scaled = scaled_shape(shape, scalbn(1, size > 0x1p-1000 ? -ilogb(size) : 1000));
+    return vec3_extent(doubled_area(&scaled)) == 0;
 }
 
 // Returns the spacing of floats at the shape's largest coordinate.
@@ -137,7 +141,7 @@ static MeshFault flat_triangles(const Mesh *mesh)
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
         const Shape shape = shape_of(mesh, triangle);
         if (is_flat(&shape))
-            mesh_fault_add(&flat, triangle);
+            mesh_fault_add(&flat, mesh_original_number(mesh, triangle));
     }
     return flat;
 }

@@ -67,7 +67,8 @@ const char *fault_name(FaultKind kind)
 
 void check_count_faults(const Check *check, size_t object, MeshFault counts[FAULT_KINDS])
 {
-    const Mesh *mesh = &check->scene.objects.data[object].mesh;
+    const MeshObject *given = &check->scene.objects.data[object];
+    const Mesh *mesh = &given->mesh;
     const MeshCensus *census = &check->census.meshes[object];
     const Closedness *closed = &census->closedness;
     const bool leaks = check->leaks != NULL && closed->is_closed;
@@ -75,6 +76,8 @@ void check_count_faults(const Check *check, size_t object, MeshFault counts[FAUL
     counts[FAULT_BAD_NORMALS] = mesh->bad_normals;
     counts[FAULT_LOST_CORNERS] = mesh->lost_corners;
     counts[FAULT_EQUAL_CORNERS] = mesh->equal_corners;
+    counts[FAULT_LOST_CORNERS].first += given->number_before;
+    counts[FAULT_EQUAL_CORNERS].first += given->number_before;
     counts[FAULT_FLAT] = census->features.flat;
     counts[FAULT_DUPLICATES] = closed->duplicates;
     counts[FAULT_LEAKS] = leaks ? check->leaks[object].leaks : (MeshFault){0};
@@ -113,7 +116,7 @@ static void add_shape(Check *check, size_t object)
 static void add_advice(Check *check, size_t object)
 {
     const Features *features = &check->census.meshes[object].features;
-    const double scene_size = 2 / check->normalization.scale;
+    const double scene_size = scene_extent(&check->scene);
     const double ratio = features->extent > 0 ? scene_size / features->extent : 0;
     if (features->holds_floats && features->written_edge.steps < FEW_STEPS &&
         features->offset > MUCH * features->extent)

@@ -70,9 +70,6 @@ bool certain_picture_make(Picture *picture, const CameraData *camera, Error *err
 // Returns the name of the tree's builder as in --bvh, or "none" without a tree.
 const char *report_tree_name(const Run *run);
 
-// Returns the number of triangles that the scene's reader dropped.
-uint64_t report_dropped_triangles(const Run *run);
-
 // Prints the error against the reference, if one was drawn.
 void report_write_error(const Run *run, FILE *stream);
 

@@ -40,9 +40,9 @@ void picture_print_setup(const Run *run)
     const Report *report = &run->report;
     if (!run->options->verbose)
         return;
-    fprintf(stderr, "scene: %zu triangles, %zu spheres, %zu lights; %llu triangles dropped\n",
+    fprintf(stderr, "scene: %zu triangles, %zu spheres, %zu lights; %zu triangles dropped\n",
             scene_triangle_count(&run->scene), run->scene.spheres.count, run->scene.lights.count,
-            (unsigned long long)report_dropped_triangles(run));
+            scene_dropped_count(&run->scene));
     fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
             report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
     const Device *device = &run->async_device.device;

@@ -36,14 +36,6 @@ const char *report_tree_name(const Run *run)
     return run->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }
 
-uint64_t report_dropped_triangles(const Run *run)
-{
-    uint64_t count = 0;
-    for (size_t i = 0; i < run->scene.objects.count; i++)
-        count += run->scene.objects.data[i].mesh.dropped_count;
-    return count;
-}
-
 void report_write_text(const Run *run, FILE *stream)
 {
     const uint64_t *tallies = run->renderer.progress.tallies;
@@ -147,7 +139,7 @@ static json_t *scene_json(const Run *run)
                      "lights", json_count(run->scene.lights.count), "spheres",
                      json_count(run->scene.spheres.count), "triangles",
                      json_count(scene_triangle_count(&run->scene)), "dropped_triangles",
-                     json_count(report_dropped_triangles(run)));
+                     json_count(scene_dropped_count(&run->scene)));
 }
 
 static json_t *inner_nodes_json(const Run *run)

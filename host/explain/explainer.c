@@ -266,7 +266,7 @@ PrimitiveName name_primitive(const Scene *scene, uint32_t id)
         assert(object < scene->objects.count);
     }
     const MeshObject *found = &scene->objects.data[object];
-    return (PrimitiveName){.number = number + found->number_before,
+    return (PrimitiveName){.number = number_in_file(found, number),
                            .path = scene->inputs.data[found->input]};
 }
 

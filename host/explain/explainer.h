@@ -80,7 +80,7 @@ bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t ind
 void explainer_mix(const Explainer *explainer, float color[3]);
 
 // A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and
-// number in that file, not counting triangles that were dropped from the same MeshObject.
+// number in that file.
 typedef struct {
     bool is_sphere;
     size_t number;    // spheres from 1, triangles from 0

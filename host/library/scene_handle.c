@@ -144,14 +144,6 @@ void clrt_scene_free(ClrtScene *scene)
     free(scene);
 }
 
-static uint64_t dropped_count(const Scene *scene)
-{
-    uint64_t count = 0;
-    for (size_t object = 0; object < scene->objects.count; object++)
-        count += scene->objects.data[object].mesh.dropped_count;
-    return count;
-}
-
 bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError *error)
 {
     ClrtSceneInfo filled;
@@ -168,7 +160,7 @@ bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError 
                              .material_count = (uint32_t)inside->materials.count,
                              .sphere_count = (uint32_t)inside->spheres.count,
                              .triangle_count = scene_triangle_count(inside),
-                             .dropped_triangle_count = dropped_count(inside)};
+                             .dropped_triangle_count = scene_dropped_count(inside)};
     memcpy(info, &filled, filled.size < sizeof filled ? filled.size : sizeof filled);
     return true;
 }

@@ -96,8 +96,8 @@ bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtError *erro
         !check_struct(error, "the mesh", mesh, &given, sizeof given) ||
         !check_mesh(scene, &given, error) || !take_mesh(&object, &given, error))
         return false;
-    mesh_drop_triangles(&object.mesh);
-    const bool ok = array_push(&scene->scene.objects, object, &cause);
+    const bool ok = mesh_drop_triangles(&object.mesh, &cause) &&
+                    array_push(&scene->scene.objects, object, &cause);
     if (!ok)
         mesh_free(&object.mesh);
     return scene_handle_changed(scene, ok, &cause, error);

@@ -49,7 +49,7 @@ static void clear_lost_vertices(Mesh *mesh)
 }
 
 // Compacts the triangles in place.
-void mesh_drop_triangles(Mesh *mesh)
+bool mesh_drop_triangles(Mesh *mesh, Error *error)
 {
     size_t kept = 0;
     const bool some_lost = mesh->bad_positions.count > 0;
@@ -64,16 +64,33 @@ void mesh_drop_triangles(Mesh *mesh)
                                                         : NULL;
         if (fault != NULL) {
             mesh_fault_add(fault, index);
+            if (!array_push(&mesh->dropped, (uint32_t)index, error))
+                return false;
             continue;
         }
         if (kept < index)
             memcpy(mesh->triangles[kept], triangle, sizeof mesh->triangles[kept]);
         kept++;
     }
-    mesh->dropped_count = mesh->triangle_count - kept;
     mesh->triangle_count = kept;
     if (some_lost)
         clear_lost_vertices(mesh);
+    return true;
+}
+
+// dropped[i] - i triangles precede dropped triangle i and remain, so binary search finds how many
+// dropped triangles precede a remaining one.
+size_t mesh_original_number(const Mesh *mesh, size_t triangle)
+{
+    size_t low = 0, high = mesh->dropped.count;
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (mesh->dropped.data[middle] - middle <= triangle)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return triangle + low;
 }
 
 void mesh_drop_normals(Mesh *mesh)
@@ -87,6 +104,7 @@ void mesh_free(Mesh *mesh)
     free(mesh->positions);
     free(mesh->normals);
     free(mesh->triangles);
+    free(mesh->dropped.data);
     *mesh = (Mesh){0};
 }
 

@@ -2,7 +2,7 @@
 // A triangle mesh as its file describes it: indexed, with fp64 positions in the file's coordinates.
 #pragma once
 
-#include "base/error.h"
+#include "base/array.h"
 #include "base/vec.h"
 
 #include <stddef.h>
@@ -27,7 +27,7 @@ typedef struct {
     uint32_t (
         *triangles)[3]; // triangle_count vertex triples, counter-clockwise seen from the front
     size_t vertex_count, triangle_count;
-    size_t dropped_count;    // triangles that mesh_drop_triangles removed
+    ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
     MeshFault equal_corners; // removed triangles with two equal corners
     MeshFault lost_corners;  // removed triangles with a bad position
     // Vertices whose bad position, or bad components of the normal, became zero. Only tolerant
@@ -41,9 +41,12 @@ void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
 // Returns the direction from a vertex to another: of length 1, or zero if they coincide.
 Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to);
 
-// Removes and counts triangles with two equal corners or a NaN position. Then sets NaN positions to
-// zero.
-void mesh_drop_triangles(Mesh *mesh);
+// Removes and lists triangles with two equal corners or a NaN position. Then sets NaN positions to
+// zero. Fails if memory runs out; the mesh must then be freed.
+bool mesh_drop_triangles(Mesh *mesh, Error *error);
+
+// Returns the number that a triangle had before mesh_drop_triangles.
+size_t mesh_original_number(const Mesh *mesh, size_t triangle);
 
 // Removes the normals, so that the mesh is shaded flat.
 void mesh_drop_normals(Mesh *mesh);

@@ -241,13 +241,12 @@ static bool load(Mesh *mesh, PlyReader reader)
 {
     Loader loader = {.reader = reader, .mesh = mesh};
     *mesh = (Mesh){0};
-    const bool ok = ply_header_parse(&loader.header, &loader.reader) && read_elements(&loader);
+    bool ok = ply_header_parse(&loader.header, &loader.reader) && read_elements(&loader);
     mesh->triangles = loader.triangles.data;
     mesh->triangle_count = loader.triangles.count;
     ply_header_free(&loader.header);
-    if (ok)
-        mesh_drop_triangles(mesh);
-    else
+    ok = ok && mesh_drop_triangles(mesh, reader.error);
+    if (!ok)
         mesh_free(mesh);
     return ok;
 }

@@ -76,7 +76,7 @@ static bool add_parts(Scene *scene, ForeignModel *model, const MeshLoadOptions *
         if (!array_push(&scene->objects, object, error))
             return false;
         part->mesh = (Mesh){0};
-        object.number_before += object.mesh.triangle_count + object.mesh.dropped_count;
+        object.number_before += object.mesh.triangle_count + object.mesh.dropped.count;
     }
     return true;
 }

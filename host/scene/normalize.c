@@ -31,6 +31,12 @@ static Bounds bounds_of(const Scene *scene)
     return bounds;
 }
 
+double scene_extent(const Scene *scene)
+{
+    const Bounds bounds = bounds_of(scene);
+    return bounds.low.x <= bounds.high.x ? vec3_extent(vec3_sub(bounds.high, bounds.low)) : -1;
+}
+
 Normalization normalization_of(const Scene *scene)
 {
     const Bounds bounds = bounds_of(scene);
@@ -67,16 +73,16 @@ bool normalization_check(const Normalization *normalization, const Scene *scene,
 {
     for (size_t i = 0; i < scene->lights.count; i++)
         if (!is_near(normalization, scene->lights.data[i].position))
-            return error_set(error, "light %zu is more than 1e12 times the scene's size away",
+            return error_set(error, "light %zu is more than 5e11 times the scene's size away",
                              i + 1);
     for (size_t i = 0; i < scene->viewpoints.count; i++)
         if (!is_near(normalization, scene->viewpoints.data[i].eye))
-            return error_set(error, "camera %zu is more than 1e12 times the scene's size away",
+            return error_set(error, "camera %zu is more than 5e11 times the scene's size away",
                              i + 1);
     for (size_t i = 0; i < scene->spheres.count; i++)
         if (!sphere_fits(normalization, &scene->spheres.data[i]))
             return error_set(error,
-                             "sphere %zu is more than 1e12 times the scene's size away, or its "
+                             "sphere %zu is more than 5e11 times the scene's size away, or its "
                              "radius is not within a factor of 1e12 of that size",
                              i + 1);
     return true;

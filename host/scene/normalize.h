@@ -17,6 +17,9 @@ typedef struct {
 // radius 1e9 would leave a mesh too few bits.
 Normalization normalization_of(const Scene *scene);
 
+// Returns the longest side of the box that normalization_of scales; negative without such a box.
+double scene_extent(const Scene *scene);
+
 Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 
 // Returns the scene coordinates of a normalized point.

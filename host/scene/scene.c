@@ -132,6 +132,19 @@ size_t scene_triangle_count(const Scene *scene)
     return count;
 }
 
+size_t scene_dropped_count(const Scene *scene)
+{
+    size_t count = 0;
+    for (size_t object = 0; object < scene->objects.count; object++)
+        count += scene->objects.data[object].mesh.dropped.count;
+    return count;
+}
+
+uint64_t number_in_file(const MeshObject *object, size_t triangle)
+{
+    return object->number_before + mesh_original_number(&object->mesh, triangle);
+}
+
 void scene_free(Scene *scene)
 {
     for (size_t object = 0; object < scene->objects.count; object++)

@@ -97,6 +97,11 @@ bool scene_add_input(Scene *scene, const char *path, Error *error);
 bool scene_add_note(Scene *scene, const char *path, const char *text, Error *error);
 
 size_t scene_triangle_count(const Scene *scene);
+size_t scene_dropped_count(const Scene *scene); // triangles that were removed from meshes
+
+// Returns a triangle's number in its file, where dropped triangles count too.
+uint64_t number_in_file(const MeshObject *object, size_t triangle);
+
 void scene_free(Scene *scene);
 
 // Returns the reason why the viewpoint is invalid, or NULL if it is valid.

@@ -71,6 +71,9 @@ BY_HAND = [
     # The ray runs from 0.001 above the floor to a point 4 away.
     ("light 1 0 4 1\nmaterial plain\nply_file floor.ply\ncamera 1 -4 0.001 1 0 0 90\n", "2,2",
      [{"hit": floor(4, light("reaches", 4, 1), point=[1, 0, 0])}], {}),
+    # Triangle 0 of the file has two equal corners and is left out.
+    ("light 1 0 4 1\nmaterial plain\nply_file dropped.ply\ncamera 1 -4 0.001 1 0 0 90\n", "2,2",
+     [{"hit": floor(4, light("reaches", 4, 1), primitive={"kind": "triangle", "id": 0, "number": 1})}], {}),
     # The eye is in the center of a mirror ball. The ball's normal points away from the light
     # inside.
     ("light 0 0 0.5 1\nmaterial mirror\nsphere 0 0 0 1\ncamera 0 0 0 0 1 0 90\n", "2,2",
@@ -100,6 +103,7 @@ class Explain(SharedWork):
     def prepare(self):
         corners = [(-10, -10, 0), (10, -10, 0), (10, 10, 0), (-10, 10, 0)]
         self.write(mirrors_scn=MIRRORS, leaning_scn=LEANING, floor_ply=ply(corners, [(0, 1, 2), (0, 2, 3)]),
+                   dropped_ply=ply(corners, [(0, 0, 1), (0, 1, 2), (0, 2, 3)]),
                    leaning_ply=ply(corners[:3], [(0, 1, 2)], [(0.6, 0, 0.8)] * 3),
                    ball_scn="size 8 8\nlight 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
                    flat_scn=f"size 8 8\nmaterial 0\nply_file {ROOT}/scenes/cube.ply\n")

@@ -180,6 +180,14 @@ TEST(triangles_of_no_area_are_counted)
     expect_fault(&found.features.flat, (Expected){2, 1});
 }
 
+// The square of its area is below the range of fp64.
+TEST(a_tiny_triangle_has_an_area)
+{
+    FREED_BY(release)
+    Taken taken = census_of_mesh("0 0 0  1e-170 0 0  0 1e-170 0", "0 1 2");
+    expect_fault(&taken.census.meshes[0].features.flat, (Expected){0, 0});
+}
+
 TEST(nothing_of_an_empty_mesh_is_closed)
 {
     FREED_BY(release) Taken taken = census_of_mesh("0 0 0", "");
@@ -198,7 +206,7 @@ TEST(numbers_that_are_not_finite_are_counted_and_left_out)
     expect_fault(&mesh.lost_corners, (Expected){3, 1});
     expect_fault(&mesh.equal_corners, (Expected){0, 0});
     assert_int_equal(mesh.triangle_count, 2);
-    assert_int_equal(mesh.dropped_count, 3);
+    assert_int_equal(mesh.dropped.count, 3);
     for (size_t vertex = 0; vertex < mesh.vertex_count; vertex++)
         assert_true(isfinite(mesh.positions[vertex][0] + mesh.positions[vertex][1]));
 }

@@ -46,7 +46,7 @@ TEST(triangles_with_equal_corner_positions_are_dropped)
                                 "element face 7\nproperty list uchar int vertex_indices\nend_header"
                                 "\n0 0 0 1 0 0 0 1 0 1.0 -0 0e5 0 0 1\n3 0 1 3\n3 0 1 2\n3 3 0 1\n"
                                 "3 1 2 3\n3 2 2 0\n4 2 0 1 3\n3 0 1 4\n");
-    assert_int_equal(mesh.dropped_count, 5);
+    assert_int_equal(mesh.dropped.count, 5);
     assert_int_equal(mesh.triangle_count, 3);
     assert_triangle(&mesh, 0, 0, 1, 2);
     assert_triangle(&mesh, 1, 2, 0, 1);

@@ -114,7 +114,7 @@ static void check_square(const Mesh *mesh)
 {
     assert_int_equal(mesh->vertex_count, 4);
     assert_int_equal(mesh->triangle_count, 3);
-    assert_int_equal(mesh->dropped_count, 0);
+    assert_int_equal(mesh->dropped.count, 0);
     assert_triangle(mesh, 0, 0, 1, 2);
     assert_triangle(mesh, 1, 0, 2, 3);
     assert_triangle(mesh, 2, 3, 2, 1);
