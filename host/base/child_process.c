@@ -168,7 +168,9 @@ void confine_process(unsigned seconds)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    confine_resource(RLIMIT_CPU, seconds);
+    // At the soft limit, the signal is SIGXCPU; at the hard limit, SIGKILL.
+    const struct rlimit time = {seconds, seconds + 1};
+    setrlimit(RLIMIT_CPU, &time);
     confine_resource(RLIMIT_FSIZE, 0);
     confine_resource(RLIMIT_CORE, 0);
     alarm(seconds);

@@ -66,7 +66,7 @@ bool file_read(File *file, const char *path, Error *error)
     struct stat status;
     if (!check_kind(path, &status, error))
         return false;
-    FILE *stream = fopen(path, "rb");
+    FILE *stream = fopen(path, "rbe");
     if (stream == NULL)
         return cannot_open(path, error);
     const size_t expected = S_ISREG(status.st_mode) ? (size_t)status.st_size : 0;

@@ -115,7 +115,7 @@ static bool write_format(const Framebuffer *framebuffer, const char *path,
     const Format *format = find_format(settings->format);
     if (format->module != NULL)
         return write_by_module(framebuffer, path, format, settings, cause);
-    FILE *stream = fopen(path, "wb");
+    FILE *stream = fopen(path, "wbe");
     if (stream == NULL)
         return error_set(cause, "%s", strerror(errno));
     const bool written = image_format_takes_layers(format->name)

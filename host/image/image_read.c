@@ -68,7 +68,7 @@ static FILE *open_file(const char *path, Error *cause)
         error_set(cause, "it is not a file");
         return NULL;
     }
-    FILE *stream = fopen(path, "rb");
+    FILE *stream = fopen(path, "rbe");
     if (stream == NULL)
         error_set(cause, "%s", strerror(errno));
     return stream;

@@ -6,6 +6,7 @@
 #include "unit/cmocka_all.h"
 
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -136,6 +137,35 @@ static void sleep_confined(int socket, const void *context)
 {
     confine_process(1);
     sleep_long(socket, context);
+}
+
+static void *burn(void *context)
+{
+    for (;;)
+        (void)*(volatile char *)context;
+    return NULL;
+}
+
+// Two threads use up the processor time before the time of day.
+static void burn_confined(int socket, const void *context)
+{
+    char byte = 0;
+    pthread_t thread;
+    (void)socket, (void)context;
+    confine_process(1);
+    pthread_create(&thread, NULL, burn, &byte);
+    burn(&byte);
+}
+
+TEST(a_confined_child_ends_after_its_processor_time)
+{
+    ChildProcess child;
+    const ChildLimits limits = {.seconds = 60, .bytes = 10};
+    FREED_BY(file_free) File output;
+    Error error = {0};
+    int signal;
+    start(&child, burn_confined, NULL);
+    assert_int_equal(child_collect(&child, &limits, &output, &signal, &error), CHILD_LATE);
 }
 
 TEST(a_confined_child_ends_after_its_time)
