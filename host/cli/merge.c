@@ -19,9 +19,10 @@ typedef struct {
     Framebuffer framebuffer; // empty if joins
     Layers layers;
     Provenance provenance; // the first part's, with the devices of all parts
-    StoredTiles first;     // of the first part
-    const char **paths;    // by part, NULL for a missing part; the array is owned
-    bool joins;            // copies compressed tiles into an EXR file instead of decoding them
+    StoredTiles first;     // of the first part that can be opened
+    const char *first_path;
+    const char **paths; // by part, NULL for a missing part; the array is owned
+    bool joins;         // copies compressed tiles into an EXR file instead of decoding them
     ExrJoin join;
     Error unopened;  // the reason why a part cannot be opened
     bool is_damaged; // a part cannot be used
@@ -76,6 +77,7 @@ static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *fil
 {
     const StoredImage *image = &file->head;
     merging->first = *tiles;
+    merging->first_path = path;
     merging->first.whole = json_incref(tiles->whole);
     memcpy(merging->provenance.texts, image->texts, sizeof image->texts);
     merging->paths = memory_zeroed(tiles->settings.parts, sizeof *merging->paths, error);
@@ -114,8 +116,7 @@ static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile
         return false;
     const char *mismatch = mismatch_of(merging, tiles, image);
     if (mismatch != NULL)
-        return error_set(error, "%s: has %s than %s", path, mismatch,
-                         merging->options->part_paths[0]);
+        return error_set(error, "%s: has %s than %s", path, mismatch, merging->first_path);
     const char **place = &merging->paths[tiles->settings.part];
     if (*place != NULL)
         return error_set(error, "%s: is part %u of %u, as is %s", path, tiles->settings.part + 1,

@@ -49,8 +49,12 @@ static json_t *settings_json(const Run *run)
         json_object_set_new(json, "turned", json_real(run->report.turned));
     if (render_is_part(settings))
         json_object_set_new(json, "crop", crop_json(settings));
-    if (options_are_adaptive(options))
-        json_object_set_new(json, "contrast", json_real(run->options->contrast));
+    if (options->contrast > 0)
+        json_object_set_new(json, "contrast", json_real(options->contrast));
+    if (options->error_goal > 0)
+        json_object_set_new(json, "error", json_real(options->error_goal));
+    if (options->time_goal > 0)
+        json_object_set_new(json, "time", json_real(options->time_goal));
     if (settings->parts > 0)
         json_object_set_new(json, "part", pair_json(settings->part + 1, settings->parts));
     if (settings->parts > 0 || is_unfinished)

@@ -81,17 +81,17 @@ static bool unknown_name(const char *name, size_t length, Error *error)
 static bool read_name(const char *name, size_t length, AovSet *set, Error *error)
 {
     const bool is_all = length == 3 && memcmp(name, "all", 3) == 0;
-    for (size_t i = 0; i < aov_count; i++)
-        if (is_all && aov_table[i].need != AOV_NEEDS_REFERENCE)
-            *set |= (AovSet)1 << i;
-        else if (strlen(aov_table[i].name) == length &&
-                 memcmp(aov_table[i].name, name, length) == 0) {
-            if (aov_has(*set, i))
-                return error_set(error, "--aov names '%s' twice", aov_table[i].name);
-            *set |= (AovSet)1 << i;
-            return true;
-        }
-    return is_all || unknown_name(name, length, error);
+    bool is_known = false;
+    for (size_t i = 0; i < aov_count; i++) {
+        const bool is_named = is_all ? aov_table[i].need != AOV_NEEDS_REFERENCE
+                                     : strlen(aov_table[i].name) == length &&
+                                           memcmp(aov_table[i].name, name, length) == 0;
+        if (is_named && aov_has(*set, i))
+            return error_set(error, "--aov names '%s' twice", aov_table[i].name);
+        *set |= (AovSet)is_named << i;
+        is_known |= is_named;
+    }
+    return is_known || unknown_name(name, length, error);
 }
 
 bool aov_read_list(const char *list, AovSet *set, Error *error)

@@ -179,6 +179,7 @@ class Parts(SharedWork):
         ):
             self.clrt(*words, "--part", f"2/{of}", "-o", "other.exr")
             self.refuses_parts(f"other.exr: has {thing} than third1.exr", self.thirds[0], "other.exr")
+        self.refuses_parts("other.exr: has other channels than third1.exr", "no.exr", self.thirds[0], "other.exr")
 
     def test_missing_and_doubled_parts_are_refused(self):
         one, _, three = self.thirds

@@ -83,6 +83,8 @@ class Provenance(Work):
                                     "encode": "raw", "precision": "fp32"})
         settings = json.loads(self.draw(*SMALL, "--aa-adaptive=0.1")["clrt:settings"])
         self.assertEqual((settings["samples"], settings["contrast"]), ("adaptive", 0.1))
+        settings = json.loads(self.draw(*SMALL, "--error", "5%")["clrt:settings"])
+        self.assertEqual((settings["samples"], settings["error"]), ("adaptive", 0.05))
 
     def test_options_that_change_no_bit_change_no_byte_of_the_file(self):
         first = self.draw()

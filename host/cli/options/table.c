@@ -129,7 +129,7 @@ const Option option_table[] = {
 
     {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_GEOMETRY, CLASS_NONE,
      FOR_FILE | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
-     "triangles without area: drop them (default), or fail and name the first"},
+     "drop triangles with two equal corners (default), or fail at triangles without area"},
 
     {"fail", "LIMITS", 0, ODD(set_fail), GROUP_REPORT, CLASS_NONE, FOR_COMPARE,
      "compare: exit with status 1 above rmse=V, max=V, share1=V, share4=V or hits=V, or below "
