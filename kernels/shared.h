@@ -139,7 +139,7 @@ typedef struct {
 CLRT_SAME_SIZE(TriangleLook, 8)
 
 // A camera ray's direction is forward + x * right_step + y * down_step. For sample i of n across
-// the picture, x is 2 * i + 1 - n. y is analogous. These integers are exact in float and symmetric.
+// the picture, x is 2 * i + 1 - n. y is analogous. Up to n = 2^24, these integers are exact floats.
 typedef struct {
     float eye[4];
     float forward[4];
