@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernels of --aov write data about each pixel's hit, and use the same search as the kernels
-// that render the picture. They follow render.cl in the program, and only if requested.
+// The kernels of --aov write data about each pixel's hit and about its cost, with the search of
+// trace.cl. These kernels are compiled after render.cl, and only if requested.
 
 static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface *surface, Mask met)
 {

@@ -79,7 +79,7 @@ static inline Real sum_of_sizes(Real3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-// Returns the tangent of the angle that a chord of this length spans between unit vectors.
+// Bounds the tangent of the angle that a chord of this length spans between unit vectors.
 static inline Real spread_of(Real chord)
 {
     return chord < 0.25f ? chord / (1.0f - chord) : INFINITY;
@@ -144,7 +144,7 @@ static inline Real camera_rounding(const CameraData *camera, Real3 direction, fl
     return length_of(difference(rounded, direction));
 }
 
-// sample_x and sample_y are as in camera_ray. Doubling the lengths covers fp64's rounding.
+// `sample` is camera_ray's sample_x and sample_y. Doubling the lengths covers fp64's rounding.
 static inline RayCone camera_cone(const FrameData *frame, uint2 sample, Real u)
 {
     const Ray ray = camera_ray(frame, sample.x, sample.y, true);

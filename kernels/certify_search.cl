@@ -45,7 +45,7 @@ static inline Real growth_at(const RayCone *ray, Real far)
     return 1.01f * ray->around + (1.01f * ray->spread + rounding) * (far + ray->around);
 }
 
-// Replaces a zero direction by a small one, whose deviation is below the rounding.
+// Returns 1 / direction. Raises a direction below 2^-60, by less than the rounding.
 static inline Real inverse_of(Real direction)
 {
     return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);

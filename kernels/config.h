@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The switches that specialize a program. The first group describes the scene (host/accel/flat.c).
-// Plain `if`s test these constants, and the optimizer removes the features that a scene lacks. The
-// defaults make the general program, which renders every scene.
+// The switches that specialize a program. The first group describes the scene and whether the
+// kernels count (host/accel/flat.c). Plain `if`s test these constants, and the optimizer removes
+// unused features. The defaults make the general program, which renders every scene.
 #ifndef CLRT_CONFIG_H
 #define CLRT_CONFIG_H
 
@@ -29,7 +29,7 @@
 #define CLRT_WIDE_NODES 0 // BvhWide and TriangleBlock replace BvhPair and TriangleData
 #endif
 #ifndef CLRT_PACKET
-#define CLRT_PACKET 0 // a work-item renders a block of pixels
+#define CLRT_PACKET 0 // packets of rays search together (0: ray by ray)
 #endif
 #ifndef CLRT_SIGNATURES
 #define CLRT_SIGNATURES 0 // samples have signatures (SampleData)

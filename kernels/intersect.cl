@@ -33,9 +33,9 @@ static inline void intersect_spheres(const Tracer *tracer, const Ray *ray, Hit *
 }
 
 // Returns whether the ray may search for triangles. The ray must start within 2^46 of the frame's
-// origin, and its direction must be between 2^-80 and 2^80 long. All other rays hit no triangle.
-// With an infinity or a NaN, a ray would be inside every box, even a missing child's, and the
-// search would never end.
+// origin, and its direction must be between 2^-80 and 2^80 long, both as sums of components. All
+// other rays hit no triangle. With an infinity or a NaN, a ray could be inside every box, even a
+// missing child's, and the search would never end.
 static inline Mask is_searchable(const Ray *ray)
 {
     const Real3 o = magnitudes(ray->origin), d = magnitudes(ray->direction);

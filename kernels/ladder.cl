@@ -2,8 +2,8 @@
 // The kernel of error and time goals turns requests for samples of pixels into sums over these
 // samples. It is compiled after render.cl, and only if requested.
 
-// Samples per work-item. With this number of requests instead, a work-item could take 1024 samples,
-// and short lists would leave cores idle.
+// Samples per work-item. If the limit were this number of requests, a work-item could take 1024
+// samples, and short lists would leave cores idle.
 #define ITEM_SAMPLES (BLOCK * BLOCK)
 
 // Color values are rounded to this many bits before squaring, so that the sum of squares of

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The tracer's number types: Real, Mask and UInt. In the ray family they are a Scalar, an int and a
-// uint: a work-item traces one ray, and every function reads as scalar code. In the packet family
-// they are vectors with one ray per lane. Comparisons then return -1 or 0 per lane, and && || ! and
-// ?: select per lane. Both families compile the same source, so they compute the same bits.
+// The tracer's number types: Real, Mask and UInt. With binary nodes they are a Scalar, an int and a
+// uint: a work-item traces one ray, and every function reads as scalar code. With wide nodes they
+// are vectors with one ray per lane. Comparisons then return -1 or 0 per lane, and && || ! and ?:
+// select per lane. Both forms compile the same source, so they compute the same bits.
 //
 // For vectors, && || and ?: evaluate both sides in all lanes. Every lane therefore needs valid
 // indices on both sides, and neither side may have side effects. A scalar branch on any_lane()
@@ -14,7 +14,7 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// Scalar is float, or double in the reference mode. Both modes compile the same source for the same
+// Scalar is float, or double with --precision fp64. Both compile the same source for the same
 // scene, which is stored in float. Their pictures therefore differ only by the error of float
 // arithmetic.
 #if CLRT_FP64
@@ -54,7 +54,7 @@ typedef float Scalar;
 #endif
 
 // Files that are included for several types (*.inc.cl) overload functions by their arguments.
-// Overloading needs an attribute of clang. With binary nodes there is only one type.
+// Overloading needs an attribute of clang. With binary nodes, each file is included only once.
 #if CLRT_WIDE_NODES
 #define OVERLOAD __attribute__((overloadable))
 #else

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The arithmetic of the tracer's decisions. Contraction is off and every fma is explicit. A
-// picture depends only on + - * / sqrt fma, comparisons and integers, so every device that rounds
-// these correctly computes the same bits.
+// picture depends only on + - * / sqrt fma rint, conversions, comparisons and integers, so every
+// device that rounds these correctly computes the same bits.
 #ifndef CLRT_NUMERIC_CL
 #define CLRT_NUMERIC_CL
 #include "lanes.cl"
@@ -177,7 +177,7 @@ static inline Real exponential_series(Real r)
     return fma(series, r, (Real)(1.0f));
 }
 
-// Returns exp(x) for x <= 0. Results up to exp(-69), about 2^-100, become zero (integer_power).
+// Returns exp(x) for x <= 0. Results up to exp(-69), about 2^-100, are zero, as in integer_power.
 static inline Real exponential(Real x)
 {
     const Mask is_tiny = !(x > -69.0f);

@@ -60,8 +60,8 @@ static NOT_INLINE Mask packet_neighbors(const Corners *corners, const Packet *pa
     return known && hits_neighbor(&own, corners, ray->direction, from_back);
 }
 
-// Returns the distances of test's hits, and INFINITY elsewhere. Distances of camera rays may be
-// beyond `reach`.
+// Returns the distances of the rays that stop on the triangle, INFINITY for the others. Distances
+// of camera rays may be beyond `reach`.
 static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
                                     const PacketTest *test, Real reach)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The plain search, for GPUs and for reading: one ray traverses the binary tree.
+// The simplest search, for GPUs and for fp64: one ray traverses the binary tree.
 #ifndef CLRT_PAIR_CL
 #define CLRT_PAIR_CL
 #include "fetch.cl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rendering kernel: a work-item renders one pixel of a tile. In the families with wide nodes it
+// The rendering kernel: a work-item renders one pixel of a tile. With wide nodes, a work-item
 // renders a block of BLOCK x BLOCK pixels, PACKETS packets at a time.
 #include "trace.cl"
 
@@ -45,8 +45,8 @@ typedef struct {
     Mask active;
 } Places;
 
-// Computes the colors of samples in steps of 2^-32. Functions with paths are not inlined: PoCL
-// would keep the private memory of all work-items of a group on its stack at once.
+// Computes the colors of samples in steps of 2^-32. Functions with paths are not inlined. Otherwise
+// PoCL would keep the private memory of all work-items of a group on its stack at once.
 static NOT_INLINE void sample_colors(const Tracer *tracer, const Places samples[PACKETS],
                                      Real3 colors[PACKETS])
 {
@@ -151,7 +151,7 @@ static inline void store_lane(global float *pixel, const Real3 *color, uint lane
     pixel[2] = (float)((const Scalar *)&color->z)[lane];
 }
 
-// Stores the colors of the lanes inside the tile, and the cost of all lanes at the first of them.
+// Stores the colors of the lanes inside the tile, and the tally at the first lane.
 static inline void store_packet(const FrameData *frame, uint2 corner, const Real3 *color,
                                 const Tally *tally, const Output *output)
 {

@@ -16,7 +16,7 @@ static inline void store_sample(global SampleData *sample, const Real3 *color, U
 // Samples per work-item.
 #define ITEM_SAMPLES (BLOCK * BLOCK)
 
-// Returns the places of a packet, from number `start` on.
+// Returns the places of a packet, from index `start` of the list on.
 static inline Places places_listed(global const uint *places, uint start, uint end)
 {
     const UInt number = start + LANE_Y * PACKET_WIDTH + LANE_X;

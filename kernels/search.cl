@@ -46,8 +46,8 @@ typedef struct {
     Real3 inverse, near_offset, far_offset;
 } Slabs;
 
-// Raises components below 2^-30 of the largest one. No infinity or NaN can then arise from rays
-// whose largest component exceeds 2^-96. Shorter rays have no usable direction.
+// Raises components below 2^-30 of the largest one. The inverses are then finite if the largest
+// component exceeds 2^-96. Shorter rays have no usable direction.
 static inline Real slab_direction(Real direction, Real smallest)
 {
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;

@@ -84,8 +84,8 @@ CLRT_SAME_SIZE(TriangleData, 48)
 #define TRIANGLE_REVERSED  0x40000000u // sorting has swapped front and back
 #define TRIANGLE_MARKS     (TRIANGLE_TWO_SIDED | TRIANGLE_REVERSED)
 
-// Vertex normals of a smooth triangle, in the stored order of its corners. Their common length is
-// arbitrary. They point to the stored front; the normals of a reversed triangle are negated.
+// Vertex normals of a smooth triangle, in the stored order of its corners. Their lengths weight the
+// interpolation. They point to the stored front; the normals of a reversed triangle are negated.
 typedef struct {
     float normals[3][4]; // the fourth component is zero: keeps each vector 16 bytes
 } CornerNormals;
@@ -102,10 +102,10 @@ typedef struct {
 } BvhPair;
 CLRT_SAME_SIZE(BvhPair, 64)
 
-// A work-item of the families with wide nodes renders BLOCK_SIDE x BLOCK_SIDE pixels.
+// With wide nodes, a work-item renders BLOCK_SIDE x BLOCK_SIDE pixels.
 #define BLOCK_SIDE 8
 
-// Refined pictures list their samples in squares of this side, which form packets.
+// Refined pictures list the pixels' centers in squares of this side, which form packets.
 #define PACKET_SIDE 4
 
 // Children of a wide node, and triangles of a block: one 256-bit vector of floats.
@@ -139,7 +139,7 @@ typedef struct {
 CLRT_SAME_SIZE(TriangleLook, 8)
 
 // A camera ray's direction is forward + x * right_step + y * down_step. For sample i of n across
-// the picture, x is 2 * i + 1 - n. y is analogous. These integers are exact in float and symmetric.
+// the picture, x is 2 * i + 1 - n. y is analogous. Up to n = 2^24, these integers are exact floats.
 typedef struct {
     float eye[4];
     float forward[4];
@@ -162,8 +162,8 @@ typedef struct {
 } FrameData;
 CLRT_SAME_SIZE(FrameData, 128)
 
-// The result of a camera ray: its color, and a signature. The signatures of two rays differ if the
-// rays hit different surfaces, or if different lights reach these surfaces.
+// The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
+// that the ray and its reflections hit, and of the lights that reach these surfaces.
 typedef struct {
     float color[3];
     uint signature;
@@ -207,12 +207,12 @@ typedef enum {
 typedef struct {
     uint certainty; // a Certainty
     uint first_id;  // of the camera ray's hit, or NOTHING
-    uint lit;       // a bit for each of the first 32 lights that reach the hit
+    uint lit;       // bit i is set if light i reaches the hit, for i < 32
     uint signature; // hash of all decisions of the ray tree
 } CertaintyMark;
 CLRT_SAME_SIZE(CertaintyMark, 16)
 
-// The cost of one pixel, written if statistics are requested.
+// Indices of the counts in a tally, which is the cost of a pixel, of a beam or of a work-item.
 typedef enum {
     TALLY_CAMERA_RAYS,
     TALLY_SHADOW_RAYS,

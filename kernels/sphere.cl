@@ -136,8 +136,8 @@ static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, Tw
 }
 
 // Returns |f|^2 - radius^2, the product of the origin's distances to both walls on the line through
-// the center. On a sphere of radius 1e9 the squares lose a height of 1 even in 48 bits. The largest
-// component z of f therefore enters as the product (z - radius) (z + radius).
+// the center. On a sphere of radius 1e9, squares of 48 bits would give a height of 1 an error of
+// 6e-6. The largest component z of f therefore enters as the product (z - radius) (z + radius).
 static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 {
     const Mask z_first = fabs(f.z.high) >= max(fabs(f.x.high), fabs(f.y.high));
@@ -204,7 +204,7 @@ static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Re
 }
 
 // Returns the distance for a ray that starts on this sphere. The near root is zero by construction.
-// The chord to the far wall counts if it is longer than the origin's error.
+// The chord to the far wall counts if it is longer than the origin's error and 128u of the radius.
 static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;

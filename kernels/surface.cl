@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Turns a hit into a surface: the point and its normals. Points are interpolated on the primitive
-// rather than stepped along the ray, so their error does not grow with the distance traveled (pbrt,
-// section 6.8). New rays start at the point. The side on which the point lies decides which
+// Turns a hit into a surface: the point and its normals. Points are interpolated on the triangle or
+// projected onto the sphere, so their error does not grow with the distance traveled (pbrt, section
+// 6.8). New rays start at the point. The side on which the point lies decides which
 // triangles they may stop on (triangle.inc.cl), so no offset moves contacts and shadows. The start
 // moves only if, seen along the new ray, rounding has put the point outside its triangle.
 //
@@ -18,13 +18,13 @@
 
 typedef struct {
     Real3 point;
-    Real3 normal;        // unit, interpolated, the shading normal
-    Real3 face;          // unit, of the true surface, on the ray's side
+    Real3 normal;        // the shading normal, of length 1
+    Real3 face;          // the normal of the plane or sphere, of length 1, on the ray's side
     Real3 on_face;       // a corner of the triangle, exact; for a sphere the point
     Real3 toward_viewer; // unit
     UInt id, material;
     UInt index;      // of a triangle; NOTHING for spheres
-    Real room, edge; // the point is room / edge away from the edges, within a factor of 2
+    Real room, edge; // the point is at least room / (2 * edge) away from the edges
 } Surface;
 
 static inline Mask has_length(Real3 v)
@@ -32,8 +32,8 @@ static inline Mask has_length(Real3 v)
     return largest_component(v) > 0.0f;
 }
 
-// A collinear triangle, which a ray hits only through rounding, has no normal. It faces the
-// viewer.
+// A collinear triangle, which a ray hits only through rounding, has no normal. toward_viewer
+// replaces it.
 static inline Real3 triangle_face(const Corners *corners, Real3 toward_viewer)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -202,8 +202,8 @@ static inline Real3 direction_from(Real3 point, const Heading *heading)
 
 // Returns the start of a ray near an edge. Rounding may have put the surface point outside its
 // triangle, beyond the neighbor that should stop the ray. While the ray's line misses the triangle,
-// the point moves within the plane toward the triangle's middle. The steps are UNIT_ROUNDOFF / sine
-// times 1, 2, 4 and so on to 256.
+// the start moves toward the triangle's middle. Its distances from the surface point are
+// UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface,
                                      const Heading *heading, Real sine, Mask near_edge)
 {
@@ -223,9 +223,9 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
     return point;
 }
 
-// Returns the start of a ray that leaves the surface. The ray's line passes through the surface's
-// triangle, which rounding can prevent only near edges. A point with coordinates up to 1 is off by
-// some units of rounding. Along the plane, the ray's line is off by this error divided by the sine.
+// Returns the start of a ray that leaves the surface. The ray's line should pass through the
+// surface's triangle, which rounding can prevent only near edges. A point with coordinates up to 1
+// is off by some units of rounding. Along the plane, the line is off by this error over the sine.
 static inline Real3 point_left(const Tracer *tracer, const Surface *surface, const Heading *heading,
                                Real sine, Mask active)
 {

@@ -6,7 +6,7 @@
 #include "camera.cl"
 #include "shade.cl"
 
-// Colors are rounded to integer multiples of 2^-32.
+// Returns a color as a rounded number of steps of 2^-32.
 static inline Real in_steps(Real color)
 {
     return rint(clamp_to_one(color) * 0x1p32f);
@@ -21,7 +21,7 @@ static inline Real3 in_steps3(Real3 color)
 typedef struct {
     Real3 color;   // so far
     Real weight;   // of the next ray's color in the sample's color
-    Mask met;      // lanes whose last ray hit; the members below are valid there
+    Mask met;      // lanes whose last ray hit; surface and material are valid there
     Mask reflects; // lanes with a next ray
     Surface surface;
     MaterialLanes material;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Watertight ray-triangle intersection: the triangle is sheared into the ray's frame, and the
 // signs of three edge functions decide (Woop, Benthin and Wald, JCGT 2(1) 2013). Neighbors share
-// the sheared vertices bit for bit. Kahan's difference of products gives each shared edge the same
-// exact sign from both sides, so no ray passes between them.
+// the sheared vertices bit for bit. Kahan's difference of products gives each shared edge its exact
+// sign in both triangles, so no ray passes between them.
 //
-// Included several times, by numeric.cl: for one ray and one triangle, for a packet of rays and one
-// triangle, and for one ray and eight triangles. Expects the number types Real, Mask and UInt, and
+// numeric.cl includes this file up to twice: for one ray or a packet of rays and one triangle, and
+// for one ray and eight triangles. The file expects the number types Real, Mask and UInt, and
 // OVERLOAD (lanes.cl). Defines the functions and the types Real3, Shear, Corners, Edges, SurfaceRay
-// and Sides. A later inclusion has to rename these types by macros.
+// and Sides. The second inclusion has to rename these types by macros.
 #include "vector.inc.cl"
 
 // The shear that turns the ray into the axis z. z is the longest axis of the direction; x and y
@@ -49,7 +49,7 @@ static inline Edges OVERLOAD edges_of(const Corners *sheared)
     return edges;
 }
 
-// Zero counts for both signs: a ray through an edge hits both triangles, and the lower id wins.
+// Zero counts for both signs: a ray through an edge hits both triangles.
 static inline Mask OVERLOAD edges_contain(const Edges *edges)
 {
     const Real smallest = min(min(edges->u, edges->v), edges->w);
@@ -71,8 +71,8 @@ static inline Real OVERLOAD triangle_depth(const Corners *sheared, const Edges *
 }
 
 // Bounds the error of the reported depth along z: 16 u Q, where Q is the largest distance of a
-// corner from the origin. The weights take 10, the interpolation 4, the division 2. The factor 18
-// leaves a reserve of 2.
+// corner from the ray's origin. The weights take 10, the interpolation 4, the division 2. The
+// factor 18 leaves a reserve of 2.
 static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 {
     const Real depth = max(max(fabs(s->a.z), fabs(s->b.z)), fabs(s->c.z));

@@ -139,8 +139,8 @@ static NOT_INLINE int8 block_neighbors(const WideCorners *corners, const Search 
     return hits_neighbor(&own, corners, splat3(&ray->direction, lane), from_back);
 }
 
-// Returns the distances of test's hits, INFINITY for triangles that do not stop the ray. Distances
-// of camera rays may be beyond `reach`.
+// Returns the distances of the triangles that stop the ray, INFINITY for the others. Distances of
+// camera rays may be beyond `reach`.
 static inline float8 block_distances(global const TriangleBlock *block, const Search *search,
                                      uint lane, const BlockTest *test, float reach)
 {
@@ -223,7 +223,7 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     return update_lane_hit(&distances, start, lane, hits);
 }
 
-// Returns whether the scene exceeds the caches. Prefetching makes smaller scenes 7 % slower.
+// Returns whether the scene probably exceeds the caches. Prefetching makes others 7 % slower.
 static inline bool is_dense(const Tracer *tracer)
 {
     return tracer->frame->triangle_count >= 300000;

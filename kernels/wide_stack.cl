@@ -13,7 +13,7 @@
 // A tree level leaves at most WIDE - 1 pending children, and each store writes WIDE entries.
 #define WIDE_STACK_SIZE (BVH_MAX_DEPTH * (WIDE - 1) + 2 * WIDE)
 
-// The nearest child of the last visited node is on top.
+// The children of a node are adjacent, the nearest on top.
 typedef struct {
     uint order[WIDE_STACK_SIZE]; // as made by entry_order
     uint child[WIDE_STACK_SIZE];

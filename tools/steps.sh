@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Steps of tools/setup, tools/render and tools/test, which source this file. On a terminal, a line
-# below the output is rewritten at least every second and shows the step, its percentage and its
-# time. Elsewhere only the lines about finished steps appear.
+# Steps of tools/setup, tools/render and tools/test, which source this file. On a terminal, the last
+# line shows the step, its percentage and its time. Elsewhere only lines on finished steps appear.
 set -o pipefail
 
 on_terminal() {
@@ -9,7 +8,8 @@ on_terminal() {
 }
 
 # Shows the progress of a command whose output it reads: the share of steps in lines of ninja and
-# ctest, the percentage in lines of apt-get (APT::Status-Fd). Also prints the lines that match the pattern $2, if given.
+# ctest, the percentage in lines of apt-get (APT::Status-Fd). Also prints the lines that match the
+# pattern $2, if given.
 show_progress() {
     local name=$1 passed=${2-} percent= line= part status
     while :; do

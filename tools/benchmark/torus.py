@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Writes a closed, bumpy torus with about the requested number of triangles. A torus has no poles, so triangles
-resemble their neighbors in meshes of every size."""
+"""Writes a closed, bumpy torus with about the requested number of triangles. A torus has no poles,
+so triangles resemble their neighbors in meshes of every size."""
 
 import array
 import math

@@ -43,7 +43,7 @@ static void *draw_tiles(void *argument)
     PeerTile tile = {.scene = picture->scene, .framebuffer = work->framebuffer};
     for (int kind = 0; kind < RAY_KINDS; kind++)
         tile.flags[kind] = picture->flags[kind];
-    // Embree's manual requires both flags (FTZ, DAZ), because denormal numbers are slow.
+    // Embree's manual recommends both flags (FTZ, DAZ), because denormal numbers are slow.
     _mm_setcsr(_mm_getcsr() | 0x8040);
     for (uint32_t i; (i = atomic_fetch_add(&work->next_tile, 1)) < count;) {
         tile.x = i % columns * TILE_SIZE;

@@ -25,7 +25,7 @@ typedef struct {
     float background[3], ambient;
     CameraData camera;
     uint32_t width, height, max_level;
-    double build_seconds; // of rtcCommitScene
+    double build_seconds; // of rtcCommitGeometry and rtcCommitScene
 } PeerScene;
 
 // Loads a scene file with its first view and builds Embree's tree. Call peer_scene_close after

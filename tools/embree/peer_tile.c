@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Traces and shades a tile like kernels/trace.cl, with LANES rays per SIMD packet. Each call of
 // Embree traces PACKETS packets. CMakeLists.txt compiles this file once for each mode. Unlike in
-// clrt, triangles are visible from both sides, and new rays start at a fixed distance from the
+// clrt, triangles are visible from both sides, and rays end or start at a fixed distance from the
 // surface. Most users of Embree do both, and both are faster than Embree's filter functions.
 #include "calls.h"
 #include "peer_draw.h"
@@ -13,7 +13,7 @@
 #define BLOCKS_ABREAST (PACKETS > 1 ? 2 : 1)
 #define BLOCKS_DEEP    (PACKETS / BLOCKS_ABREAST)
 
-// New rays start at this distance from a surface, and shadow rays end at this distance before it.
+// Reflected rays start at this distance from a surface, and shadow rays from a light end there.
 // The scene's longest side is 1 to 2.
 #define AWAY 3e-5f
 
@@ -175,7 +175,7 @@ typedef struct {
     Floats diffuse, specular;
 } Received;
 
-// A packet's hits. If no lane has a hit, the other members are not set.
+// A packet's hits. If no lane has a hit, surfaces and looks are not set.
 typedef struct {
     Mask hit;
     Surfaces surfaces;

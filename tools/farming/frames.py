@@ -22,7 +22,7 @@ def share(all_numbers, task, tasks):
 
 
 def name(pattern, number):
-    """Returns the name of a picture's file: the number replaces the last run of '#'."""
+    """Returns the file's name: the number replaces the last run of '#', or precedes the ending."""
     path = pathlib.PurePath(pattern)
     if crosses := re.fullmatch(r"(.*?)(#+)([^#]*)", path.name):
         before, digits, after = crosses[1], len(crosses[2]), crosses[3]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The words come from the table of options. Names in capitals stand for any value and are skipped.
-// The words of --format are the formats that this build writes.
+// The words of --format are the formats that this build writes, except GIF.
 #include "value.h"
 
 #include "image/image_file.h"
@@ -18,7 +18,7 @@ void value_name(const Option *option, char *name, size_t size)
              (int)strcspn(argument, option_argument_is_optional(option) ? "]" : ""), argument);
 }
 
-// Replaces each run of separators by one space.
+// Stores the words of list that do not begin with a capital, separated by blanks.
 static void split(char words[VALUE_WORDS_SIZE], const char *list, const char *separators)
 {
     size_t end = 0;

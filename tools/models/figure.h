@@ -21,5 +21,5 @@ double robe_field(Vec3 p, double torso);
 // Beads on a string around the neck. torso must be torso_field(p).
 double beads_field(Vec3 p, double torso);
 
-// A lotus seat around the z axis, 0.2 high.
+// A lotus seat around the z axis, about 0.2 high.
 double lotus_field(Vec3 p);

@@ -19,8 +19,8 @@
 // detail than the grid, a full step would fold the surface.
 #define LONGEST_STEP 0.5
 
-// The distance of the gradient's samples, in cells. The distance smooths creases that triangles
-// cannot show.
+// The distance of the gradient's samples along each axis, in cells. It smooths creases that
+// triangles cannot show.
 #define GRADIENT_REACH 0.3
 
 // Six steps remove every fold in the models. A vertex moves only while it belongs to a bad quad.

@@ -4,7 +4,7 @@
 #include "figure.h"
 #include "shape.h"
 
-// Returns the height of a fold, about -1 to 1; along counts folds. Crests are round, and valleys
+// Returns the height of a fold, -1.05 to 0.57; along counts folds. Crests are round, and valleys
 // are narrower.
 static double fold(double along)
 {

@@ -8,8 +8,8 @@
 #include "base/vec.h"
 #include "wave.h"
 
-// Larger than the blends between a model's parts. At this distance from a part, a bound of its
-// field is sufficient.
+// Larger than the blends of the parts that use it. At this distance from such a part, a bound of
+// its field is sufficient.
 #define SHAPE_FAR 0.05
 
 static inline double shape_smaller(double a, double b)

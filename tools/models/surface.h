@@ -8,7 +8,7 @@
 
 typedef struct {
     Vec3 *positions;
-    Vec3 *normals;        // of length 1, outward; zero until relax_surface
+    Vec3 *normals;        // of length 1, outward; zero after surface_extract
     uint32_t (*quads)[4]; // counter-clockwise from outside; drawn as triangles 0 1 2 and 0 2 3
     size_t vertex_count, quad_count;
 } Surface;

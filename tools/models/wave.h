@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sine, cosine and the angle of a vector by fixed polynomials. Angles are in turns: 1 is a full
 // circle. The last bits of the C library's sin and atan2 differ between systems. These functions
-// use only + - * /, so a model is the same file everywhere. Their error is below 1e-6, which is
-// invisible in a mesh.
+// use only + - * / and floor, so a model is the same file everywhere. Their error is below 1e-6,
+// which is invisible in a mesh.
 #pragma once
 
 #include <math.h>

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Places the names of points so that no name covers another name or a point. Each name takes the
-nearest free position around its point. A thin line leads to a distant name."""
+"""Places the names of points. Each name takes the nearest position around its point that covers
+the least of other names and points. A thin line leads to a distant name."""
 
 import math
 

@@ -11,8 +11,8 @@ import sys
 from benchmark import common
 from tradeoff import front, goals, grid, uniform
 
-# The number of pictures that a process draws. The first picture includes late initialization, so
-# only the others are timed.
+# The number of pictures that a process draws, one fewer for time goals. The first picture includes
+# late initialization, so only the others are timed.
 FRAMES = 3
 
 

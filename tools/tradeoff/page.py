@@ -161,10 +161,10 @@ def method(scenes):
         f"({html.escape(device['driver'])}); {html.escape(machine['cpu'])}, {machine['threads']} "
         f"threads; {packages}; {datetime.date.today()}.</p>"
         f'<p class="note">Times are medians of {runs} rounds in which the settings alternate. In '
-        "each round, the tracing time of the faster of two frames counts, after a first frame that "
-        "does not count. RMSE covers the stored values of all three colors. SSIM and FLIP (mean, "
-        "67 pixels per degree) estimate the visible difference. A factor below 1 means faster than "
-        f"the base ({html.escape(grid.BASE)}, the course's setting).</p>")
+        "each round, the tracing time of the faster of two frames counts (time goals: of one), "
+        "after an uncounted frame. RMSE covers the stored values of all three colors. SSIM and "
+        "FLIP (mean, 67 pixels per degree) estimate the visible difference. A factor below 1 means "
+        f"faster than the base ({html.escape(grid.BASE)}, the course's setting).</p>")
 
 
 def write(path, scenes, folder):

@@ -20,7 +20,7 @@ def write_csv(path, scenes):
 
 
 def show(scene):
-    """Yields a line per setting, the fastest first, with a star for settings on the front."""
+    """Yields a heading and a line per setting, the fastest first, with a star on the front."""
     reference = scene["reference"]
     yield (f"{scene['scene']}: reference of {reference['samples']} samples, "
            f"own RMSE {reference['own_error']:.2g}")
@@ -38,7 +38,7 @@ def rival_text(rival):
 
 
 def show_goals(scenes):
-    """Yields a line for each error goal and each time goal."""
+    """Yields a line for each error goal and each time goal, and a summary of the error goals."""
     for scene in scenes:
         for goal in scene["goals"]["errors"]:
             yield (f"{'*' if goal['front'] else ' '} {scene['scene']:14} "
