@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Copies the kernels with a change that they must tolerate. `contracted` allows the contraction of
-# a * b + c. `coarse` makes reciprocals wrong by 2.5 ulp, the most that OpenCL allows devices
+# a * b + c. `coarse` makes reciprocals wrong by about 2 to 4 ulp. OpenCL allows 2.5 ulp on devices
 # without correctly rounded division.
 # Usage: cmake -DFOLDER=kernels -DOUTPUT=folder -DCHANGE=contracted|coarse -P change_kernels.cmake
 if(CHANGE STREQUAL contracted)
