@@ -13,5 +13,5 @@ typedef struct {
 extern const ExtremeScene extreme_scenes[];
 extern const size_t extreme_scene_count;
 
-// A ball over a floor. Each triangle exists twice, with its corners in two orders.
+// A ball over a floor. Each triangle exists twice, and one copy has its corners in a random order.
 Scene extreme_coincident(void);

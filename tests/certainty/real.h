@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Decides a pixel's ray tree in real arithmetic on the stored scene: with 64 bits if they suffice,
-// otherwise with 113. The code is independent of the kernels and uses other methods.
+// Decides a sample's ray tree on the stored scene as real arithmetic would. Callers use 113 bits if
+// 64 bits settle too little. The code is independent of the kernels and uses other methods.
 #pragma once
 
 #include "certainty/real_tree.h"

@@ -5,8 +5,8 @@
 
 __extension__ typedef __float128 Quad;
 
-// Returns the square root. Starts from the root in long double, with 64 bits. Each of the two steps
-// of Newton's method doubles the number of correct bits.
+// Returns the square root, or 0 if a is not positive. Starts from the root in long double. A step
+// of Newton's method doubles the number of correct bits, up to the 113 bits of Quad.
 static Quad root(Quad a)
 {
     if (!(a > 0))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decisions in long double: every rounding is below 2^-64.
+// Decides ray trees in long double, whose relative rounding errors are at most 2^-64.
 #define NUMBER    long double
 #define ROOT(x)   sqrtl(x)
 #define TOLERANCE 0x1p-54L

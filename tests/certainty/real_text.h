@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces a ray tree without recursion and returns its decisions. Compiled for two number types
-// (real_64.c, real_113.c). The sign of a sum is settled if the sum exceeds TOLERANCE times the sum
-// of its terms' sizes. TOLERANCE is at least 1000 roundings, and grows by the factor GROWTH at each
-// reflection. Errors at triangles and normals of ordinary shapes grow far less.
+// (real_64.c, real_113.c). The sign of a sum is settled if the sum's magnitude exceeds the ray's
+// tolerance times a bound on the sum's terms. The tolerance of camera rays is TOLERANCE, at least
+// 1000 roundings. Reflections multiply it by GROWTH; at ordinary shapes, errors grow far less.
 #include "certainty/real.h"
 
 #include <math.h>
@@ -16,17 +16,17 @@ typedef struct {
 
 typedef enum { MISSES, MEETS, UNCLEAR } Outcome;
 
-// A hit of a ray, or a possible hit.
+// A hit of a ray, or a possible hit, whose t is at least low.
 typedef struct {
-    NUMBER t, low; // INFINITY for none; the true t is in [low, t + (t - low)]
-    uint32_t id, place;
-    NUMBER v, w; // weights of a triangle's second and third corner
+    NUMBER t, low;      // INFINITY for none; a hit's true t is in [low, t + (t - low)]
+    uint32_t id, place; // place: index in the flat scene's spheres or triangles
+    NUMBER v, w;        // weights of a triangle's second and third corner
     bool front;
 } Stop;
 
 typedef struct {
     Stop stop;
-    NUMBER other; // the smallest low of all other hits and possible hits
+    NUMBER other; // the smallest low of all other hits and possible hits, except coincident hits
 } Nearest;
 
 typedef struct {
@@ -338,9 +338,9 @@ static int side_of_normal(const Path *path, const Surface *surface, Vector apart
     return clear_sign(dot(surface->normal, apart), error);
 }
 
-// Returns 1 if the light is on the path's side of the face, -1 if it is on the other side. Outside
-// a sphere, it returns 1, because the normal alone decides. Inside, it returns -1, because the
-// outward normal faces no light there.
+// Returns 1 if the light is on the path's side of the face, -1 if it is on the other side, and 0 if
+// the side is not settled. For a sphere seen from outside, the normal alone decides, so the result
+// is 1. From inside it is -1: the normal points outward, so no light is in front of both.
 static int side_of_face(const Surface *surface, Vector light)
 {
     if (surface->is_sphere)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Boxes are padded by a millionth of the frame, and during a walk also by a millionth of the
-// coordinates of the ray's origin.
+// Coordinates of triangles are at most 1. Boxes are padded by 1e-6, and during a walk also by 1e-6
+// times 1 + |origin| on each axis.
 #include "certainty/real_tree.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static void include(RealNode *node, const float point[3])
     }
 }
 
-// Computes the node's box and splits the triangles in half. Children take the next two free nodes.
+// Computes a node's box, and halves more than LEAF_MOST triangles. Children take two free nodes.
 static void divide(RealTree *tree, uint32_t number, const FlatScene *flat)
 {
     RealNode *node = &tree->nodes[number];

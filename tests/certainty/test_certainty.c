@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests --aov certainty: certified and repaired pixels have real arithmetic's decisions, most
-// pixels are certified, and only repaired pixels change. Tier 0 compares some pixels of small
-// pictures, and tier 1 compares all pixels, more than ten million.
+// pixels of ordinary scenes are certified, and only repaired pixels change. Tier 0 compares some
+// pixels of small pictures, and tier 1 all certified and repaired pixels, more than ten million.
 #include "base/processors.h"
 #include "base/thread_pool.h"
 #include "certainty/certified.h"

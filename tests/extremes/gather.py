@@ -24,7 +24,7 @@ Made by `tests/extremes/gather.py` on {date}, on an {machine}.
 tests/extremes/README.md describes the tests and the lines of cases. `rays` counts the rays, pixels,
 boxes or files of a test in one form of the kernels. The columns packet, wide and pair contain the
 failures of the three forms. The columns of Embree contain the failures of Embree 3.13.5 on the same
-rays and triangles, in its default and robust modes. An empty cell means that the case was not run. A
+rays and triangles, in its default and robust modes. An empty cell means that no case was run. A
 test holds if no case has more failures than its limit.
 
 | test | what | | cases | rays | packet | wide | pair | Embree default | Embree robust |
@@ -60,7 +60,7 @@ def figures(line):
 
 
 def row(test, title, cases):
-    """Returns a line of the table. cases are pairs of a form and a line."""
+    """Returns a row of the table. cases are pairs of a form and a line that a test printed."""
     def total(form, field):
         found = [figures(line).get(field) for its, line in cases if its == form]
         return sum(filter(None, found)) if any(value is not None for value in found) else None
@@ -86,7 +86,7 @@ def main():
         output, code = run_tier(options.build, tier)
         known = set(cases) if tier == 0 else set()
         for case, test, form, counts in CASE.findall(output):
-            if test not in known:  # tier 2 repeats cases of tier 1
+            if test not in known:  # setdefault: tiers 1 and 2 share cases
                 cases.setdefault(test, {}).setdefault(case, (form, case + counts))
         status = status or code
     with open(options.output or os.path.join(options.build, "extremes.md"), "w", encoding="utf-8") as out:

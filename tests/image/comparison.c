@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls the oracle only for differing pixels, which are few. An explanation costs 25 samples.
+// Calls the oracle only for differing pixels, which are few. An explanation costs up to 26 samples.
 #include "image/comparison.h"
 
 #include "unit/cmocka_all.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the course's scenes, which are not part of clrt. Their folder is in the environment
-// variable CLRT_COURSE. The default is a folder beside the sources.
+// Finds the course's scenes, which are not part of clrt. The environment variable CLRT_COURSE names
+// the course's folder. The default is a folder beside the sources.
 #pragma once
 
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests the error and the cost of adaptive anti-aliasing, and that every device draws the same
-// picture.
+// Tests the error and the cost of adaptive anti-aliasing, and that every form of the kernels draws
+// the same picture.
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
 
@@ -38,8 +38,8 @@ TEST(every_form_threads_and_tree_refine_the_same)
 
 #define SIDE 240
 
-// The requirement for a contrast: at most the error of side x side samples per pixel, and at most
-// 1 / times of these samples.
+// The requirement for a contrast: at most 1.1 times the error of side x side samples per pixel, and
+// at most 1 / times of these samples.
 typedef struct {
     float contrast;
     uint32_t side, times;
@@ -87,7 +87,7 @@ TEST(a_picture_of_one_color_takes_a_sample_a_pixel)
 
 #define SPHERES 60 // spheres along a side of the wall
 
-// Bright spheres on black. Neighbors are three pixels apart.
+// Bright spheres on black. Neighbors are about three pixels apart.
 TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
 {
     static const double radii[] = {0.4, 0.2, 0.1, 0.05, 0.02, 0.01};

@@ -34,7 +34,8 @@ static int order_of(int pair, bool second)
     return second ? pair % ORDERS : pair / ORDERS;
 }
 
-// Writes a triangle for each pair, in the cells of a grid. All fronts face up.
+// Writes a triangle for each pair, in the cells of a grid. Fronts face up unless the order
+// is_reversed.
 static void write_pairs(char path[TEMPORARY_PATH], bool second)
 {
     static const double corners[3][2] = {{-0.4, -0.4}, {0.4, -0.35}, {-0.1, 0.4}};

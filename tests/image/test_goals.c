@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests pictures with error goals. Every form of the kernels must draw the same picture. Also tests
-// the smallest and largest goals. tests/goals measures whether clrt meets the goals.
+// the largest goal and a picture of one color. tests/goals measures whether clrt meets the goals.
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
 
@@ -28,8 +28,8 @@ TEST(every_form_threads_and_tree_refine_the_same)
     }
 }
 
-// clrt refines 24 random pixels of each of the first twelve strata, or all pixels of smaller
-// strata, to check that centers are representative.
+// clrt refines at least 24 random pixels of each stratum of unrefined pixels (ladder_strata.h), or
+// all pixels of a smaller stratum, to check that centers are representative.
 TEST(with_a_goal_of_any_error_only_controls_are_refined)
 {
     uint64_t samples;

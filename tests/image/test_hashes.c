@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures have the recorded pixel hashes, on every device, PoCL target and compiler setting.
+// Pictures must have the recorded hashes on every device, PoCL target and compiler setting.
 // Usage: test_hashes SIZE [VIEWS] checks the recorded pictures of size SIZE and of views up to
 // VIEWS. `test_hashes refined` checks refined pictures, with two settings each of --aa-adaptive and
 // --error. With `list` before these words, the test prints the records with the rendered hashes.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene gives the same bits regardless of the kernels' form, tree, tiles, work-groups and
-// program.
+// In one precision, a scene must give the same bits regardless of the kernels' form, the tree, the
+// tiles, the work-groups and the program.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compares the renderer with the fp64 oracle, in all views of the course's scenes and of unusual
-// scenes. A few pixels may differ if the oracle finds an edge within one pixel of them. Every
-// STEP-th pixel of every STEP-th row is compared; CLRT_FULL=1 in the environment compares all.
+// scenes. A few pixels may differ if the oracle explains why (oracle_explains). Only every step-th
+// pixel of every step-th row is compared; CLRT_FULL=1 in the environment compares all.
 #include "image/comparison.h"
 #include "image/course.h"
 #include "image/rendered.h"

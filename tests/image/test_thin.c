@@ -83,7 +83,7 @@ static Corner middle_of(int column, int row)
 }
 
 // Adds triangles at distances of about three pixels. Half are slivers, whose incircle's diameter is
-// a third of their radius. Returns the total area.
+// about a third of their circumcircle's radius. Returns the total area.
 static double add_grid(Drawing *drawing)
 {
     static const double radii[] = {0.6, 0.4, 0.2, 0.1, 0.07, 0.05};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes with features that no scene of the course has: open two-sided meshes, facets and mirrors,
-// a huge sphere far away, and distant lights.
+// Scenes with features that no scene of the course has: open two-sided meshes, a mirror seen from
+// inside, a huge sphere far away, and distant lights.
 #pragma once
 
 #define UNUSUAL(name) CLRT_SOURCE_FOLDER "/tests/image/" name ".scn"

@@ -9,7 +9,7 @@ typedef struct {
     Program program;
 } Probe;
 
-// An input array of a kernel. Inputs have the order of the kernel's arguments.
+// An input or output array of a kernel. Inputs have the order of the kernel's arguments.
 typedef struct {
     const void *data;
     size_t size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares device functions with host arithmetic of twice the precision.
+// Compares device functions with host arithmetic of higher precision.
 #include "base/vec.h"
 #include "kernel/probe.h"
 #include "scene/scene.h"

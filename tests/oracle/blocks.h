@@ -45,5 +45,5 @@ void blocks_free(OracleBlocks *blocks);
 // Replaces hit by the nearest triangle before it, or by the lowest id at the same distance.
 void blocks_meet(const OracleBlocks *blocks, const OracleRay *ray, OracleHit *hit);
 
-// Returns whether the ray hits any triangle.
+// Returns whether the ray hits any triangle other than its own.
 bool blocks_block(const OracleBlocks *blocks, const OracleRay *ray);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces and shades by the rules of the course and of clrt. A light shines on a point if the
-// interpolated normal faces the light and the surface itself does not occlude it. A ray never hits
-// the triangle that it leaves, and hits a sphere that it leaves only at the far wall. A reflected
-// ray that would enter the surface is mirrored out of the surface.
+// interpolated normal faces the light, and neither the surface itself nor another one occludes the
+// light. A ray never hits the triangle that it leaves, and hits a sphere that it leaves only at the
+// far wall. A reflected ray that would enter the surface is mirrored out of the surface.
 #include "oracle/oracle.h"
 
 // A light grazes a true surface if the sine of its height is below this limit. A float tracer moves

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A second ray tracer as a reference. It traces a Scene on the host in fp64, in the file's
+// A second ray tracer as a reference. It traces a Scene on the host in fp64, in the scene's
 // coordinates, by recursion and without a tree. It shares no method with the kernels. Besides a
 // color, it returns the decisions behind the color. The decisions distinguish errors from samples
 // on the other side of an edge.
@@ -34,7 +34,7 @@ OracleView oracle_view(const Oracle *oracle, const Viewpoint *viewpoint, uint32_
 // its side, and the lights that reach the point.
 typedef struct {
     uint64_t signature; // a hash of all decisions
-    bool grazes;        // a light is so low that rounding decides whether it shines
+    bool grazes;        // a light is so low that rounding may decide whether it shines
 } OracleDecisions;
 
 typedef struct {

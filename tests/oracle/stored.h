@@ -7,7 +7,7 @@
 #include "oracle/oracle.h"
 #include "scene/normalize.h"
 
-// Rounds all numbers of the scene except the cameras.
+// Moves and rounds the scene, except cameras, and materials, which are floats already.
 bool stored_round(Scene *scene, const Normalization *normalization, Error *error);
 
 // Returns the oracle's view of a picture. The camera must be made for the picture's size, with one

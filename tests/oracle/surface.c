@@ -17,7 +17,7 @@ static void sphere_surface(OracleSurface *surface, const Scene *scene)
     surface->face = vec3_scale(surface->normal, surface->front ? 1 : -1);
 }
 
-// Returns the weight of a corner: the area of the triangle of the point and the opposite edge.
+// Returns the weight of a corner: twice the area between the point and the opposite edge.
 static double weight_of_corner(Vec3 point, Vec3 b, Vec3 c, Vec3 normal)
 {
     const Vec3 area = vec3_cross(vec3_sub(b, point), vec3_sub(c, point));

@@ -7,8 +7,8 @@
 
 static const char *const aim_names[AIM_KINDS] = {"random", "edges", "vertices", "vertices_exactly"};
 
-// A set of aims is a bit mask. AIMS selects random rays, rays at edges, and rays at rounded
-// vertices.
+// A set of aims is a bit mask. AIMS selects random rays, rays at edges, and rays at vertices with
+// rounded directions.
 #define AIM(aim) (1u << (aim))
 #define AIMS     (AIM(AIM_RANDOM) | AIM(AIM_EDGES) | AIM(AIM_VERTICES))
 

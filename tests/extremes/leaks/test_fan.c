@@ -15,7 +15,7 @@ static Vec3 point_above(Random *random)
     return point;
 }
 
-// At z = 1 the shear is exact. Half of the rays start there, and hit the apex and all triangles.
+// At z = 1 the shear is exact. Half of the rays or more start there, and hit all triangles at once.
 static void aim_at_apex(Rays rays, Random *random)
 {
     Vec3 origin = {0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays through the common edges of open shapes must hit the shape well inside its outline.
+// Rays must hit open shapes at their common edges and at other points well inside the outline.
 #include "support/rig.h"
 #include "support/shapes.h"
 

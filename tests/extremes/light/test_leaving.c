@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ray that leaves a convex surface outward hits nothing again, at any size, place and angle. It
-// misses its own triangle or sphere, a twin in the same place, and all neighbors.
+// A ray that leaves a convex surface outward must hit nothing again: neither its own triangle or
+// sphere, nor a twin in the same place, nor a neighbor. Sizes, places and angles vary.
 #include "support/outcome.h"
 #include "support/rays.h"
 #include "support/shapes.h"

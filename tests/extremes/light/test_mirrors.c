@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No ray leaves a closed mirror in many reflections.
+// No ray may leave a closed mirror in many reflections, except for one ray in a mirror with ridges.
 #include "support/picture.h"
 #include "support/random.h"
 #include "support/shapes.h"

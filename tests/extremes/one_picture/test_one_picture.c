@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene's size and place, the device's denormals, the order of tiles and of triangles, and the
-// tree do not change a bit of the picture. image/test_identity.c varies the kernels and their work.
+// tree must not change a bit of the picture. image/test_identity.c varies kernels and their work.
 #include "support/random.h"
 #include "support/shapes.h"
 #include "support/varied_scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces rays along the axes and in the planes of faces. Every step is exact in float, so each ray
-// has one right answer, to the bit.
+// Traces rays along the axes and in the planes of triangles. Except in random planes, every step is
+// exact in float, so the right answers are known to the bit.
 #include "support/rig.h"
 #include "support/shapes.h"
 
@@ -65,7 +65,7 @@ static bool face_holds(const AxisRay *ray, const Triangles *triangles, size_t tr
     return positive || negative;
 }
 
-// The hit must be the lowest triangle that contains the point. All of them are at one distance.
+// All triangles that contain the point are at one distance. The lowest id must be the hit.
 static bool judge_axis_ray(void *context, const Traced *traced)
 {
     const Triangles *triangles = context;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh of size 1 between a triangle a million times as large and one a million times smaller.
+// A mesh between a triangle about a million times as large and one about a million times smaller.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"

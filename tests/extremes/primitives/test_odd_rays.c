@@ -8,7 +8,7 @@
 #include <string.h>
 #include <time.h>
 
-// Components of directions: zeros, denormals, the smallest normal numbers and small ones.
+// Components of directions: zeros, small and large denormals, small and usual numbers.
 static const float components[] = {0.0f,   -0.0f,   1e-45f, -1e-45f, 1e-38f, -1e-38f,
                                    1e-20f, -1e-20f, 0.25f,  -0.25f,  1.0f,   -1.0f};
 
@@ -25,9 +25,8 @@ static TestRay special_ray(size_t number, const Room *room, Random *random)
     return ray;
 }
 
-// Every direction leads from inside a closed shape to the shape. Directions of camera and reflected
-// rays have a length near 1. Shadow rays are at least as long as their origin's distance from the
-// surface. The test skips much shorter directions, whose reciprocals can overflow.
+// Every direction leads from inside a closed shape to the shape. The test skips directions shorter
+// than 1e-20. Reciprocals of their components can overflow, and pictures hardly ever need them.
 EXTREME(directions_of_special_values_leave_no_closed_shape_t21)
 {
     Random random = {21};
@@ -84,7 +83,7 @@ static TestHit *trace_timed(RayBatch *batch, Rays rays, double *seconds)
     return hits;
 }
 
-// Embree's rule: spoiled rays take at most 2.5 times as long as sound rays.
+// Embree's rule: spoiled rays must take at most 2.5 times as long as sound rays.
 #define SLOWEST 2.5
 
 static void judge_spoiled(RayBatch *batch, Rays rays, float value)
@@ -123,8 +122,8 @@ EXTREME(rays_without_direction_or_with_nan_hit_nothing_and_end_t23)
         judge_spoiled(*state, rays, values[i]);
 }
 
-// The hit must be exact, and its distance must not be NaN. clrt does not follow rays from beyond
-// 2^46, so these may hit nothing.
+// The hit must be exact, and its distance above 0, which excludes NaN. clrt does not follow rays
+// from beyond 2^46, so these may hit nothing.
 static bool judge_far(void *triangles, const Traced *traced)
 {
     const float *origin = traced->ray->origin;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangles a thousand to ten million times as long as they are high. Distances stay exact to a few
-// units in the last place, and hits are right except for rays at the outline.
+// Triangles a thousand to ten million times as long as they are high. 99 % of the distances must be
+// exact to ULPS_LIMIT units in the last place, and hits must be right except at the outline.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares hits of spheres that are far away, huge, tiny, around the eye, or touched by rays with
-// quadruple precision. The spheres are in normalized coordinates.
+// Compares hits with results in quadruple precision. The spheres are far away, huge, tiny, around
+// the eye, or touched by rays, in normalized coordinates.
 #include "support/outcome.h"
 #include "support/rays.h"
 #include "support/shapes.h"
@@ -183,7 +183,7 @@ static const int triples[][3] = {{3, 4, 5},    {5, 12, 13},  {8, 15, 17},     {7
 #define TANGENTS 64 // rays of a triple
 
 // Returns a ray along the tangent at (a, b), moved outward by apart * 2^-20 radii. If apart is 0,
-// the ray is level and touches the sphere.
+// the ray is level and touches the sphere. Other rays may slope.
 static TestRay tangent(const int *triple, int apart, Random *random)
 {
     const double a = triple[0], b = triple[1], outward = 1 + apart * 0x1p-20;

@@ -29,7 +29,7 @@ static Axes axes_of(const TestRay *ray)
 
 typedef struct {
     long double x[3], y[3], z[3];
-    long double reach; // the largest distance along an axis
+    long double reach; // the largest distance of a corner from the origin along an axis
 } Sheared;
 
 static Sheared sheared(const Triangles *triangles, size_t triangle, const TestRay *ray,
@@ -73,7 +73,7 @@ static long double outline_distance(const Sheared *s)
 // The result of one triangle for the ray.
 typedef struct {
     bool met, doubtful;
-    long double t, error; // distance along the ray and its error
+    long double t, error; // distance along the ray (its minimum for a doubtful miss) and its error
 } Answer;
 
 static Answer answer_of(const Sheared *s, long double dz)
@@ -91,7 +91,7 @@ static Answer answer_of(const Sheared *s, long double dz)
     return answer;
 }
 
-// Returns whether all corners are on one side of the ray, as for most triangles.
+// Returns whether all corners are clearly on one side of the ray on an axis, as for most triangles.
 static bool passes(const Sheared *s)
 {
     const long double margin = DOUBT * s->reach;
@@ -105,8 +105,8 @@ static bool passes(const Sheared *s)
 typedef struct {
     Verdict best;
     long double error;  // of the best hit's t
-    long double doubt;  // least t of a triangle whose outline is too near to decide
-    long double second; // least t of the other hits
+    long double doubt;  // least t - error of triangles with an outline too near; 0 if a t may be 0
+    long double second; // least t - error of the other hits
 } Search;
 
 static void take(Search *search, uint32_t id, const Answer *answer)

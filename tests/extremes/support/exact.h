@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds a ray's hit by testing every triangle, in 64 bits of precision. The hit is clear unless the
-// ray passes an outline so closely that rounding the corners to float decides.
+// Finds a ray's hit by testing every triangle, in 64 bits of precision. The hit is clear unless
+// float rounding may decide: at an outline, between two near hits, or at the ray's origin.
 #pragma once
 
 #include "ray_batch.h"
@@ -18,7 +18,7 @@ Verdict exact_nearest(const Triangles *triangles, const TestRay *ray);
 // A ray and a single triangle.
 typedef struct {
     bool met;
-    double t;        // of the triangle's plane
+    double t;        // of the triangle's plane, if met
     double distance; // from the ray to the outline, in the sheared plane
     double size;     // the largest distance between the origin and a corner along an axis
 } ExactMeeting;

@@ -8,7 +8,7 @@
 #ifdef WITH_EMBREE
 #include <embree3/rtcore.h>
 
-// Returns the scene coordinates of a normalized point.
+// Stores the scene coordinates of a normalized point, rounded to float.
 static void fill_point(float place[3], const float point[3], const Normalization *normalization)
 {
     shape_store(place, denormalize_point(normalization, vec3_of_floats(point)));

@@ -51,8 +51,8 @@ size_t picture_pixels(const Framebuffer *picture);
 // Returns how many pixels of `other` differ in any bit from `usual`. Frees `other`.
 Outcome picture_compare(const char *test, const Framebuffer *usual, Framebuffer other);
 
-// Returns how many pixels differ from the oracle's picture for no visible reason, plus the
-// picture's faults. Frees the scene.
+// Returns how many pixels differ from the oracle's picture without an explanation by the oracle,
+// plus the picture's faults. Frees the scene.
 Outcome picture_judge(const char *test, const Studio *studio, Scene scene,
                       const PictureSettings *settings);
 

@@ -21,7 +21,7 @@ static inline Vec3 random_direction(Random *random)
     return vec3_normalize(random_in_cube(random, 1));
 }
 
-// Rotates the axes at random, by a quaternion (Shoemake, "Uniform random rotations", 1992).
+// Stores randomly rotated axes, from a quaternion (Shoemake, "Uniform random rotations", 1992).
 static inline void random_rotation(Random *random, Vec3 axes[3])
 {
     double q[4], squared;

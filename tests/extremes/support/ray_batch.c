@@ -12,7 +12,7 @@
 
 #define BATCH_RAYS 65536
 
-// Lanes of kernels with the default lane count.
+// Lanes of kernels with wide nodes, if form_choice leaves the number to the device.
 #define BATCH_LANES 16
 
 static const char *const kernel_names[BATCH_TASKS] = {"batch_nearest", "batch_blocked",

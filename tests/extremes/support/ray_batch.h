@@ -30,7 +30,7 @@ typedef struct {
 
 typedef enum {
     BATCH_NEAREST, // nearest_hit
-    BATCH_BLOCKED, // blocking_hit: id is 1 if blocked, else 0
+    BATCH_BLOCKED, // blocking_hit: t is 0; id is 1 if blocked, else 0
     BATCH_LEAVE,   // ray_batch_leave
     BATCH_TASKS
 } BatchTask;
@@ -55,7 +55,7 @@ typedef struct {
     cl_mem rays, hits, outward;
     cl_mem arrays[BATCH_ARRAYS];
     FrameData frame;
-    KernelChoice choice; // form_choice, with a number of lanes
+    KernelChoice choice; // form_choice; with wide nodes, lanes is not 0
 } RayBatch;
 
 // Opens the device that CLRT_DEVICE names, or the best one. kernel_folder NULL means the folder in
@@ -67,14 +67,14 @@ void ray_batch_close(RayBatch *batch);
 int ray_batch_setup(void **state);
 int ray_batch_teardown(void **state);
 
-// Replaces the scene by a copy of flat, which has the layout of form_choice.
+// Replaces the scene by a copy of flat, which must have the layout of form_choice.
 void ray_batch_upload(RayBatch *batch, const FlatScene *flat);
 
 // Replaces the scene by one sphere.
 void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 
-// Returns a hit for each ray, which the caller frees. task is BATCH_NEAREST or BATCH_BLOCKED. Rays
-// from one origin form packets, as do reflected rays.
+// Returns the rays' hits, which the caller frees. task is BATCH_NEAREST or BATCH_BLOCKED. Rays are
+// sorted by kind, signs of the direction, and origin. Successive rays form packets.
 TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
 
 // The id of a ray of ray_batch_leave that hits nothing although the shadow ray along it is blocked.

@@ -9,8 +9,8 @@
 Rays rays_make(size_t count);
 void rays_free(const Rays *rays);
 
-// The rays of a packet start at one point. Returns whether ray i starts a new packet of `bundle`
-// rays; always true unless the kernels trace packets.
+// Packets are tested with rays that share an origin. Returns whether ray i is the first of `bundle`
+// such rays; always true unless the kernels trace packets.
 bool rays_move_origin(size_t i, size_t bundle);
 
 // Enough rays from one point to fill packets of all directions.

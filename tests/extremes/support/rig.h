@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene on the device and, if it is installed, in Embree. A judge examines the hits of rays.
+// A scene on the device and perhaps in Embree (peers.h). A judge examines the hits of rays.
 #pragma once
 
 #include "peers.h"
@@ -12,7 +12,7 @@ typedef struct {
     Peers peers;
 } Rig;
 
-// Builds the scene's tree, uploads it to the batch and frees the scene.
+// Builds the scene's tree, uploads both to the batch and frees the scene.
 Rig rig_open(const char *test, RayBatch *batch, Scene scene);
 Rig rig_open_with(const char *test, RayBatch *batch, Scene scene, TreeKind tree);
 void rig_close(Rig *rig);
@@ -31,7 +31,7 @@ typedef bool Judge(void *context, const Traced *traced);
 // Returns how many rays each tracer gets wrong.
 Outcome rig_judge(const Rig *rig, Rays rays, Judge *is_wrong, void *context);
 
-// A judge for closed shapes: a ray is wrong if it hits nothing, or has no finite distance.
+// A judge for rays that must hit: a ray is wrong if it hits nothing, or at no finite distance.
 bool judge_misses(void *unused, const Traced *traced);
 
 // A judge whose context is the stage's Triangles. A hit is wrong if exact_nearest is clear and
