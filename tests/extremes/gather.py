@@ -33,8 +33,9 @@ test holds if no case has more failures than its limit.
 
 
 def titles():
-    """Returns the title of each test, from the table in README.md."""
+    """Returns the title of each test, from the first table of tests in README.md."""
     readme = (pathlib.Path(__file__).parent / "README.md").read_text(encoding="utf-8")
+    readme = readme.partition("Other tests contain the missing numbers")[0]
     rows = re.findall(r"^\| (\d+) \| ([^|]+) \| [^|]+ \|$", readme, re.MULTILINE)
     return {f"T-{int(number):02}": title.strip() for number, title in rows}
 
