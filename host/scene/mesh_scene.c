@@ -199,11 +199,26 @@ static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
     return add_studio(scene, error);
 }
 
-// Returns the up axis of the file's format, or UP_AUTO if the format has none. 3MF and AMF define z
-// as up, and glTF defines y. Modeling programs write OBJ with y up, and Assimp turns several other
-// formats to y up. The rest counts as y up.
+// A Collada file names its axis, because clrt-foreign keeps Assimp from turning such files.
+static UpAxis up_axis_of_collada(const char *path)
+{
+    File file;
+    Error error = {0};
+    if (!file_read(&file, path, &error))
+        return UP_Y;
+    const bool is_z = memmem(file.bytes, file.size, "Z_UP", 4) != NULL;
+    const bool is_x = memmem(file.bytes, file.size, "X_UP", 4) != NULL;
+    file_free(&file);
+    return is_z ? UP_Z : is_x ? UP_X : UP_Y;
+}
+
+// Returns the up axis of the file or of its format, or UP_AUTO if the format has none. 3MF and AMF
+// define z as up, and glTF defines y. Modeling programs write OBJ with y up, and Assimp turns
+// several other formats to y up. The rest counts as y up.
 static UpAxis up_axis_of_format(const char *path)
 {
+    if (file_has_ending(path, ".dae"))
+        return up_axis_of_collada(path);
     if (file_has_ending(path, ".stl") || file_has_ending(path, ".off"))
         return UP_AUTO;
     return file_has_ending(path, ".3mf") || file_has_ending(path, ".amf") ? UP_Z : UP_Y;

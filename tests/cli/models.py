@@ -70,6 +70,26 @@ def ply(points, triangles, normals=None):
     return header.encode() + body + b"".join(struct.pack("<B3i", 3, *t) for t in triangles)
 
 
+def collada(points, triangles, up):
+    """Returns a Collada file whose axis `up`, a letter, points up."""
+    numbers = " ".join(repr(value) for point in points for value in point)
+    corners = " ".join(str(corner) for triangle in triangles for corner in triangle)
+    accessor = "".join(f'<param name="{name}" type="float"/>' for name in "XYZ")
+    return f"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>{up.upper()}_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="f" count="{3 * len(points)}">{numbers}</float_array><technique_common>
+<accessor source="#f" count="{len(points)}" stride="3">{accessor}</accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="{len(triangles)}"><input semantic="VERTEX" source="#v" offset="0"/><p>{corners}</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>
+"""
+
+
 def obj(points, triangles, head="", groups=None):
     """Returns an OBJ file. groups contains pairs (line, number of the first triangle after this
     line)."""

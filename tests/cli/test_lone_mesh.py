@@ -101,6 +101,13 @@ class Upright(Random):
         self.assertEqual(self.mesh_of("b.ply"), upright, self.seed)
         self.assertEqual(self.mesh_of("a.ply", "--up", "z"), self.bytes_of("a.ply"))
 
+    @unittest.skipUnless(ASSIMP, "this build is without Assimp")
+    def test_collada_files_name_their_axis(self):
+        points = self.points()
+        for up in "x", "y", "z":
+            self.write(a_dae=models.collada(points, TRIANGLES, up), b_ply=models.ply(points, TRIANGLES))
+            self.assertEqual(self.picture("a.dae"), self.picture("b.ply", "--up", up), (up, self.seed))
+
     def test_parts_of_another_axis_do_not_merge(self):
         self.write(a_ply=models.ply(KNOT, TRIANGLES))
         words = "-s", "32x32", "--tile", "16x16", "-q"
