@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// export_model MODEL FORMAT FILE: writes a model in a format with Assimp. FORMAT is Assimp's name
-// of the format. Without arguments, export_model prints the file endings that Assimp reads.
+// export_model MODEL FORMAT FILE: uses Assimp to convert MODEL to FILE. FORMAT is Assimp's name of
+// FILE's format. Without arguments, export_model prints the file endings that Assimp reads.
 #include <assimp/cexport.h>
 #include <assimp/cimport.h>
 #include <assimp/importerdesc.h>

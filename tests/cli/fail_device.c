@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // If preloaded, makes the device fail as if it ran out of memory or were lost. CLRT_FAIL_NAME names
-// a function of OpenCL. Its calls fail from number CLRT_FAIL_CALL on, counted from 1.
+// an OpenCL function of this file. Its calls fail from number CLRT_FAIL_CALL on, counted from 1.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <stdatomic.h>

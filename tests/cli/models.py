@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Writes one mesh in several formats, from Python's numbers. Each format's function returns the
-# bytes of a file.
+# Encodes meshes of Python numbers in several formats. Each format's function returns the bytes of a
+# file.
 import io
 import json
 import math
@@ -14,8 +14,8 @@ def rounded(value):
 
 
 def knot(rings=24, sides=10):
-    """Returns points and triangles of a closed tube around a trefoil. The coordinates have
-    no short decimals."""
+    """Returns points and triangles of a closed tube around a trefoil. Most coordinates have no
+    short decimals."""
     points, triangles = [], []
     for ring in range(rings):
         turn = 2 * math.pi * ring / rings
@@ -91,7 +91,7 @@ def collada(points, triangles, up):
 
 
 def obj(points, triangles, head="", groups=None):
-    """Returns an OBJ file. groups contains pairs (line, number of the first triangle after this
+    """Returns an OBJ file. groups contains pairs (line, index of the first triangle after this
     line)."""
     lines = [head] + [f"v {x!r} {y!r} {z!r}" for x, y, z in points]
     starts = {first: line for line, first in groups or []}
@@ -152,7 +152,7 @@ def glb(points, triangles, normals=None, node=None, change=None):
     return head + text + struct.pack("<I4s", len(body), b"BIN\0") + body
 
 
-# %d is the last corner's vertex number.
+# %d is the vertex index of the last corner.
 THREE_MF_TRIANGLE = """<model unit="millimeter"><resources><object id="1" type="model"><mesh>
 <vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>
 </vertices><triangles><triangle v1="0" v2="1" v3="%d"/></triangles></mesh></object></resources>

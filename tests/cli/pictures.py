@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Readers of PNG, PFM and OpenEXR files that share no code with clrt or with the libraries it uses.
-# Rows come top first, each a flat list of red, green and blue.
+# Readers of PNG, PFM and OpenEXR files that share no code with clrt, libpng or OpenEXR. Rows come
+# top first. In PNG and PFM, a row is a flat list of red, green and blue.
 import struct
 import zlib
 

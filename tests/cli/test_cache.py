@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests damage to the kernel cache: clrt draws the picture, or exits with status 4 and one message. The
-# next run then draws the picture.
+# Tests damaged, missing and full kernel caches: clrt draws the picture. Only if no folder has room,
+# it exits with status 4 and one message.
 # Usage: test_cache.py CLRT SHARED_DISK [TEST...]; SHARED_DISK is the library of tests/cli/shared_disk.c
 import os
 import random

@@ -18,7 +18,7 @@ MESHES = {"closed": (CORNERS, CLOSED), "open": (CORNERS, CLOSED[:3]), "turned": 
           "inside": (CORNERS, [(a, c, b) for a, b, c in CLOSED])}
 KNOT, TUBE = knot()  # a closed tube that hides some of its own parts
 A, B, C = TUBE[200]
-# The middle of the edge AC, moved into triangle ABC by a fiftieth of the triangle's height.
+# The middle of the edge AB, moved into triangle ABC by a fiftieth of the triangle's height.
 CRACK = tuple(0.49 * a + 0.49 * b + 0.02 * c for a, b, c in zip(KNOT[A], KNOT[B], KNOT[C]))
 MESHES |= {"knot": (KNOT, TUBE), "gap": (KNOT, TUBE[:-1]),
            "crack": ([*KNOT, CRACK], [*TUBE[:200], (A, len(KNOT), C), (len(KNOT), B, C), *TUBE[201:]]),

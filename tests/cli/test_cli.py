@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests the command line: usage, devices, pictures that no option changes, samples, statistics, compiled kernels.
+# Tests the command line: usage, devices, options that change no bit, samples, statistics, kernels.
 # Usage: test_cli.py CLRT FORMATS WINDOW NO_FP64; WINDOW is ON for a build with a window
 import os
 import subprocess

@@ -80,8 +80,7 @@ class Rows(SharedWork):
 
     def test_the_map_shows_the_difference(self):
         self.clrt(*BOTH, "-o", "map.png")
-        # The map's brightness is the square root of the difference. Differences above 64/255 are
-        # white.
+        # The map's brightness is sqrt(difference / (64/255)), at most 1.
         self.clrt("compare", "map.png", "brightness.pfm", "--fail", "max=0.002")
         self.clrt(*BOTH, "-o", "map.pfm", "-q")
         self.assert_same_bytes("map.pfm", "expected.pfm")
@@ -112,7 +111,7 @@ class Rows(SharedWork):
 
 
 class Formats(SharedWork):
-    """clrt recognizes each format that it writes by the file's first bytes."""
+    """The first bytes of a file identify each format that clrt writes."""
 
     def prepare(self):
         picture = [EVERY_FEATURE, "-s", "64x48", "-q"]
@@ -157,7 +156,7 @@ class Causes(SharedWork):
                       "-o", f"{name}.exr", *words)
 
     def causes(self, name):
-        """Returns the report and the causes, whose squares sum to the whole."""
+        """Returns the report and the causes. Their mean squares must sum to RMSE squared."""
         found = self.report("compare", "plain.exr", f"{name}.exr", "--json")
         whole = found["rmse"] ** 2
         total = sum(cause["mean_square"] for cause in found["causes"].values())

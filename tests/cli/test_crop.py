@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests that a crop has the same bits as that part of the whole picture, for all kinds of rendering.
+# Tests that a crop has the bits of that part of the whole picture, and which options allow no crop.
 # Usage: test_crop.py CLRT FORMATS
 import struct
 

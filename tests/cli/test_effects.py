@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Tests that every option of --help has a visible effect on the exit status, streams, picture or
-# statistics. The test fails for options without a trial. Usage: test_effects.py CLRT
+# statistics. Other tests try the window's options. Usage: test_effects.py CLRT
 import functools
 import hashlib
 import json

@@ -45,8 +45,8 @@ BY_HAND = [
                                   normal=[0, -1, 0])}], {"color": [0.28] * 3}),
     # The direction (-0.8, 1, 0.8) misses the sphere.
     (BALL, "0,0", [{"hit": None, "direction": [-0.529813, 0.662266, 0.529813]}], {"color": [0, 0, 1]}),
-    # Between the point and the light 4 above it is a ball, whose lowest point is 0.5 away. The eye is
-    # sqrt(16 + 0.16) away.
+    # A ball is between the point and the light, which is 4 above the point. The ball's lowest point
+    # is 0.5 away, and the eye is sqrt(16 + 0.16) away.
     (LAMP + "camera 1e-3 -4 0.4 1e-3 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4, 1, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.5), normal=[0, 0, 1])}], {"color": [0.08] * 3}),
@@ -64,8 +64,8 @@ BY_HAND = [
     # with weights 1/2, 1/4 and 1/8, and the background 1/8 of blue.
     (MIRRORS, "2,2", [mirror_ball(0, 1, 2), {**mirror_ball(1, 2, 4), "direction": [0, -1, 0]},
                       mirror_ball(2, 1, 4)], {"color": [0.396859, 0.396859, 0.521859]}),
-    # The line x = 0 is 0.999 from the ball's center. Half its chord is sqrt(1 - 0.999^2), so the ray from
-    # y = -5 hits after 4.955290. The light is 4 to the left at the height of the hit.
+    # The line x = 0 is 0.999 from the ball's center. Half the chord is sqrt(1 - 0.999^2), so the
+    # ray from y = -5 hits after 4.955290. The light is 4 to the left of the hit.
     ("light -4 -0.0447102 0 1\nmaterial plain\nsphere 0.999 0 0 1\ncamera 0 -5 0 0 0 0 90\n", "2,2",
      [{"hit": sphere(1, 4.955290, light("reaches", 4, 0.999), normal=[-0.999, -0.0447102, 0])}], {}),
     # The ray runs from 0.001 above the floor to a point 4 away.

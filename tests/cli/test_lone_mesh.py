@@ -173,8 +173,8 @@ def cameras(scene):
 
 
 def extents(camera, points, width, height):
-    """Returns the points' lowest and highest positions across and along the picture, whose edges
-    are -1 and 1."""
+    """Returns the points' lowest and highest horizontal and vertical positions. The picture's edges
+    are at -1 and 1."""
     eye, point, up, tall, wide = camera
     forward = unit([b - a for a, b in zip(eye, point)])
     right = unit(cross(forward, up))

@@ -139,7 +139,7 @@ class Terminal:
         os.write(self.file, text.encode())
 
     def read(self, until, seconds=20):
-        """Reads output until until(output) is true or the time is over. Returns the output."""
+        """Returns the output up to the moment when until(output) is true or the time is over."""
         text, end = "", time.monotonic() + seconds
         while time.monotonic() < end and not until(text):
             if select.select([self.file], [], [], 0.2)[0]:

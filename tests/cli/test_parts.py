@@ -58,7 +58,7 @@ class Parts(SharedWork):
         self.expect_whole(self.thirds[::-1])
 
     def test_compressed_tiles_are_copied(self):
-        """clrt merge decodes a part only if its tiles are smaller or larger than a whole file's."""
+        """Without --hash, EXR files get the compressed tiles of parts with the default --tile."""
         for more in ([], ["--aov", "depth,primitive,boxtests", "--aa"], ["--crop", "30,20,290,190"],
                      ["--no-metadata"]):
             words, of = [SCENE, "-s", "300x200"], 3

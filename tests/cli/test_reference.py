@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests --reference: the errors that it measures for pictures of known error, and its own error.
+# Tests --reference: the errors that it measures, and the estimate of the reference's own error.
 # Usage: test_reference.py CLRT FORMATS
 from pictures import read_exr
 from work import EVERY_FEATURE, SCENE, SharedWork, Work, main, needs_exr

@@ -19,7 +19,7 @@ from work import HAS_EXR, SCENE, Work, main, needs_exr
 
 KILLS = int(os.environ.get("CLRT_KILLS", "10"))
 NAME = "a.exr" if HAS_EXR else "a.pfm"
-# LONG has many small tiles and takes some seconds. ONE_TILE takes as long with a single tile.
+# LONG has many small tiles and takes some seconds. ONE_TILE has one tile and takes much longer.
 WIDTH, HEIGHT, TILE = 400, 300, 20
 TILES = WIDTH // TILE * HEIGHT // TILE
 LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=8", "--tile", f"{TILE}x{TILE}", "-j", "1"]

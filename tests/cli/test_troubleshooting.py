@@ -17,7 +17,7 @@ INSIDE_OUT = ply([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2), (0, 3
 
 class Messages(Work):
     def provoke(self):
-        """Returns what clrt prints on both streams for each fault, in the order of the page."""
+        """Yields the output for each fault, in the order of the page; None without a window."""
 
         def run(*words, **environment):
             done = self.run_clrt(*words, **environment)

@@ -15,7 +15,7 @@ SCENE = str(ROOT / "scenes/reflections.scn")
 EVERY_FEATURE = str(ROOT / "tests/image/every_feature.scn")
 # The formats of this build, the second argument of tests that depend on them; empty for other tests.
 FORMATS = sys.argv[2].split(", ") if len(sys.argv) > 2 and "pfm" in sys.argv[2] else []
-HAS_EXR = "jpg" in FORMATS  # OpenImageIO reads EXR files
+HAS_EXR = "jpg" in FORMATS  # only builds with OpenImageIO write JPEG and read EXR
 NO_OPENCL = {"OCL_ICD_VENDORS": "/nonexistent"}
 
 needs_exr = unittest.skipUnless(HAS_EXR, "this build is without OpenImageIO")
@@ -80,7 +80,7 @@ class Work(unittest.TestCase):
             time.sleep(0.002)
 
     def run_clrt(self, *words, before=(), content="", **environment):
-        """Runs clrt with content as its standard input. `before` holds a program that runs clrt, and its arguments.
+        """Runs clrt with content as its standard input. `before` is a command that runs clrt.
         Variables of the environment that are None are unset."""
         text = isinstance(content, str)
         environment = {**os.environ, **environment}

@@ -60,7 +60,7 @@ class Farm(unittest.TestCase):
         return self.cluster.on(CONTROLLER, ROOT / "tools" / name, *words, env={**os.environ, "CLRT": CLRT})
 
     def submit(self, *words):
-        """Returns the number of the array."""
+        """Returns the job id of the array."""
         told = self.run_tool("farm", *words)
         self.assertRegex(told, r"cancel: scancel \d+")
         return re.match(r"job (\d+)", told)[1]
@@ -140,8 +140,8 @@ class Farm(unittest.TestCase):
     def test_a_controller_that_restarts(self):
         job = self.submit_slow()
         wait_for(lambda: self.host_with_tiles(job))
-        # Slurm stores its state every few seconds. The tool cannot know jobs that are lost after
-        # the last store.
+        # Slurm stores its state every few seconds. A restart loses jobs that were submitted later,
+        # and the tool cannot detect this.
         submitted, state = time.time(), self.home / "state/job_state"
         wait_for(lambda: state.exists() and state.stat().st_mtime > submitted)
         self.cluster.unplug(CONTROLLER)

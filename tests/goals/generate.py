@@ -50,7 +50,7 @@ def add_quad(vertices, triangles, corners):
 
 
 def bumpy_ball(rng, path, triangle_count):
-    """Writes a closed, wavy ball of radius about 1. More triangles give shorter waves."""
+    """Writes a wavy ball of radius about 1. More triangles allow shorter waves."""
     rows = max(4, round(math.sqrt(triangle_count / 4)))
     columns = 2 * rows
     waves = [(p, rng.randint(1, 1 + rows // 8), rng.uniform(0, 7), rng.uniform(0.1, 0.4) / (3 + p))

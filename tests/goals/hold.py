@@ -69,8 +69,8 @@ class Clrt:
 
 
 def draw_reference(clrt, path, wanted):
-    """Draws a reference whose own error is at most `wanted`. Returns its figures. The reference has
-    as many levels as floats can show, because the error includes truncated reflections."""
+    """Draws a reference with an own error of at most `wanted`, or with the most samples. Returns
+    its figures. It has all levels that floats can show, because truncated reflections count."""
     samples = REFERENCE_SAMPLES[0]
     while True:
         _, report = clrt.draw("--max-level", "auto", f"--reference={path}",

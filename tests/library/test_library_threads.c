@@ -36,7 +36,7 @@ static void *draw_thrice(void *context)
     return NULL;
 }
 
-// Draws in all threads concurrently. Threads alternate between the two scenes.
+// Draws in all threads concurrently. Even threads draw the first scene, odd threads the second.
 static void draw_at_once(ClrtScene *scenes[2], float *expected[2])
 {
     Job jobs[JOBS];

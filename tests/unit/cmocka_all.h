@@ -30,7 +30,7 @@ int tests_run(void);
     }                                                                                              \
     static void name(__attribute__((unused)) void **state)
 
-// The bodies of SET_UP(name) and TEAR_DOWN(name) return 0, or another value to fail all tests.
+// The bodies of SET_UP(name) and TEAR_DOWN(name) return 0. Other values make the program fail.
 #define FIXTURE(name, add)                                                                         \
     static int name(void **);                                                                      \
     AT_START(name)                                                                                 \

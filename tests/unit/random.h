@@ -21,13 +21,13 @@ static inline double random_unit(uint64_t *state)
     return (double)(random_bits(state) >> 11) * 0x1p-53;
 }
 
-// Returns a number in [low, high).
+// Returns a number in [low, high]. Rounding may yield high.
 static inline double random_between(uint64_t *state, double low, double high)
 {
     return low + (high - low) * random_unit(state);
 }
 
-// Returns a number below end, which is at least 1.
+// Returns an integer in [0, end). end must be at least 1.
 static inline uint32_t random_below(uint64_t *state, uint32_t end)
 {
     return (uint32_t)(((random_bits(state) >> 32) * end) >> 32);

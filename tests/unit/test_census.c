@@ -110,7 +110,7 @@ static const struct {
     {TETRAHEDRON, "0 1 2  0 3 1  0 2 3  1 3 2", 6, .is_closed = true, .is_inside_out = true},
     // A triangle is missing.
     {TETRAHEDRON, "0 1 3  0 3 2  1 2 3", 6, .open = {3, 0}},
-    // On one side of the edge from 1 to 2, vertex 4 is in its middle.
+    // Only one triangle at the edge from 1 to 2 is split at the edge's middle, vertex 4.
     {TETRAHEDRON "  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3", 9, .open = {3, 0}},
     // A triangle is turned over.
     {TETRAHEDRON, "0 2 1  0 1 3  0 3 2  1 3 2", 6, .turned = {3, 0}},
@@ -241,7 +241,7 @@ TEST(two_equal_corners_are_reported_with_the_triangles_number_in_the_file)
 
 TEST(edges_and_heights_are_measured_in_steps_of_float)
 {
-    // Near coordinates below 1, the spacing of floats is 2^-24.
+    // Between 0.5 and 1, the spacing of floats is 2^-24.
     const MeshCensus found = mesh_census(
         "0.5 0 0  0.75 0 0  0.5 0.03125 0  0 0 0  0.875 0 0  0 0.875 0", "3 4 5  0 1 2");
     assert_true(found.features.edge.steps == 0x1p-5 * 0x1p24);

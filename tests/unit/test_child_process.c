@@ -110,7 +110,7 @@ static void sleep_long(int socket, const void *context)
     sleep(60);
 }
 
-// The pipe's writing end stays open until both processes have ended.
+// The pipe's writing end stays open until the forked process and its child have ended.
 TEST(a_child_ends_with_its_parent)
 {
     int ends[2];

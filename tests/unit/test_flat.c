@@ -148,7 +148,7 @@ TEST(a_missing_vertex_normal_becomes_the_faces)
     assert_true(of[2][0] == 2 * of[0][0]);
 }
 
-// Every scene here has one sphere, so a triangle's id is its number plus 1.
+// The scenes below have one sphere, so a triangle's id without marks is its number plus 1.
 #define NUMBER_OF(id) (((id) & ~TRIANGLE_MARKS) - 1)
 
 TEST(a_leaf_too_large_for_a_block_becomes_several)

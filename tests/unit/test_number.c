@@ -162,7 +162,7 @@ TEST(a_double_printed_with_17_digits_comes_back)
     }
 }
 
-// Expects the value of head, a million zeros, and tail.
+// Expects that head, a million zeros and tail, joined to one text, have this value.
 static void expect_around_zeros(const char *head, const char *tail, double expected)
 {
     const size_t zeros = 1000000, size = strlen(head) + zeros + strlen(tail) + 1;
@@ -277,7 +277,7 @@ TEST(multiples_of_ninety_degrees_are_exact)
     }
 }
 
-// The tolerance of 4 * 2^-53 covers two roundings of the series and one of the angle on each side.
+// The tolerance of 4 * 2^-53 covers the roundings of the angle and of the series.
 TEST(all_angles_agree_with_the_library)
 {
     for (double degrees = -400; degrees <= 400; degrees += 0.37) {

@@ -155,7 +155,7 @@ TEST(every_type_gives_coordinates_in_every_encoding)
     }
 }
 
-// Returns a triangle whose lists have these types for lengths and items.
+// Returns a file of one triangle. Its list has these types for the length and the items.
 static Builder triangle_with_types(int encoding, const char *length, const char *item)
 {
     Builder builder = builder_start(encoding);
@@ -184,8 +184,8 @@ TEST(every_integer_type_counts_and_numbers_corners)
     }
 }
 
-// Colors are between the values that the reader needs. A quad is among the triangles, which are
-// read in bulk.
+// Colors are between the values that the reader needs. A quad is among the triangles, which the
+// reader of binary files reads in bulk.
 TEST(unusual_elements_among_usual_ones_are_read_in_their_order)
 {
     static const double faces[4][4] = {{0, 1, 2}, {0, 1, 2, 3}, {3, 2, 1}, {1, 2, 3}};

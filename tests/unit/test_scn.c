@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene text -> Scene: tests every statement, and the exact message of every fault.
+// Scene text -> Scene: tests every statement, and the exact messages of common faults.
 #include "unit/parsed.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ TEST(spheres_take_the_material_before_them)
         parsed("sphere 0 0 0 1\nmaterial 2\nsphere 1 2 3 .5\nmaterial 17\nsphere 0 0 0 1\n"
                "material 2\nmaterial own\nsphere 0 0 0 1\n"
                "define own matte\nmaterial own\nsphere 0 0 0 1");
-    // Without a file, `own` is the silhouette, unless it is defined.
+    // Spheres have no file, so `own` is the silhouette, unless a definition has this name.
     static const uint32_t materials[] = {0, 2, 0, 0, 4};
     assert_int_equal(scene.spheres.count, 5);
     for (size_t i = 0; i < 5; i++)
@@ -193,7 +193,7 @@ TEST(faults_name_line_column_and_the_statement)
         expect_error(cases[i][0], cases[i][1]);
 }
 
-// Compares only the line and column of the messages.
+// Checks only that each message gives a line and a column.
 TEST(impossible_values_are_refused_at_their_place)
 {
     static const char *const texts[] = {"sphere 0 0 0 -1",

@@ -215,7 +215,7 @@ def is_blue(red, green, blue):
 
 
 def is_test(function):
-    """The arguments of a test are a screen or a window, and perhaps a temporary folder."""
+    """The arguments of a test are a screen, a window or both, and perhaps a temporary folder."""
     taken = set(inspect.signature(function).parameters)
     return taken - {"folder"} in ({"screen"}, {"window"}, {"screen", "window"})
 

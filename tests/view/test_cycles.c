@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens and closes the viewer repeatedly in one process, also without fonts. The process's memory,
-// files and threads must not grow. In builds with AddressSanitizer, no byte may leak.
+// Opens and closes the viewer repeatedly in one process, also without fonts. Files and threads must
+// not grow, and memory only by BYTES_A_CYCLE. In builds with AddressSanitizer, no byte may leak.
 #include "base/file.h"
 #include "device/cache.h"
 #include "unit/cmocka_all.h"
@@ -16,7 +16,7 @@
 #else
 #define CYCLES 60 // enough to detect growth
 #endif
-#define WARMING_UP 20 // after these cycles, drivers keep no more memory
+#define WARMING_UP 20 // growth in these cycles does not count
 
 // The allowed growth of memory per cycle, in bytes: three times what PoCL keeps for each kernel. A
 // leaked picture would take six times as much.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests that OpenGL and rays show the same outlines, for all scenes and views of the course and of
+"""Tests that OpenGL and rays show the same outlines in all views of scenes of the course and of
 clrt. Each object gets its own color, and the two pictures may differ only within two pixels of an
 edge. Both must also show the same lit sides of a coarse convex mesh with smooth normals. Usage:
 CLRT=path/to/clrt test_outlines.py"""
@@ -18,8 +18,8 @@ ALL_ONES = int.from_bytes(b"\1" * (SIZE[0] * SIZE[1]), "little")
 
 
 def colored(path):
-    """Returns the scene's text with a constant color for each object, without lights and
-    mirrors."""
+    """Returns the scene's text with a constant color for each object. Lights have no effect, and
+    there are no mirrors."""
     lines, objects = ["background 0 0 0"], 0
     for line in path.read_text().splitlines():
         words = line.split()
@@ -99,7 +99,7 @@ def outlines_agree_in_the_courses_scenes(screen):
     if not COURSE.is_dir():
         print("skipped: the course's scenes are missing (CLRT_COURSE names their folder)")
         return
-    # Scenes that differ only in their materials, lights and mirrors are compared once.
+    # Scenes that differ only in their materials are compared once.
     scenes = [COURSE / "scenes" / f"{name}.scn" for name in NAMES]
     for path in {colored(path): path for path in scenes}.values():
         agree(screen, path)
