@@ -39,9 +39,6 @@ class Combinations(Work):
         self.clrt(*SMALL, "-s", "4x4", "-o", "b.pfm")
         self.assert_same_bytes("a.pfm", "b.pfm")
 
-    def test_a_tree_is_chosen_or_left_out(self):
-        self.refuses("--bvh and --no-bvh contradict each other: give one", *SMALL, "-o", "a.pfm", "--bvh", "sah", "--no-bvh")
-
     def test_quiet_and_verbose_exclude_each_other(self):
         sentence = "--quiet and --verbose contradict each other: give one"
         for words in (PICTURE, SMALL, ["check", SCENE], ["convert", SCENE, "a.scn"]):

@@ -16,7 +16,6 @@ typedef struct {
 
 static const Conflict conflicts[] = {
     {{"quiet"}, {"verbose"}, "--quiet and --verbose contradict each other: give one"},
-    {{"bvh"}, {"no-bvh"}, "--bvh and --no-bvh contradict each other: give one"},
     {{"aa", REFINES},
      {"aa", REFINES},
      "--aa, --aa-adaptive, --error and --time each choose the samples: give one"},
