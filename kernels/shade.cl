@@ -40,8 +40,9 @@ typedef struct {
     Mask faces; // the shading normal and the face both face the light
 } LightSample;
 
-// Returns whether the light is in front of the face. The height is measured from a corner, which
-// is exact. All points of a triangle therefore agree about a light that is nearly in its plane.
+// Returns whether the light is in front of the face. Over a triangle, the light's height is
+// measured from a corner, because corners are exact. All points of a triangle therefore agree about
+// a light that is nearly in its plane.
 static inline Mask is_before_face(const Surface *surface, Real3 light)
 {
     return dot_product(surface->face, difference(light, surface->on_face)) > 0.0f;
@@ -74,7 +75,7 @@ static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
                  RAY_SHADOW,  light->faces};
 }
 
-// A surface to light, and its active lanes.
+// The surfaces and materials of a packet, and the lanes that need light.
 typedef struct {
     const Surface *surface;
     const MaterialLanes *material;
@@ -86,8 +87,8 @@ static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *
     return (Lighting){surface, material, met && material->shader != SHADER_SILHOUETTE};
 }
 
-// The light that a surface receives before its color: intensity times cosine, and intensity times
-// highlight.
+// One light's contribution without the colors of light and surface: intensity times cosine, and
+// intensity times highlight.
 typedef struct {
     Real diffuse, specular;
 } Received;

@@ -7,8 +7,8 @@ on_terminal() {
     [ -t 2 ] && [ "${TERM-dumb}" != dumb ]
 }
 
-# Shows the progress of a command whose output it reads: the share of steps in lines of ninja and
-# ctest, the percentage in lines of apt-get (APT::Status-Fd). Also prints the lines that match the
+# Reads a command's output and shows its progress: ninja and ctest print N/M, apt-get prints a
+# percentage (APT::Status-Fd). Also prints the lines that match the
 # pattern $2, if given.
 show_progress() {
     local name=$1 passed=${2-} percent= line= part status

@@ -147,14 +147,13 @@ static MeshFault flat_triangles(const Mesh *mesh)
 }
 
 // Returns whether no triangle of the object has the fault. Otherwise fills error with a message
-// that ends in text.
+// that contains text.
 static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fault,
                      const char *text, Error *error)
 {
-    return fault.count == 0 ||
-           error_set(error, "%s: triangle %zu, the first of %zu such triangles, %s",
-                     scene->inputs.data[object->input], fault.first + object->number_before,
-                     fault.count, text);
+    return fault.count == 0 || error_set(error, "%s: triangle %zu %s (the first of %zu)",
+                                         scene->inputs.data[object->input],
+                                         fault.first + object->number_before, text, fault.count);
 }
 
 bool bad_geometry_none_dropped(const Scene *scene, Error *error)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compiles the general kernels, and the specialized kernels of a scene if the command line names
-// one. --specialize always or never can exclude one of the two.
+// one. With a scene, --specialize=always omits the general kernels, and never the specialized ones.
 #include "cli/commands.h"
 
 #include <stdio.h>
@@ -17,7 +17,7 @@ static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, E
         printf("%s kernels, %s, %s nodes, %s: %s %.2f s\n", name,
                kernel_family_name(choice->family), kernel_nodes_name(choice->nodes),
                kernel_precision_name(choice->precision),
-               ready.was_compiled ? "were compiled, ready in" : "compiled in", ready.seconds);
+               ready.was_compiled ? "already compiled, ready in" : "compiled in", ready.seconds);
     ready_kernel_free(&ready);
     return true;
 }

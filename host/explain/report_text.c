@@ -51,7 +51,8 @@ static void write_light(const ExplainReport *report, const ExplainedLight *light
         fprintf(stream, "is blocked by ");
         write_primitive(report, light->blocker, stream);
         if (!report->is_brief)
-            fprintf(stream, ", %.6g of %.6g away", light->blocker_distance, light->distance);
+            fprintf(stream, ", %.6g away; the light is %.6g away", light->blocker_distance,
+                    light->distance);
     }
     if (light->state == LIGHT_SEEN)
         fprintf(stream, "reaches it");

@@ -17,7 +17,7 @@ bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *setting
 // returns false and the reason without the file name. The caller frees the image in both cases.
 bool png_file_read(StoredImage *image, FILE *stream, Error *cause);
 
-// Writes PFM: little-endian floats, bottom row first, as the format requires. Returns false on a
+// Writes PFM on little-endian hosts, bottom row first, as the format requires. Returns false on a
 // write error.
 bool pfm_write(const Framebuffer *framebuffer, FILE *stream);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Merges vertices at equal positions into points, because rays cannot distinguish such vertices.
-// Finds the edges between points and each edge's triangles, and joins corners of triangles to fans.
+// Finds the edges between points and each edge's triangles, and joins corners of triangles into
+// fans.
 #pragma once
 
 #include "base/error.h"

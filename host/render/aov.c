@@ -45,8 +45,8 @@ const Aov aov_table[] = {
      {"certainty"},
      false,
      AOV_NEEDS_CERTAINTY,
-     "1 if rounding cannot change a decision, 0.5 if it could in fp32 but not in fp64, whose color "
-     "the pixel then has, 0 otherwise"},
+     "1 if rounding cannot change a decision; 0.5 if only that of fp32 can (the color is then "
+     "fp64's); 0 otherwise"},
     {ERROR_CHANNEL,
      {ERROR_CHANNEL},
      false,
@@ -74,7 +74,8 @@ static bool unknown_name(const char *name, size_t length, Error *error)
     if (length > 0 && nearest != NULL)
         return error_set(error, "--aov knows no channel '%.*s', perhaps %s", (int)length, name,
                          nearest);
-    return error_set(error, "--aov wants a list like depth,normal: '%.*s' is none of %s, all",
+    return error_set(error,
+                     "--aov: unknown channel '%.*s': give all or a list of %s, like depth,normal",
                      (int)length, name, list);
 }
 

@@ -247,7 +247,7 @@ class Compiled(Work):
             ([], "general kernels, ray, .* nodes, fp32: compiled in"),
             ([SCENE, "--stats"], "special kernels, ray, .* nodes, fp32: compiled in"),
             (["--precision", "fp64"], "general kernels, ray, pair nodes, fp64: compiled in"),
-            ([], "general kernels, ray, .* nodes, fp32: were compiled, ready in"),
+            ([], "general kernels, ray, .* nodes, fp32: already compiled, ready in"),
         ):
             self.assertRegex(self.clrt("--warm", "--kernel", "ray", *words, **self.cache), f"(?m)^{line}")
         found = self.statistics(*SMALL, "a.pfm", "--kernel", "ray", **self.cache)

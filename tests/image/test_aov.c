@@ -228,7 +228,7 @@ TEST(a_name_that_is_no_channel_is_refused_with_the_nearest)
     assert_false(aov_read_list("depth,normals", &set, &error));
     assert_string_equal(error.text, "--aov knows no channel 'normals', perhaps normal");
     assert_false(aov_read_list("depth,", &set, &other));
-    assert_non_null(strstr(other.text, "is none of depth, normal, position"));
+    assert_non_null(strstr(other.text, "give all or a list of depth, normal, position"));
 }
 
 TEST(all_stands_for_the_channels_without_a_reference)

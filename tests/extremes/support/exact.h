@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds a ray's hit by testing every triangle, in 64 bits of precision. The hit is clear unless
+// Finds a ray's hit by testing every triangle, in long double. The hit is clear unless
 // float rounding may decide: at an outline, between two near hits, or at the ray's origin.
 #pragma once
 
@@ -19,7 +19,7 @@ Verdict exact_nearest(const Triangles *triangles, const TestRay *ray);
 typedef struct {
     bool met;
     double t;        // of the triangle's plane, if met
-    double distance; // from the ray to the outline, in the sheared plane
+    double distance; // from the ray to the outline, at right angles to the direction's longest axis
     double size;     // the largest distance between the origin and a corner along an axis
 } ExactMeeting;
 

@@ -13,7 +13,7 @@ void rays_free(const Rays *rays);
 // such rays; always true unless the kernels trace packets.
 bool rays_move_origin(size_t i, size_t bundle);
 
-// Enough rays from one point to fill packets of all directions.
+// The number of rays from one point, which fills packets in every octant of directions.
 #define RAY_BUNDLE 512
 
 // Returns a camera ray between two points. Rounds `from` to float, and then the direction.
@@ -27,7 +27,7 @@ typedef enum {
     AIM_RANDOM,
     AIM_EDGES,            // random points of random edges
     AIM_VERTICES,         // random vertices
-    AIM_VERTICES_EXACTLY, // vertices that origin + direction equals exactly
+    AIM_VERTICES_EXACTLY, // vertices, to which origin + direction is exactly equal
     AIM_KINDS
 } Aim;
 
