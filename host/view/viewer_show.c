@@ -67,7 +67,7 @@ static Figures figures_of(const Viewer *viewer)
                        .is_finished = worker_is_finished(status, &viewer->request),
                        .progress = status->progress,
                        .frame_seconds = status->frame_seconds,
-                       .has_counts = status->reached.is_counted,
+                       .has_counts = status->reached.is_counted && status->failure.text[0] == '\0',
                        .rays = tallies[TALLY_CAMERA_RAYS] + tallies[TALLY_SHADOW_RAYS] +
                                tallies[TALLY_REFLECTED_RAYS],
                        .box_count = viewer->views.boxes.count,
