@@ -37,9 +37,11 @@ static void add_event(GLFWwindow *handle, Event event)
         window->events[window->event_count++] = event;
 }
 
+// Held keys repeat if they change a value step by step. Other keys switch something.
 static void take_character(GLFWwindow *handle, unsigned character)
 {
-    if (character < 128)
+    const Window *window = glfwGetWindowUserPointer(handle);
+    if (character < 128 && (!window->is_repeating || strchr("+=-[]", (int)character) != NULL))
         add_event(handle, (Event){.kind = EVENT_KEY, .key = (int)character});
 }
 
@@ -58,11 +60,13 @@ static int find_key(int key, int code, int modifiers)
     return name != NULL && (name[0] == 's' || name[0] == 'q') ? name[0] : 0;
 }
 
-// Keys without a character switch something and do not repeat while held, except arrows.
+// Keys without a character do not repeat while held, except arrows.
 static void take_key(GLFWwindow *handle, int key, int code, int action, int modifiers)
 {
+    Window *window = glfwGetWindowUserPointer(handle);
     const int found = find_key(key, code, modifiers);
     const bool is_arrow = found >= KEY_LEFT && found <= KEY_DOWN;
+    window->is_repeating = action == GLFW_REPEAT;
     if (found != 0 && (action == GLFW_PRESS || (action == GLFW_REPEAT && is_arrow)))
         add_event(handle, (Event){.kind = EVENT_KEY, .key = found});
 }

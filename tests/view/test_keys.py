@@ -4,6 +4,7 @@
 in the printed state. Usage: CLRT=path/to/clrt test_keys.py"""
 
 import os
+import time
 
 from screen import ROOT, SCENE, Window, count_pixels, is_blue, is_red, opened, planes_of, run_tests
 
@@ -249,6 +250,23 @@ def stats_print_the_times_of_frames(screen):
     window.wait("29 moving frames: median")
     window.wait("traced while moving")
     window.end()
+
+
+def held_letters_do_not_repeat(screen):
+    """The X server repeats a held key after 0.7 s, 25 times a second."""
+    window = Window(screen, SCENE, "--keys", "")
+    window.wait("OpenGL, view 1")
+    screen.do("keydown", "a")
+    window.wait("AA 2x2")
+    before = len(window.printed)
+    time.sleep(1.5)
+    screen.do("keyup", "a")
+    window.press("n", "normals")
+    assert not any("AA off" in line for line in window.printed[before:]), window.printed[before:]
+    screen.do("keydown", "bracketright")
+    window.wait("boxes at level 3")
+    screen.do("keyup", "bracketright")
+    window.close()
 
 
 def options_set_the_windows_first_state(screen):
