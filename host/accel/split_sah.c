@@ -18,7 +18,7 @@
 
 // Costs are relative to one test of a leaf, which covers one triangle or one block.
 typedef struct {
-    uint32_t unit, unit_bits; // triangles per test, and their binary logarithm
+    uint32_t unit, unit_bits; // triangles per test, and the binary logarithm
     float node;               // cost of reading a node and testing its two boxes
 } Costs;
 

@@ -108,8 +108,8 @@ void mesh_free(Mesh *mesh)
     *mesh = (Mesh){0};
 }
 
-// A rotation by multiples of 90 degrees is three source coordinates with signs. Turns from y and -y
-// keep x. The other turns keep y, so that the mesh's front, toward -y, stays there.
+// A rotation by multiples of 90 degrees gives each axis a source axis and a sign. Turns from y and
+// -y keep x. The other turns keep y, so that the mesh's front, toward -y, stays there.
 
 const char *const up_axis_names[UP_AXES] = {"auto", "x", "y", "z", "-x", "-y", "-z"};
 
