@@ -50,8 +50,8 @@ static bool add_task(Whole *whole, const BuildTask *task, Error *error)
                                            : array_push(&whole->subtrees, *task, error);
 }
 
-// Divides a level of large nodes. The two children of a node have the indices between the nodes
-// below the left child and the nodes below the right child.
+// Divides a level of large nodes. The indices of a node's two children follow those of all nodes
+// below the left child, and precede those of all nodes below the right child.
 static bool divide_level(Whole *whole, Error *error)
 {
     const size_t end = whole->large.count;

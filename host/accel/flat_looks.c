@@ -42,8 +42,8 @@ static double inverse_power(double value)
     return power;
 }
 
-// Stores a triangle's normals, negated if the stored corners are reversed. One power of two scales
-// all three to keep their squares in range, and keeps their relative lengths as weights.
+// Stores a triangle's normals, negated if the stored corners are reversed. A common power of two
+// brings their squares into range, without changing their relative weights in the interpolation.
 static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {

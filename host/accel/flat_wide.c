@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Collapses the binary tree into nodes of up to eight children. A wide node starts with a binary
-// node's two children or a large leaf's two halves. While it has fewer than eight, two parts
-// replace its divisible child of largest surface area, which rays hit most often. A child with at
-// most eight leaves is opened only if all its leaves fit. This rule avoids nodes of only two or
-// three blocks. One thread walks the tree, and then all threads fill the blocks. Nodes and blocks
-// are in depth-first order.
+// node's two children or a large leaf's two halves. While the node has fewer than eight children,
+// its divisible child of largest surface area, which rays hit most often, is replaced by the
+// child's two parts. A child with at most eight leaves is divided only if all its leaves fit. This
+// rule avoids nodes of only two or three blocks. One thread walks the tree, and then all threads
+// fill the blocks. Nodes and blocks are in depth-first order.
 #include "accel/flat_parts.h"
 
 #include <stdlib.h>

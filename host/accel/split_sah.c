@@ -13,12 +13,12 @@
 // The most triangles in a leaf.
 #define LARGEST_LEAF 8
 
-// From this depth on, nodes are halved, which bounds the depth for degenerate distributions.
+// From this depth on, nodes too large for a leaf are halved. This bounds the depth of the tree.
 #define MEDIAN_SPLIT_DEPTH 32
 
 // Costs are relative to one test of a leaf, which covers one triangle or one block.
 typedef struct {
-    uint32_t unit, unit_bits; // triangles per test, and their binary logarithm
+    uint32_t unit, unit_bits; // triangles per test, and the binary logarithm
     float node;               // cost of reading a node and testing its two boxes
 } Costs;
 
@@ -30,7 +30,7 @@ typedef struct {
     Uint4 counts[BINS];
 } Bins;
 
-// An item's bin is floor((doubled center - origin) * scale). Too short an axis has scale 0.
+// An item's bin is floor((doubled center - origin) * scale). The scale is 0 if centers hardly vary.
 typedef struct {
     Float4 origin, scale;
     int bins;

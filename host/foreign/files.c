@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each file is read once and kept in memory, because Assimp opens it several times to guess its
-// format. Assimp cannot read outside the model's folder, regardless of the paths in a model.
+// Each file is read once and kept in memory, because Assimp opens the model several times to guess
+// its format. Assimp cannot read outside the model's folder, regardless of the paths in a model.
 #include "foreign/model.h"
 
 #include <errno.h>
@@ -72,7 +72,7 @@ static bool read_regular(File *file, const char *path, Error *error)
     Error cause = {0};
     if (file_read(file, path, &cause))
         return true;
-    // Removes the file's name from the message, because the caller adds it.
+    // Removes the file's name from the message, because clrt adds it.
     const size_t length = strlen(path);
     const bool is_named = strncmp(cause.text, path, length) == 0;
     return error_set(error, "%s", cause.text + (is_named ? length + strlen(": ") : 0));

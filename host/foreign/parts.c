@@ -67,8 +67,8 @@ static bool is_identity(const Placement *placement)
     return true;
 }
 
-// Normals are transformed by the cofactors, negated if the matrix mirrors: by the inverse transpose
-// up to a positive factor.
+// Returns the matrix of cofactors, negated if the placement mirrors. It is a positive multiple of
+// the inverse transpose.
 static NormalMatrix normal_matrix_of(const Placement *placement)
 {
     NormalMatrix normal_matrix = {.is_identity = is_identity(placement)};
@@ -198,7 +198,7 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
     return *number - 1;
 }
 
-// Reserves memory for `count` more vertices. If the part has normals, all new ones start as zero.
+// Reserves memory for `count` more vertices. If the part has or gets normals, new ones are zero.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals)
 {
     Mesh *mesh = &sender->part.mesh;

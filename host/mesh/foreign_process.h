@@ -5,8 +5,8 @@
 
 #include "base/child_process.h"
 
-// Returns whether the path has the extension of a mesh format that Assimp reads, ignoring case.
-// The extension alone decides, because most of these formats have no magic bytes.
+// Returns whether clrt-foreign reads files with the path's extension, ignoring case.
+// The extension alone decides, because most of Assimp's formats have no magic bytes.
 bool foreign_format_is(const char *path);
 
 typedef struct {

@@ -70,7 +70,7 @@ static float within(float value, float most)
     return !(value > 0) ? 0 : value > most ? most : value;
 }
 
-// Replaces characters so that name is a single word, as scene files require.
+// Replaces all but printable ASCII, and the characters that have a meaning in scene text.
 static void make_word(char *name)
 {
     make_printable(name, strlen(name), '_');

@@ -78,8 +78,8 @@ bool mesh_drop_triangles(Mesh *mesh, Error *error)
     return true;
 }
 
-// dropped[i] - i triangles precede dropped triangle i and remain, so binary search finds how many
-// dropped triangles precede a remaining one.
+// dropped[i] - i remaining triangles precede dropped triangle i. A binary search therefore finds
+// how many dropped triangles precede a remaining one.
 size_t mesh_original_number(const Mesh *mesh, size_t triangle)
 {
     size_t low = 0, high = mesh->dropped.count;
@@ -108,12 +108,12 @@ void mesh_free(Mesh *mesh)
     *mesh = (Mesh){0};
 }
 
-// A rotation by multiples of 90 degrees is three source coordinates with signs. Turns from y and -y
-// keep x. The other turns keep y, so that the mesh's front, toward -y, stays there.
+// A rotation by multiples of 90 degrees gives each axis a source axis and a sign. Turns from y and
+// -y keep x. The other turns keep y, so that the mesh's front, toward -y, stays there.
 
 const char *const up_axis_names[UP_AXES] = {"auto", "x", "y", "z", "-x", "-y", "-z"};
 
-// For each axis of the turned mesh, the number of its source axis from 1, negative if the sign
+// For each axis of the turned mesh, its source axis: 1, 2 or 3 for x, y or z, negative if the sign
 // changes.
 static const int sources[UP_AXES][3] = {
     [UP_X] = {-3, 2, 1},       [UP_Y] = {1, -3, 2},       [UP_Z] = {1, 2, 3},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A triangle mesh as its file describes it: indexed, with fp64 positions in the file's coordinates.
+// An indexed triangle mesh with fp64 positions, in the coordinates of its file or scene.
 #pragma once
 
 #include "base/array.h"
@@ -54,7 +54,7 @@ void mesh_drop_normals(Mesh *mesh);
 // Frees the mesh's memory and leaves a valid empty mesh.
 void mesh_free(Mesh *mesh);
 
-// Turns meshes whose up axis is not z, which is up for clrt's cameras.
+// Turns meshes whose up axis is not z, the default up direction of clrt's cameras.
 
 // The axis of a file's coordinates that points up.
 typedef enum {
@@ -84,7 +84,7 @@ void mesh_turn_up(Mesh *mesh, UpAxis up);
 // the vertex, weighted by their angles. Vertices at one position count as one. Edges stay sharp if
 // the normals of their faces differ by more than crease_degrees (0 to 180). If a normal is missing,
 // new vertices replace all vertices. The triangles keep their order. No computed normal differs by
-// more than crease_degrees from the normal of its triangle. Corners of triangles with hardly any
-// area stay without a computed normal. Equal arguments give equal bits. On failure, the mesh is
+// more than crease_degrees from the normal of its triangle. Corners of triangles that are nearly
+// lines stay without a computed normal. Equal arguments give equal bits. On failure, the mesh is
 // unchanged.
 bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error);

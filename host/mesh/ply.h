@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads a PLY file into a Mesh: ascii, or binary of either byte order. Writes a Mesh as binary PLY,
-// which ply_parse reads fastest and with the same bits. Format: Greg Turk, "The PLY Polygon File
-// Format", Stanford 1994.
+// which ply_parse reads fastest, and which keeps all bits of the mesh. Format: Greg Turk, "The PLY
+// Polygon File Format", Stanford 1994.
 #pragma once
 
 #include "base/error.h"
@@ -19,8 +19,8 @@
 typedef bool PlyParse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error);
 PlyParse ply_parse;
 
-// ply_parse for geometry checks. Accepts positions and normals that are not finite or out of range.
-// Counts them in mesh, and the triangles dropped because of them.
+// ply_parse for geometry checks. Accepts non-finite and out-of-range positions and normals, and
+// counts them in mesh. Also counts the triangles dropped because of bad positions.
 PlyParse ply_parse_tolerantly;
 
 // Returns the number of bytes that ply_write writes.

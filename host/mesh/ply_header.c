@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses header lines into elements and their properties in one pass. Only elements and properties
-// that a mesh does not use may repeat.
+// Parses header lines into elements and their properties in one pass. Elements and properties may
+// repeat only if a mesh does not use them.
 #include "mesh/ply_reader.h"
 
 #include "base/number.h"
@@ -178,7 +178,7 @@ static bool check_property(const Parser *parser, const PlyProperty *property, Pl
     return true;
 }
 
-// Stores the property's role, which must not repeat in the element.
+// Stores the property's role. Only PLY_UNUSED may repeat in the element.
 static bool find_role(const Parser *parser, PlyElement *element, PlyWord name, PlyRole *role)
 {
     *role = PLY_UNUSED;

@@ -11,7 +11,7 @@
 
 // Options for loading a file.
 typedef struct {
-    MeshObject object;        // properties of the file's objects beside their meshes
+    MeshObject object;        // properties of the file's objects, without meshes
     bool is_flat;             // ignores the file's normals
     double crease_degrees;    // for computing missing normals; NO_CREASE leaves them missing
     bool takes_own_materials; // the file's materials, if it has any, replace the object's

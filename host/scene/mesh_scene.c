@@ -69,8 +69,8 @@ static Vec3 farthest(const Frame *frame, Vec3 d)
     return vec3_sub(found, frame->center);
 }
 
-// Returns the slope of the planes that touch the meshes on both sides of an axis. Stores in *middle
-// where the planes intersect, along the axis. The gap between the planes and the meshes is a
+// Returns the slope of the two planes through the eye that enclose the meshes along an axis. Stores
+// the eye's coordinate on the axis in *middle. The gap between the planes and the meshes is a
 // convex, piecewise linear function of the slope, so Newton's method ends after few steps.
 static double touch(const Frame *frame, Vec3 axis, Vec3 back, double *middle)
 {
@@ -88,8 +88,8 @@ static double touch(const Frame *frame, Vec3 axis, Vec3 back, double *middle)
     return next;
 }
 
-// Returns the field of view in degrees. Planes of this slope span the fraction FILLED of the
-// picture. Newton's method starts above the result, where the tangent is convex, and stays above.
+// Returns the field of view in degrees. Planes of the given slope span the fraction FILLED of the
+// picture. Newton's method starts above the result and stays above, because tan is convex there.
 static double field_of_view(double slope)
 {
     double half = 45;
@@ -142,7 +142,7 @@ static const char studio[] =
     "define floor matte diffuse 0.8815 0.9314 0.9899\n";
 
 // A key light from the left, a fill light from the right and a light from behind, as seen by the
-// first camera. The vectors point toward the lights.
+// first camera. The vectors are positions relative to the meshes, in units of LIGHT_DISTANCE.
 static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}},
                                 {{26, -14, 18}, 0.20, {0.9, 0.95, 1}},
                                 {{-8, 26, 16}, 0.30, {1, 1, 1}}};
@@ -199,7 +199,7 @@ static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
     return add_studio(scene, error);
 }
 
-// A Collada file names its axis, because clrt-foreign keeps Assimp from turning such files.
+// Returns the up axis that the file names. clrt-foreign keeps Assimp from turning Collada files.
 static UpAxis up_axis_of_collada(const char *path)
 {
     File file;

@@ -16,8 +16,8 @@ static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
     return vec3_add(vec3_add(vec3_scale(v, cosine), across), along);
 }
 
-// Returns a factor for a mesh's normals that prevents overflow: a rotation can enlarge components
-// by the square root of 3. One factor for all normals keeps the ratios of their lengths.
+// Returns a factor for a mesh's normals that prevents overflow: a rotation can make a component up
+// to sqrt(3) times as large. One factor for all normals keeps the ratios of their lengths.
 static double normal_scale(const Mesh *mesh)
 {
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++)

@@ -120,8 +120,8 @@ typedef struct {
 // Returns the first missing part: objects to render, or lights for surfaces that need them.
 MissingPart scene_missing(const Scene *scene);
 
-// Colors are at most 1, so the error of a maximum level is at most the weight of a ray of that
-// level, which is the product of the reflectivities on the ray's path.
+// A ray's weight is the product of the reflectivities on its path. Colors are at most 1, so a
+// maximum level causes an error of at most the weight of a ray of that level.
 
 // Returns an upper bound on the error of every color if rays of max_level return the background.
 double truncation_bound(const Scene *scene, uint32_t max_level);

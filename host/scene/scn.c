@@ -18,7 +18,7 @@ typedef struct {
     Tokens tokens;
     Scene *scene;
     uint32_t material;    // material of the objects that follow, or MATERIAL_OWN
-    MeshLoadOptions mesh; // of the meshes that follow, except their material
+    MeshLoadOptions mesh; // options of the meshes that follow, except the material
     Vec3 up;              // up vector of the cameras that follow
     Token waiting_up;     // the latest `up` statement, if no camera follows it yet
     Error *error;

@@ -19,7 +19,7 @@ typedef struct {
     MeshObject current;  // the properties that statements have set so far
 } Writer;
 
-// Writes the fewest digits that read back as the same number, at least `digits`.
+// Writes value with the lowest precision, from `digits` up, that reads back as the same number.
 static void write_digits(FILE *stream, double value, int digits, bool is_float)
 {
     char text[32];

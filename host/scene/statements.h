@@ -14,8 +14,8 @@ bool materials_define(Scene *scene, Tokens *tokens);
 // gives none, the course's material 0.
 #define MATERIAL_OWN UINT32_MAX
 
-// Reads the argument of `material`: a number of the course, a defined name, or own. As in the
-// course, numbers outside 0 to 3 select material 0, the silhouette.
+// Reads the argument of `material`: the number of a course material, a defined name, or own. As in
+// the course, numbers outside 0 to 3 select material 0, the silhouette.
 bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material);
 
 // Reads the rest of a mesh or ply_file statement and adds the file's objects. Paths are relative to
