@@ -35,5 +35,5 @@ void *memory_raw(size_t count, size_t size, Error *error);
 // Returns a copy of text, which the caller frees, or NULL if memory runs out.
 char *text_copy(const char *text, Error *error);
 
-// Like memory_raw, but without alignment or a request for huge pages: for partly untouched arrays.
+// Like memory_raw, but for arrays that stay partly unused: no 64-byte alignment, no huge pages.
 void *memory_sparse(size_t count, size_t size, Error *error);

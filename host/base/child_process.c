@@ -103,7 +103,7 @@ bool child_receive(int socket, void *bytes, size_t size)
     return true;
 }
 
-// Waits until the socket has data or ends (CHILD_DONE), or until the deadline (CHILD_LATE).
+// Waits for data or for the end of the data (CHILD_DONE), or until the deadline (CHILD_LATE).
 static ChildFate await(int socket, double deadline)
 {
     for (;;) {
@@ -157,7 +157,7 @@ ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *ou
     return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? CHILD_DONE : CHILD_FAILED;
 }
 
-// Ignores failures, because setting a limit only fails if the system already has a lower one.
+// Ignores failures, because setting a limit only fails if the hard limit is already lower.
 void confine_resource(int resource, rlim_t most)
 {
     const struct rlimit both = {most, most};

@@ -17,9 +17,9 @@ typedef struct {
 // Runs in the child. When it returns, the child exits.
 typedef void ChildWork(int socket, const void *context);
 
-// Starts a copy of this process that calls work(socket, context) and is killed when this process
-// ends. Its standard input and output are /dev/null. Only main may call child_fork, before other
-// threads start. On failure, returns false, and *cause receives the reason without a file name.
+// Starts a copy of this process, with /dev/null as standard input and output. The copy calls
+// work(socket, context), and is killed when this process ends. Only main may call this, before
+// other threads start. On failure, returns false and stores the reason without a file name.
 bool child_fork(ChildProcess *child, ChildWork *work, const void *context, Error *cause);
 
 // Starts a program with one argument. Its standard output is the socket, and its standard input and
@@ -55,13 +55,13 @@ typedef enum {
 ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *output, int *signal,
                         Error *error);
 
-// The following limits are for processes that read possibly hostile files. They cannot be lifted.
+// The following limits protect from hostile files. Only root can raise the resource limits again.
 
 // Ends this process when the thread that started it ends, and after `seconds` of processor or wall
 // time. From now on, the process gains no privileges, writes no file and dumps no core.
 void confine_process(unsigned seconds);
 
-// Limits a resource, such as RLIMIT_AS, to `most`, unless the system's limit is lower.
+// Limits a resource, such as RLIMIT_AS, to `most`, unless its hard limit is lower.
 void confine_resource(int resource, rlim_t most);
 
 // Returns the bytes mapped into this process so far, or 0 if the system does not report them.

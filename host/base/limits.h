@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ranges of a scene's numbers, whether they come from a file or from elsewhere.
+// The ranges of the numbers in a scene, whether the scene comes from files or from libclrt.
 #pragma once
 
 #include <stdint.h>

@@ -97,7 +97,7 @@ static double round_slowly(const char *text, const char *end, int64_t exponent)
 }
 
 // Returns mantissa times ten to the exponent, whose absolute value is at most WIDE_POWER. Integer
-// arithmetic applies the power of five. ldexp applies the power of two, which is exact.
+// arithmetic applies the power of five. ldexp then applies the power of two without error.
 static double round_widely(uint64_t mantissa, int64_t exponent)
 {
     uint64_t power = 1;

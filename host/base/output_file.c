@@ -25,8 +25,8 @@ static bool is_replaceable(const char *path)
     return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
 }
 
-// Creates an empty file with an unused name. Writes the name's last SUFFIX_SIZE bytes to suffix.
-// Unlike mkstemp, open applies the umask, which umask() can report only by changing it.
+// Creates an empty file with an unused name. suffix points into name and receives the name's random
+// end. open gives the file the permissions of other new files; mkstemp would make it private.
 static bool make_file(char *suffix, const char *name)
 {
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {

@@ -18,7 +18,7 @@ typedef struct {
 bool output_file_begin(OutputFile *file, const char *path, Error *error);
 
 // If ok, renames or copies the temporary file to its final name; otherwise removes it. Returns
-// false if ok is false or the move fails. If it fails, cause holds the reason without the path.
+// false if ok is false or the move fails. If the move fails, cause has the reason without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
 // Creates the file from the bytes that `write` writes to its stream. If `write` fails, it returns

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A thread pool. Each thread_pool_run of several tasks is a generation. Idle threads first poll for
-// the next generation, because calls follow each other closely, and then sleep.
+// A thread pool. Each thread_pool_run of several tasks is a generation. Calls often follow each
+// other closely, so idle threads first poll for the next generation and then sleep.
 #include "base/thread_pool.h"
 
 #include <pthread.h>

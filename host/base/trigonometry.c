@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sine and cosine reduce the angle to at most 45 degrees, which is exact in degrees. The arctangent
-// halves its angle twice, to at most 11.25 degrees. All omitted Taylor terms are below 2^-55.
+// Sine and cosine reduce the angle to at most 45 degrees, without error. The arctangent halves its
+// angle twice, to at most 11.25 degrees. All omitted Taylor terms are below 2^-55.
 #include "base/vec.h"
 
 #include <math.h>

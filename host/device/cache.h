@@ -25,7 +25,7 @@ typedef struct {
 // before the first OpenCL call.
 void cache_open(Cache *cache);
 
-// Opens a cache for libraries, which needs no cache_close. Leaves the environment unchanged, so
+// Opens the cache of libclrt. cache_close is unnecessary. Leaves the environment unchanged, so
 // PoCL stores its kernels in POCL_CACHE_DIR or in its default folder. cache->folder is clrt/library
 // in $POCL_CACHE_DIR, $XDG_CACHE_HOME or ~/.cache, or empty if no folder is writable.
 void cache_open_for_library(Cache *cache);

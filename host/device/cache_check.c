@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The kernels that the process loads during a build show which of PoCL's files belong to the
-// program. Files of other drivers stay unknown and unchecked, so their manifests are empty.
+// program. Other drivers' files stay unknown and unchecked, so their programs have empty manifests.
 #include "device/cache_check.h"
 
 #include "device/manifest.h"

@@ -39,7 +39,7 @@ bool kernel_check_request(const KernelRequest *request, Error *error);
 // otherwise single rays with pair nodes. fp64 always uses single rays with pair nodes.
 KernelChoice kernel_choose(const KernelRequest *request, const Device *device);
 
-// Returns whether packets should finish a picture sooner than single rays, including compilation.
+// Returns whether packets finish most pictures sooner than single rays, including compilation.
 bool kernel_suits_packets(const Device *device);
 
 // Returns the side of the kernels' square work-groups, in work-items.

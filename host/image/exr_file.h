@@ -10,12 +10,12 @@
 #include <openexr.h>
 #include <stdio.h>
 
-// The side of the tiles of a whole picture in pixels. The tiles of a part have the size of --tile.
+// The side, in pixels, of a whole picture's tiles. The tiles of a part have the size of --tile.
 #define EXR_TILE 64
 
 typedef struct {
     exr_context_t context; // NULL if closed
-    StoredImage head;      // size, channels in the file's order and texts; no values
+    StoredImage head;      // size, texts, and channels in the file's order; no values
     uint32_t tile_width, tile_height, tile_count;
 } ExrFile;
 
@@ -33,14 +33,14 @@ bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
                    unsigned char *scratch);
 
-// Copies the values of a tile into framebuffer and layers, from the pixel at position on. Skips
-// channels that both lack. Returns false if the tile is damaged.
+// Copies the values of a tile into framebuffer and layers, where the tile's upper left pixel is at
+// position. Skips channels that both lack. Returns false if the tile is damaged.
 bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const Framebuffer *framebuffer, const Layers *layers,
                      const size_t position[2]);
 
-// Points the channels of a tile to their values in framebuffer and layers, from the pixel at
-// position on. layers may be NULL. Channels that both lack keep their pointers.
+// Points the channels of a tile to their values in framebuffer and layers, where the tile's upper
+// left pixel is at position. layers may be NULL. Channels that both lack keep their pointers.
 void exr_place_channels(exr_coding_channel_info_t *channels, int count,
                         const Framebuffer *framebuffer, const Layers *layers,
                         const size_t position[2]);
@@ -58,5 +58,5 @@ ExrTileHead exr_tile_head(const exr_chunk_info_t *tile, uint64_t size);
 bool exr_file_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
                     uint32_t height, FILE *stream);
 
-// An error handler for OpenEXRCore that ignores messages: its functions also return the failure.
+// An error handler that ignores messages, because OpenEXRCore's functions also return failures.
 void exr_file_ignore(exr_const_context_t context, exr_result_t code, const char *message);

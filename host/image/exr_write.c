@@ -123,7 +123,7 @@ static bool encode(const TileWriter *writer, const size_t position[2],
     encoder->yield_until_ready_fn = encoder->write_fn = NULL;
     if (exr_encoding_run(writer->context, 0, encoder) != EXR_ERR_SUCCESS)
         return false;
-    // Readers take tiles of this size for uncompressed, but OpenEXRCore 3.1 keeps them compressed.
+    // If both sizes agree, readers expect uncompressed bytes, but OpenEXRCore 3.1 compresses them.
     if (encoder->compressed_bytes == encoder->packed_bytes)
         memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
     return true;

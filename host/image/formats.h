@@ -17,8 +17,8 @@ bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *setting
 // returns false and the reason without the file name. The caller frees the image in both cases.
 bool png_file_read(StoredImage *image, FILE *stream, Error *cause);
 
-// Writes PFM on little-endian hosts, bottom row first, as the format requires. Returns false on a
-// write error.
+// Writes PFM with the bottom row first, as the format requires. The host must be little-endian.
+// Returns false on a write error.
 bool pfm_write(const Framebuffer *framebuffer, FILE *stream);
 
 // Reads PFM with three channels or one, in either byte order. Does not apply the file's scale. On

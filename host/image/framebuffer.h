@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The traced picture: shader values as floats, filled tile by tile, and other channels of its
+// The traced picture: its colors as floats, filled tile by tile, and the other channels of its
 // pixels.
 #pragma once
 
@@ -33,7 +33,7 @@ typedef struct {
     LayerType list[LAYERS_MOST];
     uint32_t count;
     uint32_t width, height;
-    uint32_t *values; // width * height * count values or bits of floats, top row first
+    uint32_t *values; // width * height * count integers or bits of floats, top row first; owned
 } Layers;
 
 // Allocates the values and sets them to zero. The caller has set list and count.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a Framebuffer to a file. libpng writes PNG, pfm.c PFM and OpenEXRCore EXR. OpenImageIO
-// writes the other formats, if clrt is built with it. Only those formats load OpenImageIO, which
-// takes 0.1 s.
+// Writes a Framebuffer to a file. libpng writes PNG, pfm.c writes PFM, and OpenEXRCore writes EXR.
+// OpenImageIO writes the other formats, if clrt is built with it. Only these other formats load
+// OpenImageIO, which takes 0.1 s.
 #pragma once
 
 #include "image/framebuffer.h"

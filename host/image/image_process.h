@@ -12,7 +12,7 @@ typedef void ModuleFunction(void);
 // Returns NULL on failure.
 ModuleFunction *open_module(const char *name, Error *cause);
 
-// Reads the file in the given OpenImageIO format, and trusts nothing that the process sends. On
+// Reads the file in the given OpenImageIO format, and trusts nothing that the child sends. On
 // failure returns false and the reason without the file name. The caller frees the image in both
 // cases.
 bool image_process_read(StoredImage *image, const char *path, const char *format, Error *cause);

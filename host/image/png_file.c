@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libpng writes and reads files row by row, and converts every kind of PNG to red, green and blue.
-// It reports faults by a longjmp to write_picture or read_picture, which skips the cleanup of all
-// functions that these two call. Therefore only the callers of these two own memory.
+// It reports faults by a longjmp to write_picture or read_picture. The jump skips the cleanup of
+// all functions that these two call. Therefore only the callers of these two own memory.
 #include "image/formats.h"
 
 #include <errno.h>
@@ -12,9 +12,9 @@
 #include <zlib.h>
 
 // This filter and strategy make the smallest files among all settings that take at most about 20 ms
-// per megapixel. Paeth turns rendered surfaces into runs of zeros. In this time, searching for
-// matches other than runs makes larger files. All compression levels above 0 find the same runs, so
-// the code sets no level.
+// per megapixel. Paeth turns rendered surfaces into runs of zeros. Strategies that also search for
+// other matches need more time or make larger files. All compression levels above 0 find the same
+// runs, so the code sets no level.
 #define FILTER   PNG_FILTER_PAETH
 #define STRATEGY Z_RLE
 

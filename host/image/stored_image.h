@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture as its file stores it: named channels of floats or of 32-bit ids.
+// A picture read from a file: named channels of floats or of 32-bit ids.
 #pragma once
 
 #include "base/array.h"
@@ -9,7 +9,7 @@
 #define STORED_NAME_SIZE 32
 #define STORED_TEXT_SIZE 512
 
-// The limits of pictures for image_read. Their values take at most 4 GiB.
+// image_read rejects pictures beyond these limits. A picture's values take at most 4 GiB.
 #define STORED_SIDE_MAX     65536
 #define STORED_CHANNELS_MAX 64
 #define STORED_VALUES_MAX   ((uint64_t)1 << 30)
@@ -54,8 +54,8 @@ bool stored_image_colors(const StoredImage *image, uint32_t places[3]);
 // Converts each 8-bit value v to v / 255.
 void stored_image_values(const unsigned char *bytes, size_t count, float *values);
 
-// Reads a picture file. libpng reads PNG, our own reader PFM, and OpenImageIO the other formats
-// that clrt writes, except GIF, in a process that may crash without harm. The first bytes determine
-// the format, regardless of the file name. On failure returns false with a message that names the
+// Reads a picture file. libpng reads PNG, and pfm.c reads PFM. In a child process that may crash
+// without harm, OpenImageIO reads the other formats that clrt writes, except GIF. The first bytes,
+// not the file name, determine the format. On failure returns false with a message that names the
 // file. The caller frees the image. Only main may call image_read, before other threads start.
 bool image_read(StoredImage *image, const char *path, Error *error);

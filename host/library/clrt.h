@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// libclrt renders scenes from your own program: `cc picture.c $(pkg-config --libs clrt)`.
+// libclrt renders scenes from your own program: `cc picture.c $(pkg-config --cflags --libs clrt)`.
 //
 // A picture equals, bit for bit, the picture that `clrt SCENE -o picture.pfm` writes with the same
 // settings. The library prints nothing, never ends the program, installs no signal handlers and
