@@ -17,8 +17,8 @@
 #define FACING_FROM_CLOSE 0.01
 
 // A ray misses its aim by at most LENGTH_ERROR times its length plus COORDINATE_ERROR times the
-// aim's largest coordinate. triangle.inc.cl accepts hits within 22 units of rounding (2^-24) of the
-// ray. Directions and aims are also rounded.
+// aim's largest coordinate. With correctly rounded division, triangle.inc.cl accepts hits within 22
+// units of 2^-24 of the ray (BVH_SLACK in shared.h). Directions and aims are also rounded.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 
@@ -264,8 +264,8 @@ static double error_at(const Aim *aim, double distance)
     return LENGTH_ERROR * distance + COORDINATE_ERROR * vec3_extent(aim->point);
 }
 
-// Makes a ray from origin to the aim and sets the aim's tolerance. Returns false if rounding could
-// make the ray miss the triangles.
+// Makes a ray from origin to the aim and sets the aim's tolerance. Returns false if a triangle
+// around the aim may face away from origin, or if rounding could make the ray miss the triangles.
 static bool shoot(Aim *aim, Vec3 origin, double least_facing, AimRay *ray)
 {
     const Vec3 back = vec3_sub(origin, aim->point);

@@ -48,7 +48,7 @@ Features features_of(const Mesh *mesh, const Normalization *normalization);
 // The next two functions reject triangles without area. They report the first object that fails:
 // its file, its first bad triangle and the count.
 
-// Fails if the reader dropped a triangle.
+// Fails if the reader dropped a triangle with two equal corners.
 bool bad_geometry_none_dropped(const Scene *scene, Error *error);
 
 // Fails if any triangle has no area, dropped or not.
@@ -60,7 +60,7 @@ typedef struct {
     Closedness closedness;
     Features features;
     size_t unused_vertices;   // vertices that no triangle uses
-    size_t repeated_vertices; // used vertices at the position of another used vertex
+    size_t repeated_vertices; // used vertices at the position of an earlier used vertex
 } MeshCensus;
 
 typedef struct {

@@ -61,7 +61,7 @@ static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
         needed.statistics ? part("statistics", true, "--stats counts rays and tests")
                           : part("statistics", false, "not requested: no --stats")};
     memcpy(parts, list, sizeof list);
-    // General programs contain all features except statistics.
+    // General programs contain all features, except that statistics require --stats.
     for (int i = 0; i < SCENE_PARTS; i++)
         parts[i].is_compiled =
             parts[i].is_needed || (!run->renderer.is_special && i < SCENE_PARTS - 1);

@@ -17,7 +17,7 @@ typedef struct {
     Framebuffer film;       // the frames of an animated file, below each other; empty without one
     Framebuffer reference;  // empty without --reference
     Layers layers;          // the channels besides the colors
-    uint32_t *samples;      // of each pixel; NULL if no layer needs it or all are equal
+    uint32_t *samples;      // per pixel; NULL without --aov or without refinement
     CertaintyMap certainty; // empty without --aov certainty
     Resume resume;          // empty without --resume
     int stopped_by;         // the signal that stopped the picture, or 0
@@ -62,7 +62,7 @@ bool refined_picture_draw(Picture *picture, const CameraData *camera,
                           const RenderObserver *observer, Error *error);
 
 // Computes the certainty of each pixel of a finished picture, repairs pixels in fp64, and stores
-// the counts in the report. A stopped picture stays unchanged, without certified pixels.
+// the counts in the report. If the picture was stopped earlier, it stays unchanged and uncertified.
 bool certain_picture_make(Picture *picture, const CameraData *camera, Error *error);
 
 // Reports of a run's costs and results, as text and as JSON.

@@ -18,11 +18,11 @@ Progress progress_begin(bool silent);
 // Returns whether standard error is a terminal that can rewrite lines.
 bool progress_on_terminal(void);
 
-// A Cache's announce for terminals. Shows a line with the elapsed seconds, and clears it at the end
-// of the last build.
+// Implements Cache::announce for terminals. Shows a line with the elapsed seconds, and clears it at
+// the end of the last build.
 void progress_show_compiling(bool begins);
 
-// A RenderObserver's tile_done; context must point to a Progress. Returns false after a signal.
+// Implements RenderObserver::tile_done; context is a Progress. Returns false after a signal.
 bool progress_tile_done(void *context, const RenderProgress *progress);
 
 // Clears the rewritten line. Returns the signal that requested the stop, or 0.
@@ -32,9 +32,8 @@ int progress_end(Progress *progress);
 // ends the process. Afterwards, clrt writes the finished tiles at the first signal. A second signal
 // of the same number ends the process at once.
 
-// Installs handlers for SIGINT and SIGTERM, unless they are ignored, for the life of the process.
-// Before stop_wait_for_tiles, a signal ends the process with a message and status 128 + its
-// number.
+// Installs handlers for the first SIGINT and the first SIGTERM, unless these signals are ignored.
+// Before stop_wait_for_tiles, a signal ends the process with a message and status 128 + its number.
 void stop_watch(void);
 
 // Call this before rendering the first tile. The first signal then only sets stop_signal's result.

@@ -23,7 +23,7 @@ static double truncation_of(const Run *run)
 }
 
 // Returns the error that sampling may add to the truncation error; negative if truncation alone
-// exceeds the goal.
+// reaches the goal.
 static double error_left(const Run *run)
 {
     const double most = run->options->error_goal, truncation = truncation_of(run);
@@ -67,7 +67,7 @@ static bool draw_adaptively(Picture *picture, const CameraData *camera, ThreadPo
     return ok;
 }
 
-// Refines toward the time or error goal. Does nothing if truncation alone exceeds the error goal.
+// Refines toward the time or error goal. Does nothing if truncation alone reaches the error goal.
 static bool refine(const Run *run, Ladder *ladder, double start, GoalOutcome *outcome, Error *error)
 {
     const GoalTime time = {start, run->options->time_goal};

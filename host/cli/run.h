@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The state of a whole run, and the stages that commands share. Each stage borrows the results of
-// earlier stages. run_free accepts a Run after any stage, even a zeroed one, so that errors need
-// one cleanup path.
+// earlier stages. run_free accepts a Run after any stage, and also a zeroed Run, so that errors
+// need one cleanup path.
 #pragma once
 
 #include "accel/flat.h"
@@ -42,7 +42,7 @@ typedef struct {
     double turned; // the turntable's angle in degrees
     uint32_t bvh_nodes, bvh_leaves, bvh_depth, bvh_largest_leaf;
     uint32_t bvh_inner[BVH_MAX_DEPTH]; // inner nodes at each depth
-    double estimate;   // of the RMSE, with --error including truncation; 0 without a goal
+    double estimate;   // of the RMSE, with truncation if it counts toward --error; 0 without a goal
     double bound;      // upper bound of the RMSE with 95 % confidence
     bool goal_missed;  // the goal of --error or --time
     double truncation; // bound on the color error caused by max_level

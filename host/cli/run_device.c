@@ -40,7 +40,8 @@ void run_begin(Run *run)
 
 // The choice of quick kernels depends on the work of the run, measured in samples of --aa.
 
-// With --error E, a pixel counts as 1 + ERROR_SAMPLES / E samples, four for each that it takes.
+// With --error E, a pixel counts as 1 + ERROR_SAMPLES / E samples, because each sample that it
+// takes costs about as much as four samples of --aa.
 #define ERROR_SAMPLES 0.08
 
 // With --aa-adaptive T, a pixel counts as 1 + CONTRAST_SAMPLES / sqrt(T) samples. CONTRAST_SAMPLES

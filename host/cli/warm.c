@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compiles the general kernels, and the specialized kernels of a scene if the command line names
-// one. With a scene, --specialize=always omits the general kernels, and never the specialized ones.
+// Compiles the general kernels and, with a scene, its specialized kernels. With a scene,
+// "--specialize always" omits the general and "--specialize never" the specialized kernels.
 #include "cli/commands.h"
 
 #include <stdio.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// primitive, shadow and bounces describe only the ray through a pixel's center. If they agree, the
-// pixel's samples determine the cause. If both pictures have the same samples, even a large
-// difference is rounding, because rounding can change a sample's hit. Otherwise, every difference
-// above rounding counts as coverage.
+// The channels primitive, shadow and bounces describe only the ray through a pixel's center. If
+// they agree, the pixel's samples determine the cause. If both pictures have the same samples, even
+// a large difference is rounding, because rounding can change a sample's hit. Otherwise, every
+// difference above rounding counts as coverage.
 #include "compare/difference.h"
 
 #include <math.h>

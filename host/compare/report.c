@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON contains shares as fractions; the text contains percent.
+// JSON contains shares as fractions. The text contains percent, except in the lines on limits.
 #include "compare/difference.h"
 
 #include "image/json_file.h"

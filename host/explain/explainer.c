@@ -244,7 +244,7 @@ bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t ind
     return true;
 }
 
-// Must match mean_color of kernels/render.cl.
+// Must match pixel_colors of kernels/render.cl.
 void explainer_mix(const Explainer *explainer, float color[3])
 {
     const uint64_t count = (uint64_t)explainer->frame.samples * explainer->frame.samples;

@@ -24,7 +24,7 @@ typedef struct {
 typedef struct {
     Vec3 origin, direction; // direction has length 1
     double weight;          // weight in the sample's color
-    uint32_t primitive;     // id of the hit primitive; NOTHING for a miss: the next fields are zero
+    uint32_t primitive;     // id of the hit primitive; NOTHING for a miss: all fields below are 0
     double distance, error; // error bounds the error of distance
     Vec3 point, normal;
     uint32_t material;
@@ -76,7 +76,7 @@ void explainer_close(Explainer *explainer);
 bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
                      ExplainedSample *sample, Error *error);
 
-// Stores the color of the pixel after all its samples are traced.
+// Stores the pixel's color. explainer_trace must have traced all samples of the pixel.
 void explainer_mix(const Explainer *explainer, float color[3]);
 
 // A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and

@@ -65,8 +65,8 @@ static bool is_regular(const Journal *journal)
     return fstat(fileno(journal->stream), &status) == 0 && S_ISREG(status.st_mode);
 }
 
-// Locks fail with another error on file systems without locks. There, journal_claim is the only
-// protection.
+// On file systems without locks, flock fails with an error other than EWOULDBLOCK. There,
+// journal_claim is the only protection.
 static bool take_lock(Journal *journal, FILE *stream, Error *error)
 {
     journal->is_busy = flock(fileno(stream), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;

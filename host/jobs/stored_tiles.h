@@ -27,7 +27,7 @@ void stored_tiles_free(StoredTiles *tiles);
 bool stored_tiles_done(const StoredImage *image, const char *settings_text,
                        const RenderSettings *settings, uint64_t *tiles);
 
-// Lists the image's channels other than its colors in layers. Returns false if the image lacks
+// Appends to layers the image's channels other than its colors. Returns false if the image lacks
 // colors or has a channel unknown to --aov.
 bool stored_tiles_name_layers(const StoredImage *image, Layers *layers);
 
@@ -51,7 +51,7 @@ bool stored_tiles_run(const RenderSettings *settings, uint64_t count, TileWork *
 bool stored_tiles_find(const ExrFile *file, const Tile *tile, exr_chunk_info_t *found,
                        Error *error);
 
-// Receives tiles: colors in framebuffer, and the channels that layers lists in layers->values.
+// Receives tiles. framebuffer gets the colors, and layers->values the channels in layers->list.
 typedef struct {
     Framebuffer *framebuffer;
     Layers *layers;

@@ -90,10 +90,10 @@ bool options_check_conflicts(const Options *options, Error *error);
 // options that do not apply there.
 bool options_check_purpose(Options *options, Error *error);
 
-// Does what options_check_purpose does, for clrt compare, whose picture is optional.
+// Checks the outputs of clrt compare, and determines the format of its picture if -o is given.
 bool options_check_compare(Options *options, Error *error);
 
-// Does what options_check_purpose does, for clrt merge, which always writes a file.
+// Checks the outputs of clrt merge, which requires -o, and determines the format of its picture.
 bool options_check_merge(Options *options, Error *error);
 
 // Setters of options whose values fit none of the kinds.
@@ -126,7 +126,7 @@ typedef struct {
     unsigned use;         // one FOR_... bit; the command accepts the options with this bit
     const char *operands; // the arguments after the name, for --help
     const char *help;
-    const char *two_operands; // two file operands, for messages; NULL: one scene, or parts
+    const char *two_operands; // describes two file operands in messages; NULL: one scene, or parts
 } Command;
 
 extern const Command command_table[];

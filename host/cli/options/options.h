@@ -41,15 +41,15 @@ typedef struct {
     bool skips_finished;        // skip frames whose files exist, and write only whole frames
 } Frames;
 
-// Parses "A-B" or "A-B:S", a share, or both with a comma between them. Returns false if text is
-// malformed, and fills error as share_parse does.
+// Parses a range ("A-B" or "A-B:S"), a share, or a range, a comma and a share. Returns false if
+// text is malformed, and fills error as share_parse does.
 bool frames_parse(Frames *frames, const char *text, Error *error);
 
 // Returns whether --frames or --turntable is given.
 bool frames_are_many(const Frames *frames);
 
 // Without a range, selects all steps of the turntable. Reduces first and last to the share. Fails
-// if there are fewer frames than shares.
+// if there is neither a range nor a turntable, or if there are fewer frames than shares.
 bool frames_complete(Frames *frames, Error *error);
 
 // Returns the number of pictures.
@@ -58,9 +58,9 @@ uint32_t frames_count(const Frames *frames);
 // Returns the number of the frame at position place of the sequence; place counts from 0.
 uint32_t frames_at(const Frames *frames, uint32_t place);
 
-// Returns the file name of a frame. The number with leading zeros replaces the last run of '#' in
-// pattern. Without '#', a number such as ".0001" precedes the ending. The caller frees the name.
-// Returns NULL if memory is exhausted.
+// Returns the path of a frame's file. The number with leading zeros replaces the last run of '#'
+// after the last slash of pattern. Without such a run, a number such as ".0001" precedes the
+// ending. The caller frees the path. Returns NULL if memory is exhausted.
 char *frames_name(const char *pattern, uint32_t number, Error *error);
 
 // --crop "X0,Y0,X1,Y1". The numbers are pixels, or fractions of the sides if any number has a dot.
@@ -98,7 +98,7 @@ typedef enum {
 // The exit status. If a signal stopped the process, the status is 128 + the signal's number.
 typedef enum {
     EXIT_DONE = 0,
-    EXIT_FAULTS = 1, // findings of check, limits of compare, an unexpected hash, a missed goal
+    EXIT_FAULTS = 1, // faults found by check, limits of compare, an unexpected hash, a missed goal
     EXIT_USAGE = 2,
     EXIT_SCENE = 3, // a faulty scene, mesh or input picture
     EXIT_DEVICE = 4,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// getopt splits the command line, the table stores the values, and check.c checks their
+// getopt splits the command line, option.c stores the values, and check.c checks their
 // combination.
 #include "cli/options/options.h"
 
