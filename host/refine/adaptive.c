@@ -20,7 +20,7 @@
 
 #define GROUPS_OF_TASK 512
 
-// The places and samples of the groups from first on, eight per group.
+// The groups from first on, with eight places and samples each, or the places of all pixels.
 typedef struct {
     RefineTree *tree;
     uint32_t first;

@@ -33,8 +33,8 @@ static void set_limits(Marking *marking)
     marking->limits[REFINE_LEVELS] = INFINITY;
 }
 
-// Lists a cell if it has thin parts or differs from a neighbor by more than its limit. Also lists
-// larger neighbors that differ from the cell by more than their limit.
+// Lists a cell if it has thin parts, or if a difference from a neighbor exceeds the cell's limit.
+// Also lists larger neighbors whose difference from the cell exceeds the neighbor's limit.
 static bool mark_cell(const Marking *marking, const CellName *name, const uint32_t place[2],
                       CutList *list)
 {

@@ -39,7 +39,7 @@ PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t sam
 // Returns false if the observer has stopped a trace.
 bool pixel_requests_are_whole(const PixelRequests *requests);
 
-// Traces the requests and stores their sums, except some if the observer stops the trace.
+// Traces the requests and stores their sums. If the observer stops the trace, some are missing.
 bool pixel_requests_trace(PixelRequests *requests, Error *error);
 
 // Renders a picture of the frame's size with one sample at each pixel's center.
@@ -88,8 +88,8 @@ typedef struct {
 bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error);
 void ladder_close(Ladder *ladder);
 
-// Moves the pixels that the strata's fractions select to their next rung. Stores their number in
-// *advanced. If the observer stops the trace, some of these pixels have not moved.
+// Selects pixels by the strata's fractions, and moves each to its next rung. Stores the number of
+// selected pixels in *advanced. If the observer stops the trace, some of them have not moved.
 bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
 
 // Returns the number of samples taken in a pixel.
@@ -126,7 +126,7 @@ typedef struct {
     double start, seconds;
 } GoalTime;
 
-// Refines until about time->seconds have passed since time->start.
+// Refines until about time->seconds have passed since time->start, or no pixel can advance.
 bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);
 
 // The bend of a pixel measures how far its color is from the means of opposite neighbors.

@@ -60,7 +60,7 @@
 // Statistics shared by all strata of a rung.
 typedef struct {
     double ratio;   // change per feature
-    double feature; // the largest mean of a stratum
+    double feature; // the largest mean feature among the strata
 } Rung;
 
 // The forecast for one stratum.

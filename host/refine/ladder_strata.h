@@ -15,8 +15,8 @@ static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 
 
 // On rung 0, strata are octaves of the pixel's bend (refine/ladder.h). Each octave from FLAT_CLASS
 // on has a second stratum for pixels near contrast, numbered from NEAR_CLASS on. On higher rungs,
-// strata are octaves of the standard deviation of a pixel's samples, separately for bent pixels and
-// others.
+// strata are octaves of the standard deviation of a pixel's samples, separately for bent pixels
+// (with a large bend) and others.
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
 #define BEND_CLASSES      12
@@ -29,7 +29,7 @@ typedef struct {
     uint64_t entered, advanced; // total numbers of pixels
     double feature;             // sum over the pixels that entered
     double advanced_feature;    // sum over the pixels that advanced
-    double change, square;      // sums of errors estimated from changes, and of the errors' squares
+    double change, square;      // sums over controls: estimated squared error, and its square
     double fraction;            // of the stratum's pixels to advance, in [0, 1]
 } Stratum;
 
@@ -69,7 +69,7 @@ StrataEstimate strata_estimate(const Strata *strata);
 // The aim of a round of advances.
 typedef struct {
     double mean_square; // upper limit for StrataEstimate::bound
-    double samples;     // about the most samples of the round; INFINITY for no limit
+    double samples;     // approximate limit for the round's samples; may be INFINITY
 } StrataAim;
 
 typedef enum {
@@ -78,6 +78,6 @@ typedef enum {
     STRATA_EXHAUSTED // no stratum can advance more pixels
 } StrataOutcome;
 
-// Raises fractions to move the bound toward the aim: in strata that lack controls, and then where a
-// sample lowers the bound most.
+// Moves the bound toward the aim: raises the fractions of strata that lack controls, and then of
+// the strata where a sample lowers the bound most.
 StrataOutcome strata_raise(Strata *strata, const StrataAim *aim);

@@ -82,8 +82,8 @@ static inline CellRange box_sampled(const OutlineBox *box, const CellGrid *grid,
 // Returns twice the area, negative if the corners are counterclockwise on the screen (y is down).
 double outline_signed_area(const Outline *outline);
 
-// Returns whether no disk of that diameter fits into the polygon. For polygons with more than three
-// corners, may also return true if the largest disk is up to twice as wide.
+// Returns whether no disk of the given diameter fits into the polygon. For polygons with more than
+// three corners, may also return true if the largest disk is up to twice as wide.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
 // outline_touched returns the cells of a row that the polygon touches. outline_near does the same
@@ -104,7 +104,7 @@ typedef struct {
 typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
-    Vec3 eye, right, down, forward; // right and down: in cells of the last level at depth 1
+    Vec3 eye, right, down, forward; // dot products with right and down: in cells at depth 1
     double width, height;           // of the picture, in cells of the last level
     ProjectedPoint *points;         // of the mesh's vertices
 } Projection;

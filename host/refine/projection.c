@@ -9,7 +9,7 @@
 
 #define PLANES 5
 #define MARGIN (2 * REFINE_GRID)
-#define NEAR   1e-30 // the longest side of the normalized triangles' box is 1 to 2
+#define NEAR   1e-30 // tiny beside the triangles' box, whose longest side is 1 to 2
 
 // Returns a value that is negative if the point is beyond the plane.
 static double inside_by(const Projection *projection, Vec3 point, int plane)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// seam_correct assumes the color step in the middle of the remaining interval. Its unit of length
-// is half a last-level cell, so that positions are integers. Negative corrections wrap around in
-// unsigned sums, and the final sums are correct.
+// seam_correct assumes that colors change in the middle of the remaining interval. Its unit of
+// length is half a last-level cell, so that positions are integers. Negative corrections wrap
+// around in unsigned sums, and the final sums are correct.
 #include "refine/seam.h"
 
 #include "refine/refine_tree.h"

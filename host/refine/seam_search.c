@@ -5,11 +5,11 @@
 
 #include <stdlib.h>
 
-// The samples of a line: one per cell, and one beyond each end.
+// The samples of a line: one per cell, and one beyond each end. Gaps separate the samples.
 #define LINE_SAMPLES (GROUP_SIDE + 2)
 #define LINE_GAPS    (LINE_SAMPLES - 1)
 
-// The smallest color step on one surface, such as between the faces of a cube.
+// The smallest color change that forms a seam on one surface, such as between faces of a cube.
 #define LEAST_STEP (1 / 256.0f)
 
 // A row or a column of a group.

@@ -67,9 +67,9 @@ static inline bool thin_parts_cut(const ThinParts *parts, const uint32_t place[2
                          1) != 0;
 }
 
-// Divides a mesh into pieces: sets of triangles connected by shared vertices. Pieces of fewer than
-// PIECE_TRIANGLES triangles together form one piece, because triangles of some files share no
-// vertices.
+// Divides a mesh into pieces: sets of triangles connected by shared vertices. All sets of fewer
+// than PIECE_TRIANGLES triangles are merged into one piece, because triangles of some files share
+// no vertices.
 
 #define PIECE_TRIANGLES 8
 

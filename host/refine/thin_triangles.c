@@ -23,7 +23,7 @@ typedef struct {
 
 // A piece with more than PAIRS_MOST pairs and more than PAIRS_OF_PIXEL per pixel of the picture is
 // searched only at level 0, to save memory. A thin triangle counts as AROUND pairs in each pixel
-// that it makes thin.
+// where it makes the piece thin.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 #define AROUND         9
@@ -103,7 +103,7 @@ static bool is_wide(const Search *search, uint32_t column, uint32_t row)
     return false;
 }
 
-// Computes the outline of a triangle that is thin at pixels. Returns false for other triangles.
+// Computes the outline of a triangle that is thin at level 0. Returns false for other triangles.
 static bool thin_outline(const Search *search, uint32_t triangle, Outline *outline)
 {
     return projection_outline(&search->projection, triangle, outline) && thin_at_level(outline, 0);
@@ -227,7 +227,7 @@ static bool find_runs(Search *search, Error *error)
     return true;
 }
 
-// Returns the cells of a row whose parents are subdivided.
+// Returns a mask of a row's cells: those with subdivided parents.
 static uint32_t allowed_cells(const uint32_t *parents, uint32_t row, uint32_t scale)
 {
     uint32_t allowed = 0;

@@ -108,8 +108,8 @@ bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
 #define FEW_TRIANGLES          20000
 #define SAVED_PER_SAMPLE       0.3e-6
 
-// The fraction of a time limit that the other kernels lose, because they take at most half as many
-// samples.
+// The fraction of a time limit that the quick kernels lose, because they take at most half as many
+// samples in that time.
 #define LOST_OF_LIMIT 0.5
 
 static RendererSetup setup_with(const RendererSetup *setup, KernelChoice choice)
@@ -125,7 +125,7 @@ static double seconds_lost(const RendererSetup *setup, const QuickKernelRun *run
            LOST_OF_LIMIT * run->seconds;
 }
 
-// Chooses other kernels if they save more compile time than the run then loses.
+// Chooses the quick kernels if they save more compile time than the run then loses.
 bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
                          KernelChoice *choice)
 {

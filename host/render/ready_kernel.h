@@ -53,11 +53,11 @@ bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
 // The work of a run.
 typedef struct {
     double samples; // of all pictures
-    double seconds; // that all pictures may take; 0 for no limit
+    double seconds; // limit for all pictures; 0 for none
     uint64_t triangles;
 } QuickKernelRun;
 
 // Returns whether the run should replace setup's packets with faster-compiling kernels. If so,
-// stores the kernels' choice in *choice. Returns false if the packets are already compiled.
+// stores their KernelChoice in *choice. Returns false if the packets are already compiled.
 bool quick_kernel_choose(const RendererSetup *setup, const QuickKernelRun *run,
                          KernelChoice *choice);

@@ -23,7 +23,7 @@ static uint64_t columns_of(const RenderSettings *settings)
 }
 
 // Returns the column of the part's first tile in a row. The golden ratio spreads these columns
-// evenly. Otherwise, a part could consist of whole columns, depending on the picture's width.
+// evenly. With the same column in all rows, a part would consist of whole columns of tiles.
 static uint64_t first_column(const RenderSettings *settings, uint64_t row)
 {
     const uint32_t golden = 2654435769U; // 2^32 / 1.618...

@@ -80,7 +80,7 @@ typedef struct {
     Viewpoint camera;
 } State;
 
-// Returns `state` with text switched on, and with the scene's camera number state.view.
+// Returns `state` with text switched on, and with viewpoint state.view as its camera.
 State state_begin(const StateScene *scene, State state);
 
 // Applies an event to the state and returns the bits of the event's commands.

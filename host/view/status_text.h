@@ -15,9 +15,9 @@ typedef struct {
     uint32_t width, height; // of the window, in pixels
     uint32_t samples;       // along each side of a pixel, with anti-aliasing
     uint32_t divisor;       // one traced pixel covers divisor x divisor pixels
-    bool is_finished;       // nothing remains to be traced
+    bool is_finished;       // nothing remains to be done, except counting
     double progress;        // of the current pass, from 0 to 1
-    double frame_seconds;   // that the latest complete picture took to trace
+    double frame_seconds;   // tracing time of the latest complete picture
     bool has_counts;        // rays and tests_per_ray are known
     uint64_t rays;
     double tests_per_ray;

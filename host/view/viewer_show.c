@@ -192,8 +192,8 @@ bool viewer_draw(Viewer *viewer, Error *error)
     return true;
 }
 
-// Saves the displayed picture and, under the canvas's lock, the traced picture. If there is no
-// traced picture, the displayed picture replaces it.
+// Saves the displayed picture and, under the canvas's lock, the traced picture. In the OpenGL view,
+// or without a traced picture, the displayed picture replaces the traced one.
 static bool save(Viewer *viewer, const Framebuffer *shown)
 {
     char state[STATE_SIZE];

@@ -9,7 +9,7 @@
 
 typedef struct {
     char *path;        // path of a file, or of a folder whose files are watched; owned
-    uint64_t accepted; // the signature at the latest reported change, or initially
+    uint64_t accepted; // the signature (watch.c) at the latest reported change, or initially
     uint64_t seen;     // the latest signature
 } Watched;
 

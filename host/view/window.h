@@ -18,7 +18,7 @@ typedef struct {
     double mouse_x, mouse_y;     // pointer position, without small motions during a click
     int modifiers;               // GLFW's modifier bits at the latest button event
     bool may_click;              // the left button is pressed, and the pointer has hardly moved
-    bool is_repeating;           // the latest key is being held
+    bool is_repeating;           // the latest key event is a repeat of a held key
     bool is_touched;             // the window must be drawn again
     bool is_full_screen;
     int place[4]; // position and size outside full screen

@@ -133,7 +133,7 @@ typedef struct {
     uint32_t count; // of loaded boxes
 } LineView;
 
-// With is_diagonal, the view draws a line from `low` to `high` of each box, in any direction.
+// With is_diagonal, the view draws lines from `low` to `high`. Either may be larger.
 bool line_view_open(LineView *view, bool is_diagonal, Error *error);
 
 void line_view_load(LineView *view, const Box *boxes, size_t count);

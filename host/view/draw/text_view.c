@@ -245,8 +245,8 @@ static float draw_text(TextView *view, const char *text, const TextOverlay *over
     return pen.y;
 }
 
-// Removes phrases after commas from the end, then characters, until the text fits this width at
-// size 1.
+// Removes the phrase after the last comma, repeatedly, and then characters, until the text fits
+// this width at size 1.
 static void shorten(const Font *font, char *text, float width)
 {
     static const char dots[] = "...";

@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-// In normalized coordinates, where the triangles' box is 1 to 2 long. Nearer points have depth 0,
-// so the point drawn last is visible.
+// In normalized coordinates, where the triangles' box is 1 to 2 long. All nearer points have depth
+// 0, so the one drawn last is visible.
 #define NEAREST 0.01f
 
 // Stores step's direction, scaled so that its dot product with points on the picture's edge at

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws a traced picture, top row first, over the whole target.
+// Draws a traced picture over the whole target. The texture starts with the picture's top row.
 #ifdef VERTEX
 out vec2 place;
 
