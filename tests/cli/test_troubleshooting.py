@@ -17,7 +17,7 @@ INSIDE_OUT = ply([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2), (0, 3
 
 class Messages(Work):
     def provoke(self):
-        """Yields each fault's output, in the page's order. Without a window, its fault yields None."""
+        """Yields each fault's output in the page's order; None for faults of a missing window."""
 
         def run(*words, **environment):
             done = self.run_clrt(*words, **environment)
