@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Encodes meshes of Python numbers in several formats. Each format's function returns the bytes of a
-# file.
+# Encodes meshes of Python numbers in several formats. Each format's function returns the content
+# of a file.
 import io
 import json
 import math

@@ -18,7 +18,7 @@ def read_pfm(path):
 
 
 def pfm(*rows):
-    """Returns the bytes of a PFM file, whose first row is the top one."""
+    """Returns the bytes of a PFM file. The first argument is the top row."""
     content = b"".join(struct.pack(f"<{len(row)}f", *row) for row in rows[::-1])
     return b"PF\n%d %d\n-1.0\n" % (len(rows[0]) // 3, len(rows)) + content
 

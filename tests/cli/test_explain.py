@@ -22,7 +22,7 @@ def sphere(number, distance, *lights, **more):
 
 
 def floor(distance, *lights, **more):
-    """The triangle below the floor's diagonal from (-10, -10) to (10, 10)."""
+    """Returns the expected hit of the floor's first triangle, where x > y."""
     return {"primitive": {"kind": "triangle", "number": 0}, "distance": distance, "lights": [*lights], **more}
 
 
@@ -50,14 +50,14 @@ BY_HAND = [
     (LAMP + "camera 1e-3 -4 0.4 1e-3 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4, 1, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.5), normal=[0, 0, 1])}], {"color": [0.08] * 3}),
-    # The ball's shadow cone at the light has the sine 0.5 / 3. It intersects the floor at a radius
-    # of 4 * 0.169031 = 0.676123. At 0.65, the light is sqrt(0.65^2 + 16) away. The ball's center is
-    # 1.091310 along this line and 0.481182 off it; the hit is sqrt(0.25 - 0.481182^2) before the
-    # center.
+    # The half angle of the ball's shadow cone has the sine 0.5 / 3. The shadow on the floor has a
+    # radius of 4 * 0.169031 = 0.676123. At x = 0.65, the light is sqrt(0.65^2 + 16) away. The
+    # ball's center is 0.481182 off the shadow ray and 1.091310 along it. The ray meets the ball
+    # sqrt(0.25 - 0.481182^2) before the center.
     (LAMP + "camera 0.65 -4 0.4 0.65 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4.052468, 0.987053, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.955450))}], {}),
-    # At 0.7, the light is sqrt(0.49 + 16) away, its cosine is 4 / 4.060788, and nothing occludes it.
+    # At x = 0.7, nothing occludes the light, sqrt(0.49 + 16) away at the cosine 4 / 4.060788.
     (LAMP + "camera 0.7 -4 0.4 0.7 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("reaches", 4.060788, 0.985030))}], {"color": [0.474012] * 3}),
     # Each mirror ball halves the weight, and rays of level 3 see the background. The balls add 0.453553

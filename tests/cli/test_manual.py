@@ -183,7 +183,7 @@ def ask_fish(folder, line, work):
 
 
 def complete(shell, folder, line, work):
-    """Returns the completions at the end of the line, with their descriptions."""
+    """Returns the shell's output, which lists the completions at the end of the line."""
     if shell == "fish":
         return ask_fish(folder, line, work)
     return ask_terminal(shell, folder, line, work)

@@ -58,7 +58,7 @@ class Parts(SharedWork):
         self.expect_whole(self.thirds[::-1])
 
     def test_compressed_tiles_are_copied(self):
-        """Without --hash, EXR files get the compressed tiles of parts with the default --tile."""
+        """Without --hash, clrt merge copies compressed tiles of the default size into EXR files."""
         for more in ([], ["--aov", "depth,primitive,boxtests", "--aa"], ["--crop", "30,20,290,190"],
                      ["--no-metadata"]):
             words, of = [SCENE, "-s", "300x200"], 3
@@ -159,7 +159,7 @@ class Parts(SharedWork):
         self.assertFalse((self.work / name).exists())
 
     def peak_memory(self, *words):
-        """Returns the peak resident memory of a run and of the processes that it waits for, in KiB."""
+        """Returns the largest peak resident memory of clrt and its child processes, in KiB."""
         process = self.start(*words)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)

@@ -6,7 +6,7 @@ from pictures import read_exr
 from work import EVERY_FEATURE, SCENE, SharedWork, Work, main, needs_exr
 
 SMALL = [SCENE, "-s", "96x72", "-o"]
-# One triangle fills the picture, so colors change slowly and differ only by rounding.
+# One triangle fills the picture, so colors change slowly. fp32 and fp64 differ only by rounding.
 FLAT = """up 0 1 0
 camera 0 0 5 0 0 0 10
 ambient 0.7

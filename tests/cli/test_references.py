@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Compares clrt with the course's pictures and counts of rays. The course's tracer uses floats and another
 # triangle test, so a few pixels on edges differ. tests/image/test_oracle.c compares the same
-# scenes with the tests' own tracer, pixel by pixel.
+# scenes with the tests' own tracer.
 # Usage: test_references.py CLRT FORMATS
 import os
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests tools/setup, tools/render and tools/test with stubs in place of apt-get, dpkg-query, sudo, cmake and ctest.
-# Usage: test_setup.py
+# Tests tools/setup, tools/render and tools/test with stubs in place of apt-get, dpkg-query, sudo,
+# id, cmake and ctest. Usage: test_setup.py
 import os
 import pathlib
 import pty

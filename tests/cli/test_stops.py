@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Stops clrt by signals at any moment, while it compiles kernels or draws tiles. Drivers cannot stop
 # compiling. clrt must print one message and exit with 128 + the signal. It must write no picture,
-# or one marked as incomplete. Usage: test_stops.py CLRT FORMATS
+# or one that it reports as incomplete. Usage: test_stops.py CLRT FORMATS
 import json
 import os
 import pathlib

@@ -88,7 +88,7 @@ class StandardInput(Talk):
 
 class Terminal(Talk):
     def on_terminal(self, *words):
-        """Returns what clrt prints on a terminal, with a cache that begins empty."""
+        """Returns what clrt prints on a terminal. The kernel cache is empty when a test begins."""
         ours, theirs = pty.openpty()
         environment = {**os.environ, "TERM": "xterm", "POCL_CACHE_DIR": str(self.work / "cache")}
         process = self.start(*words, stderr=theirs, env=environment)

@@ -17,7 +17,7 @@ INSIDE_OUT = ply([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2), (0, 3
 
 class Messages(Work):
     def provoke(self):
-        """Yields the output for each fault, in the order of the page; None without a window."""
+        """Yields each fault's output in the page's order; None for faults of a missing window."""
 
         def run(*words, **environment):
             done = self.run_clrt(*words, **environment)

@@ -15,7 +15,7 @@ SCENE = str(ROOT / "scenes/reflections.scn")
 EVERY_FEATURE = str(ROOT / "tests/image/every_feature.scn")
 # The formats of this build, the second argument of tests that depend on them; empty for other tests.
 FORMATS = sys.argv[2].split(", ") if len(sys.argv) > 2 and "pfm" in sys.argv[2] else []
-HAS_EXR = "jpg" in FORMATS  # only builds with OpenImageIO write JPEG and read EXR
+HAS_EXR = "jpg" in FORMATS  # only OpenImageIO writes JPEG, and reads EXR for clrt compare
 NO_OPENCL = {"OCL_ICD_VENDORS": "/nonexistent"}
 
 needs_exr = unittest.skipUnless(HAS_EXR, "this build is without OpenImageIO")

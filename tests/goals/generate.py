@@ -83,7 +83,7 @@ def terrain(rng, path, side, height):
 
 
 def boxes(rng, path, count, size):
-    """Writes separate boxes with random sides around the origin."""
+    """Writes boxes of random sizes at random places near the origin. They may overlap."""
     vertices, triangles = [], []
     faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
     for _ in range(count):

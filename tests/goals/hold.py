@@ -24,7 +24,7 @@ GOALS = "0.02,0.01,0.005,0.002"
 REFERENCE_PART = 0.1
 REFERENCE_SAMPLES = [64, 65536]
 
-# The largest N of --aa=N to compare with, and the thresholds of --aa-adaptive, as in tools/trade.
+# The largest N of --aa=N to compare with. The thresholds of --aa-adaptive are as in tools/trade.
 LARGEST_SIDE = 24
 THRESHOLDS = [0.3, 0.2, 0.1, 0.05, 0.04, 0.02, 0.01, 0.005, 0.002]
 

@@ -90,7 +90,7 @@ static void expect_same(const Bvh *one, const Bvh *two, uint32_t number)
     expect_same(one, two, a->first + 1);
 }
 
-// The trees are large enough for threads to divide single nodes.
+// The trees exceed the subtree limit of one thread, so threads also divide the nodes above.
 TEST(any_number_of_threads_builds_the_same_tree)
 {
     for (int set = 0; set < SET_KINDS; set++) {

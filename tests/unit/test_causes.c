@@ -64,7 +64,7 @@ TEST(every_pixel_counts_for_its_first_cause)
     add(other, 0, SHADOW, -0.5f);
     add(other, 1, SHADOW, -0.5f);
     add(other, 1, BOUNCES, 1);
-    add(other, 2, BOUNCES, 1); // beyond the first picture's last level, which is 1
+    add(other, 2, BOUNCES, 1); // the first picture's max_level allows one bounce
     add(other, 3, BOUNCES, -1);
     add(other, 5, GREEN, -0.0625f * 6 + 0x1p-20f);
     add(other, 6, GREEN, -0.0625f * 7);

@@ -119,7 +119,7 @@ static const struct {
     // Two solids touch at a point.
     {TETRAHEDRON "  -1 0 0  0 -1 0  0 0 -1", FACES "  0 4 5  0 6 4  0 5 6  4 6 5", 12,
      .pinched = {1, 4}},
-    // Triangles have the same corners, by number and by position.
+    // Triangles have the same corners: first equal vertices, then vertices at equal positions.
     {TETRAHEDRON, "0 1 2  0 1 3  1 2 0  2 1 0", 5, .open = {2, 1}, .crowded = {3, 0},
      .duplicates = {2, 2}},
     {"0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 3 2", 3, .turned = {3, 0}, .duplicates = {1, 1}},
@@ -180,7 +180,7 @@ TEST(triangles_of_no_area_are_counted)
     expect_fault(&found.features.flat, (Expected){2, 1});
 }
 
-// The square of its area is below the range of fp64.
+// The triangle's area, 5e-341, is below the range of fp64.
 TEST(a_tiny_triangle_has_an_area)
 {
     FREED_BY(release)

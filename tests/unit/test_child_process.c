@@ -86,7 +86,7 @@ static void die(int socket, const void *context)
     raise(SIGKILL);
 }
 
-// SIGPIPE would end this process, too.
+// Sending must not raise SIGPIPE, which would end this process.
 TEST(messages_to_a_dead_child_fail)
 {
     ChildProcess child;
@@ -146,7 +146,7 @@ static void *burn(void *context)
     return NULL;
 }
 
-// Two threads use up the processor time before the time of day.
+// Two threads reach the limit of processor time before the equal limit of elapsed time.
 static void burn_confined(int socket, const void *context)
 {
     char byte = 0;

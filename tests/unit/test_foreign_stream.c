@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the parser of clrt-foreign's output with every record, and with hostile streams.
+// Tests the parser of clrt-foreign's output with every kind of record, and with hostile streams.
 #include "mesh/foreign_stream.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests how meshes are divided into pieces, whose triangles are connected by shared vertices.
+// Tests how meshes are divided into pieces of connected triangles. Small pieces become one.
 #include "refine/thin_parts.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"

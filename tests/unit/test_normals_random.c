@@ -9,8 +9,8 @@
 #include <time.h>
 #include <unistd.h>
 
-// Returns a mesh with few points, so that faces coincide, oppose each other and meet at edges in
-// any number. Points of a grid are often on a line.
+// Returns a mesh with few points, so that faces coincide or oppose each other, and many faces meet
+// at an edge. About half of the meshes have points of a grid, which are often on a line.
 static Mesh random_mesh(uint64_t *seed)
 {
     static const double scales[] = {1e-30, 1e-12, 1, 1, 1, 1e12, 1e29};

@@ -263,7 +263,7 @@ TEST(the_longest_normals_can_be_rotated)
 {
     FREED_BY(scene_free) Scene scene = parsed("mesh ../tests/unit/huge_normal.ply rotate 1 0 0 20");
     const float *normal = scene.objects.data[0].mesh.normals[0];
-    // The rotation by 20 degrees about x multiplies y by cos - sin, and z by cos + sin.
+    // y equals z, so the rotation by 20 degrees about x multiplies z by cos + sin.
     assert_true(isfinite(normal[2]));
     assert_true(fabsf(normal[2] / normal[0] - 1.2817128f) < 1e-6f);
 }

@@ -5,7 +5,7 @@
 
 #define SIDE  27u
 #define LINE  (GROUP_SIDE * SIDE)
-#define AREA  (2.0 * SIDE * SIDE) // of a cell, in the unit of ColorSum
+#define AREA  (2.0 * SIDE * SIDE) // twice a cell's area, as in ColorSum
 #define STEPS 4294967296.0
 
 static SampleData seen(float color, uint32_t signature)

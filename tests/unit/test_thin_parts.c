@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests which cells are subdivided for thin triangles that are hard to project or too many.
+// Tests which cells are subdivided for thin parts, even if these are many or hard to project.
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
 #include "unit/cmocka_all.h"

@@ -7,7 +7,7 @@
 
 #define SIDE 64
 
-// docs/long-jobs.md promises the ratio for real scenes, from this number of tiles per part on.
+// With fewer tiles per part, clrt prints a note. docs/long-jobs.md has the ratios of real scenes.
 #define PART_TILES    128
 #define SLOWEST_RATIO 1.25
 

@@ -37,7 +37,7 @@ def colored(path):
 
 
 def flags(number):
-    """Returns a number with 1 in each byte that is not 0."""
+    """Replaces each nonzero byte of the number by 1."""
     content = number.to_bytes(SIZE[0] * SIZE[1], "little")
     return int.from_bytes(content.translate(b"\0" + b"\1" * 255), "little")
 
