@@ -7,6 +7,7 @@
 static struct CMUnitTest tests[64];
 static CMFixtureFunction set_ups[FIXTURES_MOST], tear_downs[FIXTURES_MOST];
 static size_t test_count, set_up_count, tear_down_count;
+static int tear_down_failures;
 
 void test_set_up(CMFixtureFunction fixture)
 {
@@ -38,12 +39,15 @@ static int set_up_all(void **state)
 
 static int tear_down_all(void **state)
 {
-    return run_all(tear_downs, tear_down_count, state);
+    return tear_down_failures = run_all(tear_downs, tear_down_count, state);
 }
 
+// cmocka does not count failures of tear_down_all.
 int tests_run(void)
 {
-    return _cmocka_run_group_tests("tests", tests, test_count, set_up_all, tear_down_all);
+    const int failures =
+        _cmocka_run_group_tests("tests", tests, test_count, set_up_all, tear_down_all);
+    return failures + tear_down_failures;
 }
 
 // Programs with arguments have their own main().
