@@ -76,7 +76,7 @@ static bool take_message(const Head *head, Error *cause)
     char message[sizeof head->message];
     snprintf(message, sizeof message, "%.*s", (int)sizeof message - 1, head->message);
     for (char *c = message; *c != '\0'; c++)
-        if (*c < ' ' || *c == 127)
+        if ((unsigned char)*c < ' ' || *c == 127)
             *c = ' ';
     return error_set(cause, "%s", message[0] != '\0' ? message : "it is damaged");
 }
