@@ -15,7 +15,7 @@ typedef struct {
     Stage stage; // with pair nodes
     CameraData camera;
     RenderSettings settings;
-    Framebuffer plain, picture; // without --aov certainty; with repaired pixels
+    Framebuffer plain, picture; // drawn without --aov certainty; its repaired copy
     Layers seen; // the plain picture's first hits: primitive, material, share of lights
     CertaintyMap map;
 } Certified;

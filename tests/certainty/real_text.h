@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traces a ray tree without recursion and returns its decisions. Compiled for two number types
-// (real_64.c, real_113.c). The sign of a sum is settled if the sum's magnitude exceeds the ray's
-// tolerance times a bound on the sum's terms. The tolerance of camera rays is TOLERANCE, at least
+// Traces a ray tree without recursion and returns its decisions. real_64.c and real_113.c include
+// this file with two number types. The sign of a sum is settled if the sum's magnitude exceeds the
+// ray's tolerance times a bound on the sum's terms. The tolerance of camera rays is TOLERANCE, over
 // 1000 roundings. Reflections multiply it by GROWTH; at ordinary shapes, errors grow far less.
 #include "certainty/real.h"
 
@@ -214,8 +214,8 @@ static bool nearest_is_settled(const Nearest *nearest)
     return nearest->other > stop->t + (stop->t - stop->low);
 }
 
-// Returns whether two triangles have the same corners. A ray hits both at one point, and a ray that
-// leaves either starts on both.
+// Returns whether two triangles have the same corners, which are stored sorted. A ray hits both at
+// one point, and a ray that leaves either starts on both.
 static bool are_coincident(const TriangleData *one, const TriangleData *other)
 {
     return memcmp(one->a, other->a, sizeof one->a) == 0 &&

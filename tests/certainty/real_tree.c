@@ -17,7 +17,7 @@ static void include(RealNode *node, const float point[3])
     }
 }
 
-// Computes a node's box, and halves more than LEAF_MOST triangles. Children take two free nodes.
+// Computes a node's box. Gives more than LEAF_MOST triangles to two children, half to each.
 static void divide(RealTree *tree, uint32_t number, const FlatScene *flat)
 {
     RealNode *node = &tree->nodes[number];

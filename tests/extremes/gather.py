@@ -21,8 +21,8 @@ HEAD = """# The extremes, measured
 
 Made by `tests/extremes/gather.py` on {date}, on an {machine}.
 
-tests/extremes/README.md describes the tests and the lines of cases. `rays` counts the rays, pixels,
-boxes or files of a test in one form of the kernels. The columns packet, wide and pair contain the
+tests/extremes/README.md describes the tests and the lines of cases. `rays` counts the rays, pixels
+or boxes of a test in one form of the kernels. The columns packet, wide and pair contain the
 failures of the three forms. The columns of Embree contain the failures of Embree 3.13.5 on the same
 rays and triangles, in its default and robust modes. An empty cell means that no case was run. A
 test holds if no case has more failures than its limit.

@@ -11,7 +11,7 @@
 #define FORMS_FP32 (FORMS - 1)
 extern const KernelChoice form_all[FORMS];
 
-// Returns the selected form. Ends the process if no form has that name.
+// Returns the selected form. Ends the process if CLRT_TEST_KERNEL names no form.
 KernelChoice form_choice(void);
 
 // Returns the number of work-items along each side of a work-group, as clrt chooses it.

@@ -12,7 +12,7 @@ typedef void PictureVisit(Explainer *explainer, const Framebuffer *picture, void
 
 typedef struct {
     const char *scene_path;
-    const Scene *scene;     // instead of the file's; borrowed; or NULL
+    const Scene *scene;     // replaces the file's scene; borrowed; NULL: the file's
     uint32_t view;          // from 1
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // per pixel and axis

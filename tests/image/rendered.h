@@ -31,7 +31,7 @@ Vec3 layer_vector(const uint32_t bits[3]);
 void rendered_expect_same(const PictureRequest *expected, const PictureRequest *others,
                           size_t count);
 
-// Draws a picture in every form in fp32, and with other threads, trees and programs. Fails the test
+// Draws a picture in every fp32 form, with varied threads, trees and specialization. Fails the test
 // unless all have the same bits.
 void rendered_expect_same_in_every_form(const PictureRequest *usual);
 

@@ -29,7 +29,7 @@ static double component(Vec3 v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// Checks that a surface's color is the sum of its reported lights.
+// Checks that a surface's color is the sum of the ambient light and its reported lights.
 static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
 {
     const Scene *scene = explainer->scene;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Pictures must have the recorded hashes on every device, PoCL target and compiler setting.
-// Usage: test_hashes SIZE [VIEWS] checks the recorded pictures of size SIZE and of views up to
-// VIEWS. `test_hashes refined` checks refined pictures, with two settings each of --aa-adaptive and
-// --error. With `list` before these words, the test prints the records with the rendered hashes.
-// A new record starts with the hash 0. CLRT_TEST_SCENES limits the scenes to the listed ones.
+// Usage: test_hashes [SIZE [VIEWS]] checks the recorded pictures of size SIZE (128) and of views up
+// to VIEWS. `test_hashes refined` checks refined pictures, with two settings each of --aa-adaptive
+// and --error. With `list` before these words, the test prints the records with rendered hashes. A
+// new record starts with the hash 0. CLRT_TEST_SCENES limits the scenes to the listed ones.
 // CLRT_TEST_OPTIONS contains options for the compiler of kernels.
 #include "image/course.h"
 #include "image/rendered.h"
@@ -29,7 +29,7 @@ static const struct {
                 {"error-0.01", 0, 0.01}};
 #define SETTINGS (sizeof settings / sizeof settings[0])
 
-// `number` is the view, or the setting of a refined picture.
+// `number` is the view or, for a refined picture, the index in settings.
 typedef struct {
     char scene[64], hash[FRAMEBUFFER_HASH_SIZE];
     unsigned number, size;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// In one precision, a scene must give the same bits regardless of the kernels' form, the tree, the
-// tiles, the work-groups and the program.
+// In one precision, a scene must give the same bits regardless of the kernels' form and
+// specialization, the tree, the tiles and the work-groups.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes OpenCL refuse a launch while the previous launch runs. clrt must wait for the previous
-// launch, which the test holds until then.
+// Makes OpenCL refuse a launch while the test holds the previous launch back. clrt must wait for
+// the previous launch before it frees memory.
 #include "image/rendered.h"
 
 #include <dlfcn.h>

@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-// Two steps of floats below 1 and two of 2^-32: both colors are rounded to such steps.
+// Two float steps below 1 and two of 2^-32, to which clrt rounds colors before storing floats.
 #define ROUNDED 0x1.01p-23f
 
 #define FP64 (&form_all[FORMS_FP32])

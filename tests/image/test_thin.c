@@ -17,7 +17,7 @@ typedef struct {
     double x, y;
 } Corner;
 
-// Triangles that share no vertex, counter-clockwise in front.
+// Triangles that share no vertex, each added with corners counter-clockwise for the camera.
 typedef struct {
     char scene[TEMPORARY_PATH], mesh[TEMPORARY_PATH];
     Mesh triangles;

@@ -43,8 +43,8 @@ kernel void probe_highlights(global const float *cases, global float *results)
     results[item] = highlight(&material, load3(values), load3(values + 3));
 }
 
-// values holds pairs {base, exponent}. results receives the power computed by each kind of
-// highlight.
+// values holds pairs {base, exponent}. results receives pairs of the power, computed by squaring
+// and by exponential().
 kernel void probe_powers(global const Scalar *values, global Scalar *results)
 {
     const uint item = get_global_id(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals of spheres always point outward. The normals and the true face of a triangle are turned
-// to the viewer.
+// `face` points toward the viewer. A triangle's `normal` is flipped together with `face`, whereas a
+// sphere's `normal` always points outward.
 #include "oracle/surface.h"
 
 // The largest error of a hit point, relative to its coordinates and distance. New rays ignore hits

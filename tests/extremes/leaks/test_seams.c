@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays must hit open shapes at their common edges and at other points well inside the outline.
+// Rays must hit open shapes at edges that two triangles share and well inside the outline.
 #include "support/rig.h"
 #include "support/shapes.h"
 

@@ -32,8 +32,8 @@ static Vec3 random_edge_point(const Mesh *mesh, Random *random, bool at_end)
     return vec3_add(a, vec3_scale(vec3_sub(b, a), along));
 }
 
-// Returns a closed shape with sharp edges, lights all around it, and a view from inside of an edge
-// or vertex. The narrowest views show a single rounded point in neighboring pixels.
+// Returns a closed shape with sharp edges, lights all around it, and a camera inside that looks at
+// an edge or vertex. In the narrowest views, neighboring pixels show the same rounded point.
 static Scene lit_from_outside(double distance, size_t view, Random *random)
 {
     Error error = {0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene's size and place, the device's denormals, the order of tiles and of triangles, and the
-// tree must not change a bit of the picture. image/test_identity.c varies kernels and their work.
+// tree must not change a bit of the picture. image/test_identity.c varies kernels and work-groups.
 #include "support/random.h"
 #include "support/shapes.h"
 #include "support/varied_scene.h"
@@ -80,7 +80,7 @@ EXTREME(turned_corners_and_copies_in_any_order_draw_the_same_picture_t13)
             turn_corners(&scene.objects.data[object].mesh, &random);
             shape_add(&scene, shape_reordered(copy.objects.data[object].mesh, &random), 1);
         }
-        copy.objects.count = 0; // scene has its meshes
+        copy.objects.count = 0; // scene owns the copy's meshes
         scene_free(&copy);
         outcome_add(&sum, compare("T-13", *state, &usual, scene));
     }

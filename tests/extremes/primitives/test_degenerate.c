@@ -28,9 +28,9 @@ static Mesh flat_mesh(void)
     return mesh;
 }
 
-// The first view contains everything. The second view shows the triangle that is parallel to
-// an axis from the side, in the middle column. The third view shows this triangle from its end, in
-// the middle pixel.
+// The first view contains everything. The second view looks from the side at the triangle parallel
+// to an axis, so the middle column shows this triangle. The third view looks along the axis, so the
+// middle pixel shows this triangle.
 static const char *const views[] = {"camera 3 -6 2 0 0 0 45\n",
                                     "up 0 1 0\ncamera 1.5 0.125 6 1.5 0.125 -2 40\n",
                                     "camera 1.5 -6 0.5 1.5 0 0.5 40\n"};

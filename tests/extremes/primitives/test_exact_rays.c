@@ -25,7 +25,7 @@ typedef struct {
 #define STEPS     19 // points across the cube, half a cell apart, and one outside on each side
 #define AXIS_RAYS (3 * 2 * 3 * 4 * 4 * STEPS * STEPS)
 
-// The digits of number choose axis, sign, length, distance, signs of zeros, and position.
+// The mixed-radix digits of `number` choose axis, sign, length, distance, signs of zeros, position.
 static AxisRay axis_ray(size_t number)
 {
     static const float lengths[] = {1, 2, 0.25f}, distances[] = {0.5f, 0.625f, 1.5f, 3};
@@ -121,8 +121,8 @@ static Scene octahedron(void)
     return scene;
 }
 
-// Returns a ray in the plane x + y + z = 0.5 toward a point of its face, in multiples of 2^-9. The
-// largest component of the direction is 1, so that the shear is exact.
+// Returns a ray in the plane x + y + z = 0.5 toward a point of the face there. All coordinates are
+// multiples of 2^-9. The direction's largest component is 1 or -1, so that the shear is exact.
 static TestRay ray_in_tilted_plane(Random *random)
 {
     const uint32_t x = 1 + random_below(random, 254), y = 1 + random_below(random, 255 - x);
@@ -167,8 +167,8 @@ typedef struct {
 } Soup;
 
 // Along each axis, the error of the ray's point at t is at most 24 roundings of the largest
-// distance between origin and corners. The proof of the box slack gives 22 roundings, and the
-// computation of the point adds 2.
+// distance between origin and corners. The proof of BVH_SLACK (shared.h) gives 22 roundings, and
+// the computation of the point adds 2.
 static bool judge_point(void *context, const Traced *traced)
 {
     Soup *soup = context;

@@ -19,7 +19,7 @@ static Scene three_scales(void)
     return scene;
 }
 
-// Rays start beside the small triangle and go to each of the three objects in turn.
+// Rays start close to the small triangle and go to each of the three objects in turn.
 static void aim_at_scales(Rays rays, const Stage *stage, Random *random)
 {
     Vec3 from = {0};

@@ -15,7 +15,7 @@ static const float components[] = {0.0f,   -0.0f,   1e-45f, -1e-45f, 1e-38f, -1e
 #define DIRECTIONS (COUNT(components) * COUNT(components) * COUNT(components))
 #define INNER_RAYS 100 // per direction
 
-// Returns a ray from a point of the room. The digits of number choose the direction's components.
+// Returns a ray from a point of the room. Digits of `number` choose the direction's components.
 static TestRay special_ray(size_t number, const Room *room, Random *random)
 {
     TestRay ray = {.own = NOTHING};
@@ -26,7 +26,7 @@ static TestRay special_ray(size_t number, const Room *room, Random *random)
 }
 
 // Every direction leads from inside a closed shape to the shape. The test skips directions shorter
-// than 1e-20. Reciprocals of their components can overflow, and pictures hardly ever need them.
+// than 1e-20. Pictures hardly ever need them, and reciprocals of their components can overflow.
 EXTREME(directions_of_special_values_leave_no_closed_shape_t21)
 {
     Random random = {21};
@@ -68,8 +68,8 @@ static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size
     return disturbed;
 }
 
-// Returns the hits, and stores the least of five processor times in seconds. Processor time does
-// not depend on other processes.
+// Returns the hits, and stores the least of five processor times in seconds. Processor time depends
+// less on other processes than elapsed time.
 static TestHit *trace_timed(RayBatch *batch, Rays rays, double *seconds)
 {
     TestHit *hits = NULL;
@@ -103,7 +103,7 @@ static void judge_spoiled(RayBatch *batch, Rays rays, float value)
         free(hits);
     }
     free(expected);
-    // Times at tier 0 mean nothing, because other tests run beside this one.
+    // Tier 0 does not judge times, because other tests run beside this one.
     disturbed += tier() > 0 && slowest > SLOWEST;
     outcome_report(outcome_of("T-23", FIELDS * rays.count, disturbed), "value=%g times=%.2f",
                    (double)value, slowest);
@@ -133,7 +133,7 @@ static bool judge_far(void *triangles, const Traced *traced)
     return judge_exactly(triangles, traced) && (is_followed || traced->hit->id != NOTHING);
 }
 
-// Aims from this distance along an axis. Every second ray is slightly slanted.
+// Aims from this distance along an axis. Every second ray is slanted, and almost always misses.
 static void aim_from(Rays rays, float distance, Random *random)
 {
     for (size_t i = 0; i < rays.count; i++) {

@@ -50,10 +50,10 @@ static double exact_distance(const SphereData *sphere, const TestRay *ray)
     return (double)(near > 0 ? near : far);
 }
 
-// The numbers of hits that differ from the exact hits.
+// Counts of rays with wrong hits, and the largest relative error of a distance.
 typedef struct {
     size_t sides;   // hits for misses or misses for hits
-    size_t inexact; // distances
+    size_t inexact; // distances with an error above ERROR_LIMIT
     size_t invalid; // no distance for a hit, or a distance for a miss
     double largest_error;
 } Differences;

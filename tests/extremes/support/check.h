@@ -26,15 +26,15 @@ static inline void *require_memory(size_t count, size_t size)
     return memory;
 }
 
-// Returns the tier in CLRT_TEST_TIER: 0 for every change (the default), 1 for minutes, 2 for
-// releases.
+// Returns the tier in CLRT_TEST_TIER: 0 (the default) for every change, 1 for runs of minutes,
+// 2 for releases.
 static inline int tier(void)
 {
     const char *text = getenv("CLRT_TEST_TIER");
     return text != NULL ? atoi(text) : 0;
 }
 
-// Returns a size for tier 0 or for the other tiers.
+// Returns `small` at tier 0 and `full` at the other tiers.
 static inline size_t tier_size(size_t small, size_t full)
 {
     return tier() == 0 ? small : full;

@@ -7,11 +7,11 @@
 #include <math.h>
 
 // The largest distance by which rounding of corners, shear and edge functions moves an outline,
-// relative to the largest distance between the origin and a corner.
+// relative to the largest distance between the ray's origin and a corner.
 #define DOUBT (34 * 0x1p-24L)
 
-// The largest error of depth, by triangle_depth_error of kernels/triangle.inc.cl with the least
-// accurate division.
+// The same for the error of depth: triangle_depth_error's bound (kernels/triangle.inc.cl) with the
+// least accurate division that OpenCL allows.
 #define DEPTH_DOUBT (27 * 0x1p-24L)
 
 typedef struct {
@@ -29,7 +29,7 @@ static Axes axes_of(const TestRay *ray)
 
 typedef struct {
     long double x[3], y[3], z[3];
-    long double reach; // the largest distance of a corner from the origin along an axis
+    long double reach; // the largest distance of a corner from the ray's origin along an axis
 } Sheared;
 
 static Sheared sheared(const Triangles *triangles, size_t triangle, const TestRay *ray,

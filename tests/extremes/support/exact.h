@@ -18,9 +18,9 @@ Verdict exact_nearest(const Triangles *triangles, const TestRay *ray);
 // A ray and a single triangle.
 typedef struct {
     bool met;
-    double t;        // of the triangle's plane, if met
+    double t;        // of the hit, if met
     double distance; // from the ray to the outline, at right angles to the direction's longest axis
-    double size;     // the largest distance between the origin and a corner along an axis
+    double size;     // the largest distance between the ray's origin and a corner along an axis
 } ExactMeeting;
 
 ExactMeeting exact_meeting(const Triangles *triangles, size_t triangle, const TestRay *ray);

@@ -10,7 +10,7 @@ typedef enum { BY_CLRT, BY_EMBREE_DEFAULT, BY_EMBREE_ROBUST, TRACERS } RayTracer
 
 typedef struct {
     const char *test;
-    size_t count;             // rays, pixels, boxes or files
+    size_t count;             // rays, pixels or boxes
     size_t failures[TRACERS]; // wrong ones, by ray tracer
     size_t limit;             // the largest number of clrt's failures with which the case passes
     bool has_peers;           // Embree has traced the rays

@@ -13,7 +13,7 @@ typedef struct {
     Normalization normalization;
 } Peers;
 
-// Gives Embree the triangles of a stage without spheres.
+// Opens Embree with the stage's triangles, unless the stage has spheres or no triangles.
 void peers_open(Peers *peers, const Stage *stage);
 void peers_close(Peers *peers);
 

@@ -29,7 +29,7 @@ typedef struct {
 PictureSettings picture_settings(uint32_t side);
 
 // Opens a renderer with the kernels in CLRT_KERNEL_DIR, or the built-in kernels. The caller closes
-// it before it frees the stage, whose memory the device may share.
+// the renderer before freeing the stage, because the device may share the stage's memory.
 void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings);
 

@@ -7,7 +7,7 @@
 
 typedef uint64_t Random; // any value is a seed
 
-// Returns a point of the cube [-half_side, half_side)^3.
+// Returns a point of the cube [-half_side, half_side]^3.
 static inline Vec3 random_in_cube(Random *random, double half_side)
 {
     const double x = random_between(random, -half_side, half_side);

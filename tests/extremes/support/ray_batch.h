@@ -73,8 +73,8 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat);
 // Replaces the scene by one sphere.
 void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 
-// Returns the rays' hits, which the caller frees. task is BATCH_NEAREST or BATCH_BLOCKED. Rays are
-// sorted by kind, signs of the direction, and origin. Successive rays form packets.
+// Returns the hits in the order of `rays`; the caller frees them. task is BATCH_NEAREST or
+// BATCH_BLOCKED. Sorts a copy of the rays by kind, signs of the direction, and origin for packets.
 TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
 
 // The id of a ray of ray_batch_leave that hits nothing although the shadow ray along it is blocked.

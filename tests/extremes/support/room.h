@@ -5,7 +5,7 @@
 #include "random.h"
 #include "stage.h"
 
-// The points in a cube and a ball around one center, in normalized coordinates.
+// The points that a cube and a ball around one center share, in normalized coordinates.
 typedef struct {
     Vec3 center;
     double half_side; // of the cube

@@ -40,11 +40,11 @@ Vec3 shape_center(int exponent);
 
 #define SPHERE_RADIUS 2.0
 
-// A closed sphere: `rings` bands of 2 * rings quads of two triangles, or of triangles at a pole.
+// A closed sphere of `rings` bands. A band has 2 * rings quads, or 2 * rings triangles at a pole.
 Mesh shape_sphere(uint32_t rings, Vec3 center);
 
-// A closed globe of 16 bands of 16 quads. Its vertices are at random distances of 1 to 6 from
-// center (after the bumpy sphere of pbrt's tests).
+// A closed globe of 16 bands of 16 quads, or of 16 triangles at a pole. Its vertices are at random
+// distances of 1 to 6 from center (after the bumpy sphere of pbrt's tests).
 Mesh shape_bumpy(Random *random, Vec3 center);
 
 // A fan of count triangles around the origin. Its rim, at distance 1 from the z axis, waves around
@@ -57,7 +57,7 @@ Mesh shape_plane(Vec3 corner, Vec3 across, Vec3 down, uint32_t cells);
 // The surface of the cube [-half_side, half_side]^3, each face of cells * cells quads.
 Mesh shape_cube(double half_side, uint32_t cells);
 
-// count triangles at random places of [-1, 1]^3. Corners are up to size from their place per axis.
+// count triangles at random places of [-1, 1]^3. Per axis, corners are within size of the place.
 Mesh shape_soup(Random *random, uint32_t count, double size);
 
 Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c);

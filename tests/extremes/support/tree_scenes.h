@@ -9,5 +9,5 @@
 
 extern const char *const tree_scene_names[TREE_SCENES];
 
-// Returns the same scene at every call. The caller frees it.
+// Returns the scene with this index, the same at every call. The caller frees it.
 Scene tree_scene_make(size_t number);

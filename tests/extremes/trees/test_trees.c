@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every tree gives the same hits as a test of all primitives, to the bit.
+// The trees of both builders give the same hits as a test of all primitives, to the bit.
 #include "support/rig.h"
 #include "support/shapes.h"
 #include "support/tree_scenes.h"
