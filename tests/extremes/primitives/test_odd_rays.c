@@ -133,7 +133,7 @@ static bool judge_far(void *triangles, const Traced *traced)
     return judge_exactly(triangles, traced) && (is_followed || traced->hit->id != NOTHING);
 }
 
-// Aims from this distance along an axis. Every second ray is slanted, and almost always misses.
+// Aims from this distance along an axis. Every second ray is slanted.
 static void aim_from(Rays rays, float distance, Random *random)
 {
     for (size_t i = 0; i < rays.count; i++) {
@@ -143,7 +143,7 @@ static void aim_from(Rays rays, float distance, Random *random)
         *ray = ray_between(random_in_cube(random, 0.5), vec3(0, 0, 0));
         ray->origin[axis] = side * distance;
         for (uint32_t other = 0; other < 3; other++)
-            ray->direction[other] *= i % 2 == 0 ? 0 : 0.5f;
+            ray->direction[other] *= i % 2 == 0 ? 0 : 1 / distance;
         ray->direction[axis] = -side;
     }
 }
