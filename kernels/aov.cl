@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernels of --aov write data about each pixel's hit and about its cost, with the search of
-// trace.cl. These kernels are compiled after render.cl, and only if requested.
+// The kernels of --aov, except certainty (certify.cl), write each pixel's hit and its cost. They
+// use the search of trace.cl. They are compiled after render.cl, and only if requested.
 
 static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface *surface, Mask met)
 {

@@ -10,9 +10,9 @@
 
 #if CLRT_WIDE_NODES
 
-// A subtree that this many lanes of a beam enter, or fewer, is searched ray by ray. Dense scenes
-// scatter rays. With the two limits exchanged, scenes of 6 thousand triangles take 9 % longer, and
-// scenes of a million take 10 % longer.
+// If at most this many lanes of a beam enter a subtree, it is searched ray by ray. The limit is
+// higher in dense scenes, which scatter rays. With the two limits exchanged, scenes of 6 thousand
+// triangles take 9 % longer, and scenes of a million take 10 % longer.
 #define MOST_LANES_LEAVING       12
 #define MOST_LANES_LEAVING_DENSE 40
 
@@ -32,8 +32,8 @@ typedef struct {
     uint inside[WIDE_STACK_SIZE]; // for each child on the stack: the packets inside its parent
 } Beam;
 
-// Returns bounds over the packets whose bits are set, at least one. If several are set, returns the
-// whole beam's bounds.
+// Returns bounds over the packets whose bits are set. At least one bit must be set. If several are
+// set, returns the whole beam's bounds.
 static inline const Bounds *bounds_of(Beam *beam, uint packets)
 {
     if ((packets & (packets - 1)) != 0 || beam->count == 1)
@@ -107,8 +107,8 @@ static inline void update_packet(Beam *beam, uint number)
     beam->reach[number] = highest(lanes_of(beam->live[number]) ? hit->t : (Real)(0.0f));
 }
 
-// Tests a block against the given lanes of the given packets, at least one. Returns whether a hit
-// changed.
+// Tests a block against the given lanes of the given packets. At least one packet must be given.
+// Returns whether a hit changed.
 static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint packets,
                                             const uint bits[PACKETS])
 {

@@ -8,8 +8,8 @@
 
 #if CLRT_WIDE_NODES
 
-// All rays enter a plane at or after the smaller of fma(plane, inverse_low, near_low) and
-// fma(plane, inverse_high, near_high). They leave at or before the larger of
+// All rays cross a near plane of a box at or after the smaller of fma(plane, inverse_low, near_low)
+// and fma(plane, inverse_high, near_high). They cross a far plane at or before the larger of
 // fma(plane, inverse_low, far_low) and fma(plane, inverse_high, far_high).
 typedef struct {
     uint negative; // the rays enter by the higher plane
@@ -40,8 +40,8 @@ static inline float highest(Real v)
     return -lowest(-v);
 }
 
-// The extremes of rays' inverse directions and origins on an axis, lane by lane. Each origin is
-// moved by its own slack, and by the slack of nodes, which boxes of single triangles lack.
+// The extremes of rays' inverse directions and origins on an axis, lane by lane. Each origin moves
+// by its own slack, and by the slack of node boxes, because boxes of single triangles do not grow.
 typedef struct {
     Real inverse_low, inverse_high, behind, ahead;
 } AxisRange;
@@ -129,8 +129,8 @@ static inline float8 block_plane(global const TriangleBlock *block, const Bounds
 }
 
 // Returns the bits of the triangles that some ray may hit before `reach`, on average a third of the
-// block. Testing one triangle against all lanes costs as much as this call. Sharing the bounds'
-// comparison with children_near makes pictures 2 to 4 % slower.
+// block. Testing one triangle against all lanes costs as much as this call. A box test shared with
+// children_near would make pictures 2 to 4 % slower.
 static inline uint triangles_near(global const TriangleBlock *block, const Bounds *bounds,
                                   float reach)
 {

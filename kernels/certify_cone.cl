@@ -34,17 +34,17 @@
 //   6. Interpolated normal: 3u per weight, 3u for the interpolation, and the change of the weights
 //      by sliding. A factor common to all weights does not turn the normal.
 //   7. Directions to lights: u for the difference, 4u for the unit vector. A shadow ray ends within
-//      u of its length from the light. The side of a face that a light is on depends only on stored
-//      numbers (side_of). Reflection turns by twice the normal's error plus the ray's, and rounds
-//      by 12u.
+//      u of its length from the light. Whether a light is before or behind a face depends only on
+//      stored numbers (side_of). Reflection turns by twice the normal's error plus the ray's, and
+//      rounds by 12u.
 //   8. Spheres: certify_sphere.cl.
 #ifndef CLRT_CERTIFY_CONE_CL
 #define CLRT_CERTIFY_CONE_CL
 
 #define OWN_ROUNDOFF 0x1p-53
 
-// A point of a surface. On a triangle it lies within `slide` of the point in the triangle's plane
-// and within `lift` off the plane. On a sphere it lies within `lift`.
+// A point known within bounds. On a triangle it is at most `slide` from `point` along the plane and
+// at most `lift` off the plane. On a sphere it is at most `lift` from `point`.
 typedef struct {
     Real3 point;
     Real3 face; // unit normal of the triangle's plane

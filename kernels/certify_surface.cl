@@ -25,8 +25,8 @@ static inline Real turn_of(Real doubt, Real length)
     return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
 }
 
-// Interpolates the normal by the weights. Sliding along the triangle changes a weight by the slide
-// over the height of its corner.
+// Interpolates the normal by the weights. Sliding along the triangle changes a weight by the
+// length of the slide divided by the altitude of the weight's corner.
 static inline void interpolate_normal(UncertainSurface *surface, const Corners *normals,
                                       Real3 weights, const Corners *corners, Real u)
 {
@@ -195,8 +195,8 @@ static inline Answer certify_normal_facing(const UncertainSurface *surface, cons
     return cosine > 0.0f ? ANSWER_YES : ANSWER_NO;
 }
 
-// Corners and lights are stored values, so only rounding can leave a light's side of a triangle
-// undecided.
+// Corners and lights are stored values. Only rounding can leave it undecided on which side of the
+// triangle the light lies.
 static inline Answer certify_face_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
     const UncertainPoint light = {to_light->goal.point, surface->face, 0.0f, 0.0f};
@@ -219,7 +219,7 @@ static inline Answer certify_facing(const UncertainSurface *surface, const RayCo
 
 // The ray is mirrored at the face wherever ray_reflected does so. The two reflections agree at the
 // face's horizon. Near the horizon either may apply, and their difference counts as doubt. A
-// sphere's face is its normal.
+// sphere's face is parallel to its normal, so its rays are not mirrored again.
 static inline RayCone reflected_cone(const UncertainSurface *surface, const RayCone *before)
 {
     const Real u = before->u + OWN_ROUNDOFF;

@@ -18,7 +18,7 @@ typedef struct {
     Edges edges; // across the ray; the determinant is twice the area, positive if the front is seen
     Real blur;   // of all corners
     Real size;   // upper bound of the corners' distances
-    Real sides;  // sum of the two edges at the first corner
+    Real sides;  // sum of the lengths of the two edges at the first corner
     bool clear;  // the axis passes all edges by more than the blur
     bool inside; // clear, and the axis passes inside all edges
     bool faces;  // the visible side is certain
@@ -88,9 +88,9 @@ static inline Real slope_of(const ProjectedTriangle *projected)
 }
 
 // A hit lies within the blur of the axis. Its depth lies between the depths of the corners. The
-// plane's slope limits its distance from the axis's own hit. A broad triangle is more than 8 blurs
-// high. Weights then stay within [-1/4, 5/4], and rounding tilts the plane by less than half of
-// 1 + slope. A bound of 4 (1 + slope) blurs covers all of this.
+// plane's slope limits how far this depth is from that of the axis's own hit. A broad triangle is
+// more than 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the plane by
+// less than half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this.
 static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 {
     const Corners *c = &projected->corners;

@@ -28,7 +28,7 @@ static inline UInt times_bit(UInt number, uint bit, uint value)
     return (number >> bit & 1) * value;
 }
 
-// Coordinates of the first 16 points of Sobol's sequence (host/refine/ladder_requests.c).
+// Coordinates of the first 16 points of Sobol's sequence (host/refine/ladder.h).
 static inline UInt point_x(UInt point)
 {
     return times_bit(point, 0, 512) | times_bit(point, 1, 256) | times_bit(point, 2, 128) |

@@ -6,8 +6,8 @@
 #define CLRT_NUMERIC_CL
 #include "lanes.cl"
 
-// The triangle test for Real, and below for one ray against the eight triangles of a block. Both
-// compile the same files, so their results are equal.
+// This inclusion defines the triangle test for Real. The one below defines it for one ray against
+// the eight triangles of a block. Both compile the same files, so their results are equal.
 #include "triangle.inc.cl"
 
 // Wide: a Real for each of the WIDE triangles of a block, or for each child of a wide node.
@@ -127,7 +127,7 @@ static inline Real integer_power(Real base, UInt exponent)
 static inline Real log_series(Real s)
 {
     Real series = RATIO(2.0f, 13.0f);
-    if (CLRT_FP64) { // float needs only the terms from 2/13 on
+    if (CLRT_FP64) { // float needs only the terms up to 2/13
         series = fma(RATIO(2.0f, 21.0f), s, RATIO(2.0f, 19.0f));
         series = fma(series, s, RATIO(2.0f, 17.0f));
         series = fma(series, s, RATIO(2.0f, 15.0f));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rendering kernel: a work-item renders one pixel of a tile. With wide nodes, a work-item
-// renders a block of BLOCK x BLOCK pixels, PACKETS packets at a time.
+// The rendering kernel. With binary nodes, a work-item renders one pixel of a tile. With wide
+// nodes, it renders a block of BLOCK x BLOCK pixels, PACKETS packets at a time.
 #include "trace.cl"
 
 #if CLRT_LANES == 1

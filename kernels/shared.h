@@ -87,7 +87,7 @@ CLRT_SAME_SIZE(TriangleData, 48)
 // Vertex normals of a smooth triangle, in the stored order of its corners. Their lengths weight the
 // interpolation. They point to the stored front; the normals of a reversed triangle are negated.
 typedef struct {
-    float normals[3][4]; // the fourth component is zero: keeps each vector 16 bytes
+    float normals[3][4]; // the fourth component is zero and pads each vector to 16 bytes
 } CornerNormals;
 CLRT_SAME_SIZE(CornerNormals, 48)
 

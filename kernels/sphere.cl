@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Ray-sphere intersection in two-float arithmetic: values are unevaluated sums high + low of 48
 // bits (106 if Real is double). Single floats lose the discriminant of far, small and huge spheres
-// to cancellation: a ground sphere of radius 1e7 is 18 % wrong. Two-float arithmetic avoids this
-// without fp64. Roots after Haines, Guenther and Akenine-Moeller, Ray Tracing Gems ch. 7; sums and
-// products after Knuth and Dekker.
+// to cancellation: for a ground sphere of radius 1e7, the error is 18 %. Two-float arithmetic
+// avoids this without fp64. Roots follow Haines, Guenther and Akenine-Moeller (Ray Tracing Gems,
+// chapter 7); sums and products follow Knuth and Dekker.
 #ifndef CLRT_SPHERE_CL
 #define CLRT_SPHERE_CL
 #include "numeric.cl"

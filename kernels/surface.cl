@@ -8,9 +8,9 @@
 // The shading normal and the true face can face opposite sides. Two rules then decide which light
 // reaches the surface and which rays leave it. The face's normal always points to the ray's side.
 //  - A light reaches a point only if the shading normal and the face both face it (shade.cl). The
-//    course's renderers have the same effect by starting shadow rays slightly off the surface: the
-//    face then blocks a light behind it. A sphere seen from inside keeps its outward normal, as in
-//    the course. Its inner face and its normal never face the same light, so it stays unlit.
+//    course's renderers (docs/scenes.md) start shadow rays slightly off the surface with the same
+//    effect: the face blocks a light behind it. A sphere seen from inside keeps its outward normal,
+//    as in the course. Its inner face and its normal never face the same light, so it stays unlit.
 //  - A reflected ray that the shading normal sends into the face is mirrored out at the face.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL

@@ -4,10 +4,10 @@
 // the sheared vertices bit for bit. Kahan's difference of products gives each shared edge its exact
 // sign in both triangles, so no ray passes between them.
 //
-// numeric.cl includes this file up to twice: for one ray or a packet of rays and one triangle, and
-// for one ray and eight triangles. The file expects the number types Real, Mask and UInt, and
-// OVERLOAD (lanes.cl). Defines the functions and the types Real3, Shear, Corners, Edges, SurfaceRay
-// and Sides. The second inclusion has to rename these types by macros.
+// numeric.cl includes this file up to twice: for one triangle against one ray or a packet of rays,
+// and for eight triangles against one ray. The file expects the number types Real, Mask and UInt,
+// and OVERLOAD (lanes.cl). It defines the functions and the types Real3, Shear, Corners, Edges,
+// SurfaceRay and Sides. The second inclusion has to rename these types by macros.
 #include "vector.inc.cl"
 
 // The shear that turns the ray into the axis z. z is the longest axis of the direction; x and y
@@ -161,7 +161,7 @@ typedef struct {
 // is certainly on the side that the ray comes from. On the inner side, which only two-sided
 // triangles show, this is also true of convex neighbors. There t must be certain, too, except for
 // the eye, which is on no surface. A triangle on which the light lies, within the error of t, does
-// not shadow the ray. in_doubt receives the lanes whose rays only rounding keeps from stopping.
+// not shadow the ray. in_doubt receives the lanes whose rays may pass only because of rounding.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Mask *in_doubt)
 {

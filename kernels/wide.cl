@@ -223,7 +223,7 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     return update_lane_hit(&distances, start, lane, hits);
 }
 
-// Returns whether the scene probably exceeds the caches. Prefetching makes others 7 % slower.
+// Returns whether the scene probably exceeds the caches. Prefetching makes other scenes 7 % slower.
 static inline bool is_dense(const Tracer *tracer)
 {
     return tracer->frame->triangle_count >= 300000;

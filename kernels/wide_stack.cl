@@ -38,8 +38,8 @@ static inline uint8 entry_order(float8 entry, int8 met)
     return ~((as_uint8(entry) & 0x7ffffff8u) | place) | ~as_uint8(met);
 }
 
-// Steps of the network. They compare elements whose indices differ in the bits of the number in the
-// name, and move the smaller value to the lower index.
+// Steps of the network. exchanged_N compares each element with the one whose index is its own XOR
+// N, and moves the smaller value to the lower index.
 static inline uint8 exchanged_1(uint8 v)
 {
     const uint8 low = min(v, v.s10325476), high = max(v, v.s10325476);

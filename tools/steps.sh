@@ -8,8 +8,7 @@ on_terminal() {
 }
 
 # Reads a command's output and shows its progress: ninja and ctest print N/M, apt-get prints a
-# percentage (APT::Status-Fd). Also prints the lines that match the
-# pattern $2, if given.
+# percentage (APT::Status-Fd). Also prints the lines that match the pattern $2, if given.
 show_progress() {
     local name=$1 passed=${2-} percent= line= part status
     while :; do

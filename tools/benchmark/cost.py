@@ -54,8 +54,8 @@ class Picture:
 
 
 def rate(more, less):
-    """Returns the Mray/s of the rays that picture `more` has in addition to `less`, or None without
-    such rays."""
+    """Returns the Mray/s of the rays that picture `more` has in addition to `less`, or None if it
+    has no more rays or takes no more time."""
     rays = more.rays() - (less.rays() if less else 0)
     seconds = more.seconds() - (less.seconds() if less else 0)
     return rays / seconds / 1e6 if rays > 0 and seconds > 0 else None

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reads the PLY files of clrt's scenes and of the course: float vertices with or without normals,
-and triangles, little-endian or as text."""
+"""Reads the PLY files of clrt's scenes and of the course (docs/scenes.md): float vertices with or
+without normals, and triangles, little-endian or as text."""
 
 import array
 import struct

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The scenes for comparisons of renderers, as text: the scenes of tests/bench, the course's two
-meshes if they exist, and the variants of each."""
+"""The scenes for comparisons of renderers, as text: the scenes of tests/bench, the two
+meshes of the course (docs/scenes.md) if they exist, and the variants of each."""
 
 import pathlib
 

@@ -6,7 +6,7 @@ import re
 
 
 def numbers(turntable, text):
-    """Returns the pictures of --turntable and --frames: empty without both, None if malformed."""
+    """Returns the numbers of --turntable and --frames: empty without options, None if invalid."""
     if text is None:
         return range(1, (turntable or 0) + 1)
     found = re.fullmatch(r"(\d+)-(\d+)(?::(\d+))?", text)
@@ -16,7 +16,7 @@ def numbers(turntable, text):
 
 
 def share(all_numbers, task, tasks):
-    """Returns the numbers of a task, from 1 to tasks."""
+    """Returns the numbers of one task's pictures. Tasks are numbered from 1 to `tasks`."""
     count = len(all_numbers)
     return all_numbers[count * (task - 1) // tasks:count * task // tasks]
 

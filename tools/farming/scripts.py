@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the job scripts, unless they exist, because users may have changed them."""
+"""Writes the job scripts. Existing scripts stay unchanged, because users may have edited them."""
 
 import os
 import shlex
@@ -43,7 +43,7 @@ status=0
 
 # Slurm starts the task again later, on any host. The script sleeps until Slurm ends it.
 END = """\
-# Status 75: another host still draws this task, such as one cut off from the cluster.
+# Status 75: another host, perhaps one cut off from the cluster, still draws this task.
 if [ $status = 75 ] && [ -n "${SLURM_JOB_ID-}" ]; then
     scontrol requeue "$SLURM_JOB_ID"
     sleep 600

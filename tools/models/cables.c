@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cables start side by side near the ground and spread out toward the opposite corner. Each cable
-// has its own slight bend. A cable is a hexagonal tube of a few long segments.
+// Cables start side by side near the ground, rise diagonally and spread out. Each cable has its own
+// slight bend. A cable is a hexagonal tube of a few long segments.
 #include "cables.h"
 
 #include "base/array.h"

@@ -12,8 +12,8 @@ typedef struct {
     Field *field;
     Vec3 low, high; // the box that holds the surface, before the taper
     double cell;    // edge of a grid cell at z = 0: about the edge of a triangle
-    double taper;   // fraction of their size by which cells shrink per unit of height before the
-                    // taper, so that higher parts have finer triangles
+    double taper;   // per unit of height in the box, cells shrink by this fraction of their size at
+                    // z = 0, so that higher parts have finer triangles
 } Model;
 
 extern const Model model_creature, model_figure, model_coral;

@@ -8,8 +8,8 @@
 #include "base/vec.h"
 #include "wave.h"
 
-// Larger than the blends of the parts that use it. At this distance from such a part, a bound of
-// its field is sufficient.
+// This exceeds the blend widths with which the parts that use it are joined. At this distance from
+// such a part, a bound of its field is sufficient.
 #define SHAPE_FAR 0.05
 
 static inline double shape_smaller(double a, double b)
@@ -27,7 +27,7 @@ static inline double shape_clamp(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// Returns 0 up to low, 1 from high on, and a smooth cubic between.
+// Returns 0 up to low, 1 from high on, and a smooth cubic between. low may exceed high.
 static inline double shape_step(double value, double low, double high)
 {
     const double t = shape_clamp((value - low) / (high - low), 0, 1);

@@ -9,7 +9,7 @@
 
 #define WAVE_TAU 6.28318530717958647692
 
-// Folds the angle into a quarter turn, and evaluates an odd Taylor polynomial.
+// Folds the angle to at most a quarter turn either way, and evaluates an odd Taylor polynomial.
 static inline double wave_sine(double turns)
 {
     double folded = turns - floor(turns + 0.5);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# libclrt: the stages below the command line behind one header, clrt.h, with files for pkg-config
-# and CMake. The library exports only the functions of clrt.h.
+# Builds libclrt, which offers the stages below the command line through one header, clrt.h.
+# Installs files for pkg-config and CMake. The library exports only the functions of clrt.h.
 set_target_properties(clrt_core clrt_cl PROPERTIES POSITION_INDEPENDENT_CODE ON)
 
 file(GLOB library_sources CONFIGURE_DEPENDS host/library/*.c)

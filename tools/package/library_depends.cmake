@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Run by CPack: finds the packages that libclrt is linked to, with dpkg-shlibdeps.
+# CPack runs this file. dpkg-shlibdeps finds the packages of the libraries that libclrt links to.
 if(NOT CPACK_GENERATOR STREQUAL "DEB")
   return()
 endif()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Installs the Python packages for perceptual figures and for the page. They have fixed versions,
-in a virtual environment under build/."""
+"""Installs Python packages of fixed versions in a virtual environment under build/. The perceptual
+figures and the page need these packages."""
 
 import hashlib
 import os

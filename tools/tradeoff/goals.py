@@ -4,7 +4,7 @@ fixed setting that meets it, and with the fastest setting of N x N samples per p
 
 from tradeoff import front
 
-# Errors up to this multiple of the goal meet the goal, as in tests/image/test_goals.c.
+# Errors up to this multiple of the goal meet the goal, as in tests/goals/summary.py.
 MARGIN = 1.1
 
 

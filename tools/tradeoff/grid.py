@@ -8,7 +8,7 @@ from benchmark import common
 
 KINDS = ["uniform", "levels", "fp64", "adaptive", "error", "time"]
 
-# The course assignment's setting, the base of comparisons.
+# The setting of the course's assignment (docs/scenes.md), the base of comparisons.
 BASE = "aa=2"
 
 # The goals: root mean square errors, and seconds of tracing.

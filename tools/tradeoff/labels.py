@@ -38,7 +38,7 @@ def outside(box, frame):
 
 
 def cost(candidate, half, taken, frame):
-    """Returns (covered area, distance), the order of preference."""
+    """Returns (covered area plus a penalty outside the frame, distance). The least is best."""
     distance, center = candidate
     box = box_at(center, half)
     covered = sum(overlap(box, other) for other in taken)

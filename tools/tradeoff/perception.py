@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Computes SSIM and FLIP of PFM files, which estimate visible differences. Both interpret the
+"""Computes SSIM and FLIP, which estimate visible differences, of PFM files. Both interpret the
 values as display values. FLIP assumes 67 pixels per degree, its default."""
 
 import flip_evaluator
