@@ -42,12 +42,13 @@ ValueKind value_kind(const Option *option, char words[VALUE_WORDS_SIZE])
     const bool is_format = strcmp(option->name, "format") == 0;
     if (!is_format && strchr(option->argument, '|') == NULL)
         return VALUE_OTHER;
-    if (is_format)
-        split(words, image_format_names(), ", ");
-    else {
-        char list[VALUE_WORDS_SIZE];
-        value_name(option, list, sizeof list);
-        split(words, list, "|");
+    char list[VALUE_WORDS_SIZE];
+    value_name(option, list, sizeof list);
+    if (is_format) {
+        // Without OpenImageIO, advice in parentheses follows the names.
+        const char *names = image_format_names();
+        snprintf(list, sizeof list, "%.*s", (int)strcspn(names, "("), names);
     }
+    split(words, list, is_format ? ", " : "|");
     return VALUE_WORDS;
 }
