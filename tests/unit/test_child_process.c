@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <string.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,6 +49,32 @@ static void send_much(int socket, const void *context)
     memset(bytes, 7, sizeof bytes);
     (void)context;
     child_send(socket, bytes, sizeof bytes);
+}
+
+static void take_signal(int number)
+{
+    (void)number;
+}
+
+static void send_among_signals(int socket, const void *context)
+{
+    const struct sigaction action = {.sa_handler = take_signal};
+    const struct itimerval often = {{0, 1000}, {0, 1000}};
+    sigaction(SIGALRM, &action, NULL);
+    setitimer(ITIMER_REAL, &often, NULL);
+    send_much(socket, context);
+}
+
+// While the parent sleeps, the child waits for room in the socket's buffer, and signals arrive.
+TEST(signals_do_not_cut_a_message)
+{
+    static char bytes[10000000];
+    ChildProcess child;
+    start(&child, send_among_signals, NULL);
+    usleep(50000);
+    assert_true(child_receive(child.socket, bytes, sizeof bytes));
+    assert_int_equal(bytes[sizeof bytes - 1], 7);
+    child_end(&child);
 }
 
 TEST(a_long_message_arrives_whole)
