@@ -67,6 +67,10 @@ bool certain_picture_make(Picture *picture, const CameraData *camera, Error *err
 
 // Reports of a run's costs and results, as text and as JSON.
 
+// Returns the part of the bound that is due to the limit on reflections: 0 unless clrt chose this
+// limit for --error.
+double report_counted_truncation(const Run *run);
+
 // Returns the name of the tree's builder as in --bvh, or "none" without a tree.
 const char *report_tree_name(const Run *run);
 

@@ -14,19 +14,11 @@
 #include <math.h>
 #include <string.h>
 
-// Returns the truncation error that counts toward --error. It is 0 if --max-level sets the number
-// of levels.
-static double truncation_of(const Run *run)
-{
-    const Options *options = run->options;
-    return options->error_goal > 0 && options->max_level < 0 ? run->report.truncation : 0;
-}
-
 // Returns the error that sampling may add to the truncation error; negative if truncation alone
 // reaches the goal.
 static double error_left(const Run *run)
 {
-    const double most = run->options->error_goal, truncation = truncation_of(run);
+    const double most = run->options->error_goal, truncation = report_counted_truncation(run);
     return truncation < most ? sqrt(most * most - truncation * truncation) : -1;
 }
 
@@ -88,8 +80,8 @@ static bool draw_for_goal(Picture *picture, const CameraData *camera, ThreadPool
     if (!ladder_open(&ladder, &setup, error))
         return false;
     const bool ok = refine(run, &ladder, start, &outcome, error);
-    report->estimate = hypot(outcome.estimate, truncation_of(run));
-    report->bound = hypot(outcome.bound, truncation_of(run));
+    report->estimate = hypot(outcome.estimate, report_counted_truncation(run));
+    report->bound = hypot(outcome.bound, report_counted_truncation(run));
     report->goal_missed = !outcome.reached;
     report->samples = ladder.samples;
     for (size_t pixel = 0; picture->samples != NULL && pixel < ladder.statistics.pixels; pixel++)

@@ -36,6 +36,23 @@ const char *report_tree_name(const Run *run)
     return run->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }
 
+double report_counted_truncation(const Run *run)
+{
+    const Options *options = run->options;
+    return options->error_goal > 0 && options->max_level < 0 ? run->report.truncation : 0;
+}
+
+static void write_error(const Run *run, FILE *stream)
+{
+    const double truncation = report_counted_truncation(run);
+    fprintf(stream, "error: about %.2g %%, at most %.2g %% with 95 %% confidence",
+            100 * run->report.estimate, 100 * run->report.bound);
+    if (truncation > 0)
+        fprintf(stream, ", including at most %.2g %% because rays end at level %u",
+                100 * truncation, run->settings.max_level);
+    fprintf(stream, "\n");
+}
+
 void report_write_text(const Run *run, FILE *stream)
 {
     const uint64_t *tallies = run->renderer.progress.tallies;
@@ -49,11 +66,7 @@ void report_write_text(const Run *run, FILE *stream)
     fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->samples,
             samples_per_pixel(run));
     if (report->estimate > 0)
-        fprintf(stream,
-                "error: about %.2g %%, at most %.2g %% with 95 %% confidence, including at most "
-                "%.2g %% because of %u levels\n",
-                100 * report->estimate, 100 * report->bound, 100 * report->truncation,
-                run->settings.max_level);
+        write_error(run, stream);
     fprintf(stream,
             "%" PRIu64 " rays: %" PRIu64 " camera, %" PRIu64 " shadow, %" PRIu64 " reflected\n",
             ray_count(run), tallies[TALLY_CAMERA_RAYS], tallies[TALLY_SHADOW_RAYS],
@@ -84,8 +97,8 @@ void report_write_error(const Run *run, FILE *stream)
         difference->rmse, 100 * difference->rmse, difference->maximum, difference->maximum_x,
         difference->maximum_y, 100 * (double)difference->off_by_1 / pixels,
         100 * (double)difference->off_by_4 / pixels);
-    fprintf(stream, "reference: fp64, %u samples a pixel, own RMSE %.2g, %.2f s\n", result->samples,
-            result->own_error, result->seconds);
+    fprintf(stream, "reference: for fp64, %u samples a pixel, RMSE of the reference %.2g, %.2f s\n",
+            result->samples, result->own_error, result->seconds);
 }
 
 static json_t *rays_json(const Run *run)

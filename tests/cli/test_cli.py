@@ -192,7 +192,9 @@ class Samples(Work):
         self.assertTrue(0 < found["samples"]["error_estimate"] < found["samples"]["error_bound"] <= 0.005)
         self.assertLessEqual(found["settings"]["truncation_bound"], 0.00125)
         told = self.run_clrt(*SMALL, "a.pfm", "--error", "0.005", "--stats").stderr
-        self.assertRegex(told, "(?m)with 95 % confidence, including at most 0.098 % because of 5 levels$")
+        self.assertRegex(told, "(?m)with 95 % confidence, including at most 0.098 % because rays end at level 5$")
+        told = self.run_clrt(*SMALL, "a.pfm", "--error", "0.005", "--max-level", "5", "--stats").stderr
+        self.assertRegex(told, "(?m)with 95 % confidence$")
 
     def test_a_smaller_error_takes_more_samples(self):
         samples = self.statistics(*SMALL, "a.pfm", "--error", "0.001")["samples"]

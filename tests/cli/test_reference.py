@@ -49,7 +49,7 @@ class Reference(SharedWork):
 
     def test_the_error_is_reported_with_the_references_own(self):
         self.assertRegex(self.talk, "(?m)^RMSE .* largest difference .* 1/255: .* 4/255: ")
-        self.assertRegex(self.talk, "(?m)^reference: fp64, 256 samples a pixel, own RMSE ")
+        self.assertRegex(self.talk, "(?m)^reference: for fp64, 256 samples a pixel, RMSE of the reference ")
 
     def test_the_picture_stays_as_it_is_without_a_reference(self):
         found = self.statistics(*SMALL, "plain.pfm", "-q")
