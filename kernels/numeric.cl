@@ -10,7 +10,7 @@
 // the eight triangles of a block. Both compile the same files, so their results are equal.
 #include "triangle.inc.cl"
 
-// Wide: a Real for each of the WIDE triangles of a block, or for each child of a wide node.
+// The types named Wide... hold a float for each of the WIDE triangles of a block.
 #if CLRT_WIDE_NODES && CLRT_LANES == WIDE
 typedef Real3 Wide3;
 typedef Shear WideShear;
@@ -75,7 +75,7 @@ static inline Real3 choose3(Mask first, Real3 a, Real3 b)
     return real3_of(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
 }
 
-// Returns 1 for negative numbers. At each node of a tree this takes fewer instructions than v < 0.
+// Returns 1 for negative numbers, in fewer instructions than v < 0.
 static inline UInt sign_bit(Real v)
 {
     return (UInt)(as_bits(v) >> (int)(8 * sizeof(Scalar) - 1));
@@ -92,7 +92,7 @@ static inline bool any_lane(Mask mask)
 }
 
 // Returns v scaled to length 1; zero stays zero. A power of two is divided out first, which is
-// exact. Squares then neither overflow nor underflow for lengths between 2^-100 and 2^100.
+// exact. The sum of squares then neither overflows nor underflows for lengths from 2^-100 to 2^100.
 static inline Real3 unit_vector(Real3 v)
 {
     const Real extent = largest_component(v);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Prepares rays for the tests against boxes and triangles. Boxes only cull, and never a triangle
-// that the exact test would accept. The host grows each box by BVH_SLACK times its largest
-// coordinate. slabs_of moves the ray's origin away from each plane by BVH_SLACK times the origin's
-// largest coordinate. Together they cover the rounding of the triangle test and of the slabs
-// (shared.h). The hit is therefore the same for every tree, for every traversal order and without a
-// tree.
+// Prepares rays for the tests against boxes and triangles. Boxes only cull, and they
+// never cull a triangle that the triangle test would accept. The host grows each box by BVH_SLACK
+// times its largest coordinate. slabs_of moves the ray's origin by BVH_SLACK times the origin's
+// largest coordinate: forward for near planes, back for far planes. Together they cover the
+// rounding of the triangle test and of the slabs (shared.h). The hit is therefore the same for
+// every tree, for every traversal order and without a tree.
 #ifndef CLRT_SEARCH_CL
 #define CLRT_SEARCH_CL
 #include "ray.cl"

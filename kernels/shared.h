@@ -25,8 +25,8 @@ typedef uint64_t ulong;
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
 // Boxes grow and origins move by this factor of their largest coordinate: 128 units of 2^-24.
-// A triangle that triangle.inc.cl accepts lies within 22 units of the ray, plus 16 if t may be zero
-// within its error. The slab arithmetic adds 4. If division is only accurate to 2.5 ulp, these
+// A triangle that triangle.inc.cl accepts lies within 22 units of the ray, plus 16 if |t| is at
+// most its error bound. The slab arithmetic adds 4. If division is only accurate to 2.5 ulp, these
 // become 34, 25 and 8. In measurements, doubling the slack costs nothing.
 #define BVH_SLACK 0x1p-17f
 
@@ -64,11 +64,11 @@ typedef struct {
 } SphereData;
 CLRT_SAME_SIZE(SphereData, 48)
 
-// A triangle's corners as they are tested, in leaf order. The host sorts the corners by their
-// coordinates. Triangles with the same three corners are therefore stored as the same bits,
-// regardless of their order in the file. Every kernel computes a distance from the ray and these
-// bits alone, by the same operations, so these triangles have equal distances. The flags only
-// decide whether a ray hits a triangle. The lowest id wins among the triangles hit.
+// A triangle for the intersection test. The array is in leaf order. The host sorts the corners by
+// their coordinates. Triangles with the same three corners therefore store the same bits,
+// regardless of the corners' order in the file. Every kernel computes t from only the ray and these
+// bits, by the same operations, so these triangles have equal t. The flags only decide whether a
+// ray hits a triangle. The lowest id wins among the triangles hit.
 typedef struct {
     float a[3];
     uint id;
@@ -85,7 +85,7 @@ CLRT_SAME_SIZE(TriangleData, 48)
 #define TRIANGLE_MARKS     (TRIANGLE_TWO_SIDED | TRIANGLE_REVERSED)
 
 // Vertex normals of a smooth triangle, in the stored order of its corners. Their lengths weight the
-// interpolation. They point to the stored front; the normals of a reversed triangle are negated.
+// interpolation. The host negates the normals of a reversed triangle.
 typedef struct {
     float normals[3][4]; // the fourth component is zero and pads each vector to 16 bytes
 } CornerNormals;
@@ -105,7 +105,7 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // With wide nodes, a work-item renders BLOCK_SIDE x BLOCK_SIDE pixels.
 #define BLOCK_SIDE 8
 
-// Refined pictures list the pixels' centers in squares of this side, which form packets.
+// Refinement lists the pixels' centers in squares of this side, so that neighbors share packets.
 #define PACKET_SIDE 4
 
 // Children of a wide node, and triangles of a block: one 256-bit vector of floats.
@@ -131,7 +131,7 @@ typedef struct {
 } TriangleBlock;
 CLRT_SAME_SIZE(TriangleBlock, 320)
 
-// The data that shades a triangle of a block, beside its corners. Entries are in file order.
+// The data for shading a triangle of a block, besides its corners. Entries are in file order.
 typedef struct {
     uint material; // index
     uint normals;  // index of its CornerNormals, NOTHING if flat
@@ -148,7 +148,7 @@ typedef struct {
 } CameraData;
 CLRT_SAME_SIZE(CameraData, 64)
 
-// All scalar parameters of one tile of one picture.
+// The parameters of one tile of one picture, without the scene's arrays.
 typedef struct {
     CameraData camera;
     float background[3];
@@ -174,7 +174,7 @@ CLRT_SAME_SIZE(SampleData, 16)
 // sample at the center has the bits of a picture with one sample per pixel.
 #define LADDER_GRID 1024
 
-// The most samples in a request. A pixel can have LADDER_GRID samples.
+// The most samples in a request. A pixel's requests together have up to LADDER_GRID samples.
 #define REQUEST_SAMPLES 16
 
 // A request for samples of a pixel: 1 at its center, or the first 4 or REQUEST_SAMPLES points of a
@@ -194,7 +194,7 @@ typedef struct {
 } PixelSums;
 CLRT_SAME_SIZE(PixelSums, 32)
 
-// The certainty of a pixel's ray trees: which surfaces are hit and which lights are visible.
+// The certainty of a pixel's decisions: which surfaces its rays hit and which lights reach them.
 typedef enum {
     CERTAINTY_OPEN,      // a decision may differ from real arithmetic's
     CERTAINTY_REPAIRED,  // all fp64 decisions equal real arithmetic's
@@ -225,8 +225,8 @@ typedef enum {
     TALLY_KINDS
 } TallyKind;
 
-// The first hit of the ray through a pixel's center, and the path from there, written if channels
-// beside the color are requested. Without a hit, depth is INFINITY, the indices are NOTHING and
+// The first hit of the ray through a pixel's center, and data on the path from there. Kernels write
+// it only if --aov requests channels. Without a hit, depth is INFINITY, the indices are NOTHING and
 // all other members are zero.
 typedef struct {
     float point[3];
@@ -246,7 +246,7 @@ CLRT_SAME_SIZE(PathData, 48)
 typedef enum {
     LEVEL_ORIGIN = 0,
     LEVEL_DIRECTION = 3,
-    LEVEL_T = 6,     // INFINITY without a hit; then only the entries above are valid
+    LEVEL_T = 6,     // INFINITY without a hit; the entries below are then invalid
     LEVEL_ERROR = 7, // error bound of t
     LEVEL_POINT = 8,
     LEVEL_NORMAL = 11,

@@ -71,8 +71,8 @@ int child_end(ChildProcess *child)
     return status;
 }
 
-// Signals and full buffers interrupt transfers. child_send and child_receive therefore loop until
-// all bytes are transferred.
+// Signals interrupt transfers, and recv returns the bytes that have arrived. child_send and
+// child_receive therefore loop until all bytes are transferred.
 bool child_send(int socket, const void *bytes, size_t size)
 {
     const char *next = bytes;

@@ -75,7 +75,7 @@ static inline double vec3_extent(Vec3 a)
 }
 
 // Returns `a` scaled to length 1; the zero vector stays zero. If squares could overflow or
-// underflow, `a` is divided by a power of two first, which changes no bit of the result.
+// underflow, `a` is first divided by a power of two, which adds no rounding error.
 static inline Vec3 vec3_normalize(Vec3 a)
 {
     const double square = vec3_dot(a, a);

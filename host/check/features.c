@@ -151,9 +151,10 @@ static MeshFault flat_triangles(const Mesh *mesh)
 static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fault,
                      const char *text, Error *error)
 {
-    return fault.count == 0 || error_set(error, "%s: triangle %zu %s (the first of %zu)",
-                                         scene->inputs.data[object->input],
-                                         fault.first + object->number_before, text, fault.count);
+    return fault.count == 0 ||
+           error_set(error, "%s: triangle %zu %s (triangles with this fault: %zu)",
+                     scene->inputs.data[object->input], fault.first + object->number_before, text,
+                     fault.count);
 }
 
 bool bad_geometry_none_dropped(const Scene *scene, Error *error)

@@ -48,8 +48,8 @@ bool kernel_check_request(const KernelRequest *request, Error *error)
     return true;
 }
 
-// CPU platforms on which packets compile or trace so slowly that most runs with single rays are
-// faster. docs/devices.md has the measurements.
+// CPU platforms on which packets compile or trace so slowly that single rays are faster in
+// most runs. docs/devices.md has the measurements.
 static const char *const slow_with_packets[] = {"Intel(R) OpenCL", "rusticl"};
 
 bool kernel_suits_packets(const Device *device)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Coordinates of triangles are at most 1. Boxes are padded by 1e-6, and during a walk also by 1e-6
-// times 1 + |origin| on each axis.
+// Coordinates of triangles are at most 1. Boxes are padded by 1e-6, and during a walk also by
+// 1e-6 * (1 + |origin|) on each axis.
 #include "certainty/real_tree.h"
 
 #include <math.h>
@@ -17,7 +17,8 @@ static void include(RealNode *node, const float point[3])
     }
 }
 
-// Computes a node's box. Gives more than LEAF_MOST triangles to two children, half to each.
+// Computes a node's box. A node of more than LEAF_MOST triangles gets two children with half of
+// them.
 static void divide(RealTree *tree, uint32_t number, const FlatScene *flat)
 {
     RealNode *node = &tree->nodes[number];

@@ -146,7 +146,7 @@ class Check(Meshes):
 class BadGeometry(Meshes):
     def test_drop_is_the_default_and_reported_once_unless_quiet(self):
         done = self.run_clrt("equal.ply", "-s", "8x8", "-o", "a.pfm")
-        told = "clrt: equal.ply: triangle 2 has two equal corners and is left out (the first of 2)\n"
+        told = "clrt: equal.ply: triangle 2 has two equal corners and is left out (triangles with this fault: 2)\n"
         self.assertEqual((done.returncode, done.stderr), (0, told))
         done = self.run_clrt("equal.ply", "-s", "8x8", "-o", "b.pfm", "-q", "--bad-geometry", "drop")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -154,8 +154,8 @@ class BadGeometry(Meshes):
 
     def test_fail_draws_only_sound_meshes(self):
         words = ["-s", "8x8", "--bad-geometry", "fail", "-o"]
-        for name, fault in (("equal", "has two equal corners (the first of 2)"),
-                            ("line", "has its corners on a line (the first of 1)")):
+        for name, fault in (("equal", "has two equal corners (triangles with this fault: 2)"),
+                            ("line", "has its corners on a line (triangles with this fault: 1)")):
             self.refuses(3, f"{name}.ply: triangle 2 {fault}", f"{name}.ply", *words, "c.pfm")
             self.assertFalse((self.work / "c.pfm").exists())
         self.clrt("closed.ply", *words, "d.pfm")

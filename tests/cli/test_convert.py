@@ -119,7 +119,7 @@ class Refusals(Convert):
 
     def test_bad_geometry_is_refused_on_request(self):
         self.write(a_ply=models.ply([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)]))
-        self.refuses(3, "a.ply: triangle 0 has its corners on a line (the first of 1)",
+        self.refuses(3, "a.ply: triangle 0 has its corners on a line (triangles with this fault: 1)",
                      "a.ply", "b.ply", "--bad-geometry", "fail")
 
 

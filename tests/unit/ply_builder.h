@@ -50,8 +50,10 @@ static inline bool parse(Mesh *mesh, const char *bytes, size_t size, Error *erro
     const bool ok = ply_parse(mesh, copy, size, "t.ply", error);
     free(copy);
     const Mesh empty = {0};
-    if (ok ? error->text[0] != '\0' : memcmp(mesh, &empty, sizeof empty) != 0)
-        fail_msg("a parse that %s left '%s'", ok ? "succeeded" : "failed", error->text);
+    if (ok && error->text[0] != '\0')
+        fail_msg("a parse that succeeded left the message '%s'", error->text);
+    if (!ok && memcmp(mesh, &empty, sizeof empty) != 0)
+        fail_msg("a parse that failed left a mesh: %s", error->text);
     if (strstr(error->text, "out of memory") != NULL || strchr(error->text, '\n') != NULL)
         fail_msg("unexpected: %s", error->text);
     return ok;

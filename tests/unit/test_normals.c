@@ -152,7 +152,7 @@ TEST(given_normals_are_kept)
     assert_memory_equal(&mesh, &before, sizeof mesh);
 }
 
-// Quadratic work at the edge or at the point would take minutes.
+// All triangles share an edge or a point. Quadratic work there would take minutes.
 TEST(a_fan_of_many_triangles_takes_no_quadratic_time)
 {
     const uint32_t count = 300000;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The scenes for comparisons of renderers, as text: the scenes of tests/bench, the two
+"""The scenes for comparisons of renderers, as text: creature, figure and coral of tests/bench, the two
 meshes of the course (docs/scenes.md) if they exist, and the variants of each."""
 
 import pathlib

@@ -28,9 +28,10 @@ static void usage(void)
     fprintf(stderr,
             "Usage: embree_peer SCENE [-m MODE,...] [-f FRAMES] [-j THREADS] [-s WxH]\n"
             "    [-q low|medium|high] [-r] [-c KINDS] [-o PICTURE.pfm]\n"
-            "MODE is single, packet8, packet16 or stream (all). -r selects Embree's robust mode.\n"
-            "KINDS are the coherent rays: letters of csr (camera, shadow, reflected), or best for\n"
-            "the fastest choice. The last mode draws the picture.\n");
+            "MODE is single, packet8, packet16 or stream (default: all). -r selects Embree's "
+            "robust mode.\n"
+            "KINDS are the coherent rays: c (camera), s (shadow) and r (reflected), as in cs, or\n"
+            "best (default) for the fastest choice. PICTURE comes from the last of these modes.\n");
     exit(2);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// No ray may leave a closed mirror in many reflections, except for one ray in a mirror with ridges.
+// Rays must stay inside closed mirrors for BOUNCES reflections. In a mirror with ridges, one ray
+// may leave.
 #include "support/picture.h"
 #include "support/random.h"
 #include "support/shapes.h"
@@ -7,13 +8,13 @@
 
 #include <string.h>
 
-// Mirrors show only their own color and reflections.
+// Perfect mirrors, which show only reflections.
 #define MIRROR  "define mirror silhouette diffuse 0.5 0.75 0.2 reflectivity "
 #define BOUNCES 64
 
 // Draws the inside of a closed perfect mirror. Rays that leave the mirror shade fewer points. A ray
 // through the edge of a ridge may hit the triangle beyond the ridge, and is then outside. In a
-// mirror with ridges, this may happen to one ray.
+// mirror with ridges, BOUNCES points may be missing, which is what one ray shades.
 static void judge_escapes(const Studio *studio, const char *name, Mesh mesh, bool from_front)
 {
     RenderProgress progress;
