@@ -113,10 +113,9 @@ static void add_shape(Check *check, size_t object)
 
 // Adds at most one finding. Steps are the spacing of floats. Advice to recenter comes first,
 // because tracing cannot restore details that the file has lost.
-static void add_advice(Check *check, size_t object)
+static void add_advice(Check *check, size_t object, double scene_size)
 {
     const Features *features = &check->census.meshes[object].features;
-    const double scene_size = scene_extent(&check->scene);
     const double ratio = features->extent > 0 ? scene_size / features->extent : 0;
     if (features->holds_floats && features->written_edge.steps < FEW_STEPS &&
         features->offset > MUCH * features->extent)
@@ -170,10 +169,11 @@ static void add_scene(Check *check)
 
 bool check_find(Check *check, Error *error)
 {
+    const double scene_size = scene_extent(&check->scene);
     for (size_t object = 0; object < check->scene.objects.count; object++) {
         add_mesh_faults(check, object);
         add_shape(check, object);
-        add_advice(check, object);
+        add_advice(check, object, scene_size);
     }
     add_scene(check);
     return !check->is_cut || error_set(error, "out of memory for the findings");

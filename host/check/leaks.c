@@ -62,7 +62,7 @@ static bool trace_aims(Aims *aims, LeakCount *count, const RayCaster *caster, Er
     return ok;
 }
 
-static void sum_up(const Aims *aims, LeakCount *count)
+static void sum_up(const Aims *aims, const MeshObject *given, LeakCount *count)
 {
     count->total = aims->total;
     for (size_t i = 0; i < aims->count; i++) {
@@ -70,15 +70,15 @@ static void sum_up(const Aims *aims, LeakCount *count)
         count->aimed += aimed->state != AIM_UNTRIED;
         count->hidden += aimed->state == AIM_HIDDEN;
         if (aimed->state == AIM_LEAKED)
-            mesh_fault_add(&count->leaks, aimed->triangle);
+            mesh_fault_add(&count->leaks, (size_t)number_in_file(given, aimed->triangle));
     }
 }
 
-bool leaks_count(LeakCount *count, RayCaster *caster, const Mesh *mesh, const LeakSetting *setting,
-                 Error *error)
+bool leaks_count(LeakCount *count, RayCaster *caster, const MeshObject *given,
+                 const LeakSetting *setting, Error *error)
 {
     StagedMesh staged = {0};
-    MeshObject object = {.mesh = *mesh, .two_sided = true};
+    MeshObject object = {.mesh = given->mesh, .two_sided = true};
     const CompileSource source = {.scene = &staged.scene,
                                   .normalization = setting->normalization,
                                   .layout = caster->nodes,
@@ -86,12 +86,13 @@ bool leaks_count(LeakCount *count, RayCaster *caster, const Mesh *mesh, const Le
                                   .has_tree = setting->uses_bvh,
                                   .pool = setting->pool};
     *count = (LeakCount){0};
-    bool ok =
-        scene_init(&staged.scene, error) && array_push(&staged.scene.objects, object, error) &&
-        scene_compile(&staged.flat, &staged.stages, &source, error) &&
-        make_aims(&staged, mesh, setting, error) && ray_caster_load(caster, &staged.flat, error) &&
-        trace_aims(&staged.aims, count, caster, error);
-    sum_up(&staged.aims, count);
+    bool ok = scene_init(&staged.scene, error) &&
+              array_push(&staged.scene.objects, object, error) &&
+              scene_compile(&staged.flat, &staged.stages, &source, error) &&
+              make_aims(&staged, &given->mesh, setting, error) &&
+              ray_caster_load(caster, &staged.flat, error) &&
+              trace_aims(&staged.aims, count, caster, error);
+    sum_up(&staged.aims, given, count);
     ray_caster_unload(caster);
     aims_free(&staged.aims);
     flat_free(&staged.flat);

@@ -44,7 +44,7 @@ typedef struct {
     size_t aimed;    // aims that got a ray
     size_t rays;     // rays cast; some aims got two
     size_t hidden;   // aims behind other parts of the mesh
-    MeshFault leaks; // rays that passed through; first is a triangle at one of them
+    MeshFault leaks; // rays that passed through; first: a triangle there, by its number in the file
 } LeakCount;
 
 typedef struct {
@@ -55,5 +55,5 @@ typedef struct {
     bool uses_bvh;
 } LeakSetting;
 
-bool leaks_count(LeakCount *count, RayCaster *caster, const Mesh *mesh, const LeakSetting *setting,
-                 Error *error);
+bool leaks_count(LeakCount *count, RayCaster *caster, const MeshObject *given,
+                 const LeakSetting *setting, Error *error);

@@ -24,11 +24,9 @@ static bool count_leaks(Check *check, const Options *options, RayCaster *caster,
             .builder = options->builder,
             .uses_bvh = !options->no_bvh,
         };
-        const MeshObject *mesh = &check->scene.objects.data[object];
-        MeshFault *leaks = &check->leaks[object].leaks;
-        if (mesh->mesh.triangle_count > 0)
-            ok = leaks_count(&check->leaks[object], caster, &mesh->mesh, &setting, error);
-        leaks->first = (size_t)number_in_file(mesh, leaks->first);
+        const MeshObject *given = &check->scene.objects.data[object];
+        if (given->mesh.triangle_count > 0)
+            ok = leaks_count(&check->leaks[object], caster, given, &setting, error);
     }
     thread_pool_close(pool);
     return ok;

@@ -126,7 +126,8 @@ typedef struct {
     double start, seconds;
 } GoalTime;
 
-// Refines until about time->seconds have passed since time->start, or no pixel can advance.
+// Refines until about time->seconds have passed since time->start, the bound is 0 or no pixel can
+// advance.
 bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);
 
 // The bend of a pixel measures how far its color is from the means of opposite neighbors.

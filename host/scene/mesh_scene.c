@@ -206,8 +206,8 @@ static UpAxis up_axis_of_collada(const char *path)
     Error error = {0};
     if (!file_read(&file, path, &error))
         return UP_Y;
-    const bool is_z = memmem(file.bytes, file.size, "Z_UP", 4) != NULL;
-    const bool is_x = memmem(file.bytes, file.size, "X_UP", 4) != NULL;
+    const bool is_z = memmem(file.bytes, file.size, ">Z_UP<", 6) != NULL;
+    const bool is_x = memmem(file.bytes, file.size, ">X_UP<", 6) != NULL;
     file_free(&file);
     return is_z ? UP_Z : is_x ? UP_X : UP_Y;
 }

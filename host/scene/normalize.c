@@ -31,18 +31,24 @@ static Bounds bounds_of(const Scene *scene)
     return bounds;
 }
 
+// Returns a negative number for a scene without objects.
+static double extent_of(const Bounds *bounds)
+{
+    return bounds->low.x <= bounds->high.x ? vec3_extent(vec3_sub(bounds->high, bounds->low)) : -1;
+}
+
 double scene_extent(const Scene *scene)
 {
     const Bounds bounds = bounds_of(scene);
-    return bounds.low.x <= bounds.high.x ? vec3_extent(vec3_sub(bounds.high, bounds.low)) : -1;
+    return extent_of(&bounds);
 }
 
 Normalization normalization_of(const Scene *scene)
 {
     const Bounds bounds = bounds_of(scene);
-    if (!(bounds.low.x <= bounds.high.x))
+    const double extent = extent_of(&bounds);
+    if (extent < 0)
         return (Normalization){{0, 0, 0}, 1};
-    const double extent = vec3_extent(vec3_sub(bounds.high, bounds.low));
     return (Normalization){vec3_scale(vec3_add(bounds.low, bounds.high), 0.5),
                            extent > 0 ? scalbn(1, -ilogb(extent)) : 1};
 }

@@ -184,25 +184,26 @@ static void burn_confined(int socket, const void *context)
     burn(&byte);
 }
 
-TEST(a_confined_child_ends_after_its_processor_time)
+// Returns the signal that ends the child.
+static int expect_late(ChildWork *work)
 {
     ChildProcess child;
     const ChildLimits limits = {.seconds = 60, .bytes = 10};
     FREED_BY(file_free) File output;
     Error error = {0};
     int signal;
-    start(&child, burn_confined, NULL);
+    start(&child, work, NULL);
     assert_int_equal(child_collect(&child, &limits, &output, &signal, &error), CHILD_LATE);
+    return signal;
+}
+
+// On a loaded machine, the time of day may end the child first.
+TEST(a_confined_child_ends_after_its_processor_time)
+{
+    expect_late(burn_confined);
 }
 
 TEST(a_confined_child_ends_after_its_time)
 {
-    ChildProcess child;
-    const ChildLimits limits = {.seconds = 60, .bytes = 10};
-    FREED_BY(file_free) File output;
-    Error error = {0};
-    int signal;
-    start(&child, sleep_confined, NULL);
-    assert_int_equal(child_collect(&child, &limits, &output, &signal, &error), CHILD_LATE);
-    assert_int_equal(signal, SIGALRM);
+    assert_int_equal(expect_late(sleep_confined), SIGALRM);
 }
