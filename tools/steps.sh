@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Steps of tools/setup, tools/render and tools/test, which source this file. On a terminal, the last
-# line shows the step, its percentage and its time. Elsewhere only lines on finished steps appear.
+# line shows the step, its percentage and its time. Elsewhere at least one line appears every 15 s.
 set -o pipefail
 
 on_terminal() {
@@ -10,23 +10,32 @@ on_terminal() {
 # Reads a command's output and shows its progress: ninja and ctest print N/M, apt-get prints a
 # percentage (APT::Status-Fd). Also prints the lines that match the pattern $2, if given.
 show_progress() {
-    local name=$1 passed=${2-} percent= line= part status
+    local name=$1 passed=${2-} percent= line= part status shown=$SECONDS
+    local counts='^[ []*([0-9]+)/([0-9]+)[] ]' period=14 start= end='\n'
+    ! on_terminal || { period=0 start='\r\033[K' end=; }
     while :; do
         status=0
         IFS= read -r -t 1 part || status=$?
         line+=$part
         [ $status -eq 0 ] || [ $status -gt 128 ] || break
-        printf '\r\033[K%s%s, %s s' "$name" "$percent" $((SECONDS - begun)) >&2
-        [ $status -eq 0 ] || continue
-        if [[ $line =~ ^[\ \[]*([0-9]+)/([0-9]+)[\ \]] ]]; then
-            percent=", $((100 * BASH_REMATCH[1] / BASH_REMATCH[2])) %"
-        elif [[ $line =~ ^(dl|pm)status:[^:]*:([0-9]+) ]]; then
-            percent=", ${BASH_REMATCH[2]} %"
+        if [ $status -eq 0 ]; then
+            if [[ $line =~ $counts ]]; then
+                percent=", $((100 * BASH_REMATCH[1] / BASH_REMATCH[2])) %"
+            elif [[ $line =~ ^(dl|pm)status:[^:]*:([0-9]+) ]]; then
+                percent=", ${BASH_REMATCH[2]} %"
+            fi
+            if [ -n "$passed" ] && [[ $line =~ $passed ]]; then
+                printf "$start%s\n" "$line"
+                shown=$SECONDS
+            fi
+            line=
         fi
-        [ -z "$passed" ] || [[ ! $line =~ $passed ]] || printf '\r\033[K%s\n' "$line"
-        line=
+        if [ $((SECONDS - shown)) -ge $period ]; then
+            printf "$start%s%s, %s s$end" "$name" "$percent" $((SECONDS - begun)) >&2
+            shown=$SECONDS
+        fi
     done
-    printf '\r\033[K' >&2
+    printf "$start" >&2
 }
 
 # step NAME NEXT COMMAND...: runs the command and stores its output in the file $step_log. If the
@@ -34,11 +43,7 @@ show_progress() {
 step() {
     local name=$1 next=$2 begun=$SECONDS
     shift 2
-    if on_terminal; then
-        "$@" 2>&1 | tee "$step_log" | show_progress "$name"
-    else
-        "$@" >"$step_log" 2>&1
-    fi || {
+    "$@" 2>&1 | tee "$step_log" | show_progress "$name" || {
         cat "$step_log" >&2
         echo "$name: failed after $((SECONDS - begun)) s" >&2
         exit 1
