@@ -18,6 +18,7 @@ import time
 import unittest
 
 import grammar
+from skips import needs_terminal
 from work import CLRT, ROOT, Work, main
 
 MANUAL = pathlib.Path(sys.argv[2])
@@ -239,6 +240,8 @@ def add_tests():
             def test(self, shell=shell, what=what):
                 getattr(self, f"check_{what}")(shell)
 
+            if shell != "fish":
+                test = needs_terminal(test)
             here = unittest.skipUnless(is_here(shell), f"{shell} is not installed")
             setattr(Completions, f"test_{shell}_completes_{what}", here(test))
 

@@ -12,6 +12,7 @@ import time
 import unittest
 
 from models import ply
+from skips import needs_terminal
 from work import NO_OPENCL, ROOT, SCENE, Work, main, needs_exr
 
 try:
@@ -86,6 +87,7 @@ class StandardInput(Talk):
         self.assertIn("-o FILE", self.clrt("-", code=2))
 
 
+@needs_terminal
 class Terminal(Talk):
     def on_terminal(self, *words):
         """Returns what clrt prints on a terminal. The kernel cache is empty when a test begins."""
@@ -141,6 +143,7 @@ class Stopped(Talk):
         os.close(talk)
         return text
 
+    @needs_terminal
     def test_progress_is_one_line_that_is_cleared_and_never_colored(self):
         for setting in {}, {"NO_COLOR": "1"}:
             text = self.talk_on_terminal(TERM="xterm", **setting)
@@ -150,6 +153,7 @@ class Stopped(Talk):
         self.assertNotIn(b"\n", line)
         self.assertRegex(stopped, rb"^stopped: a\.pfm is incomplete, with \d+ of 144 tiles\r\n$")
 
+    @needs_terminal
     def test_a_dumb_terminal_gets_plain_lines(self):
         text = self.talk_on_terminal(TERM="dumb")
         self.assertNotIn(b"\x1b", text)
