@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import time
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 HOSTS = 4
 CONTROLLER = 0
 PROGRAMS = ["slurmctld", "slurmd", "sbatch", "munged", "mpirun", "parallel", "ip", "unshare", "nsenter"]

@@ -15,10 +15,12 @@ import tempfile
 import time
 import unittest
 
-from cluster import CONTROLLER, HOSTS, Cluster, reason_to_skip, wait_for
+from cluster import CONTROLLER, HOSTS, ROOT, Cluster, reason_to_skip, wait_for
+
+sys.path.append(str(ROOT / "tests/cli"))
+from skips import leave  # noqa: E402
 
 CLRT = str(pathlib.Path(sys.argv[1]).resolve())
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
 # 32 tiles for each part, and a few seconds for each host.
 PARTS = 8
@@ -37,7 +39,6 @@ exec nsenter -t "$init" -n -p -m -u --wd=/ sh -c "$*"
 """
 
 
-@unittest.skipIf(reason_to_skip(), reason_to_skip())
 class Farm(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -203,4 +204,6 @@ class Farm(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    if reason := reason_to_skip():
+        leave(reason)
     unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)

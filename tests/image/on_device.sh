@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Runs a command on one of PoCL's devices or targets, or on another implementation of OpenCL. Prints
-# a message and succeeds if this machine lacks KIND. Each kind has its own kernel cache, because
+# a message and exits with status 77 if this machine lacks KIND. Each kind has its own kernel cache, because
 # PoCL's cache ignores the target. Usage: on_device.sh KIND CACHE_FOLDER COMMAND...
 set -eu
 kind=$1
@@ -12,7 +12,7 @@ export POCL_CACHE_DIR=$cache XDG_CACHE_HOME=$cache
 
 pass_over() {
   echo "skipped: $1"
-  exit 0
+  exit 77
 }
 
 # Installs a fixed version of Intel's CPU runtime, once for all tests.

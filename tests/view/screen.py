@@ -19,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.append(str(ROOT / "tests" / "cli"))
 
 from pictures import read_pfm  # noqa: E402
+from skips import leave  # noqa: E402
 
 SCENE = ROOT / "scenes" / "reflections.scn"
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT / ".." / "shared" / "course"))
@@ -26,15 +27,10 @@ PATIENCE = 60  # seconds that any step may take, because kernels may have to be 
 TICK = 0.02  # waiting counts these steps, so that pauses of the machine do not count
 
 
-def pass_over(reason):
-    print(f"skipped: {reason}")
-    sys.exit(0)
-
-
 def require_tools():
     for tool in ("Xvfb", "xdotool"):
         if shutil.which(tool) is None:
-            pass_over(f"{tool} is not installed")
+            leave(f"{tool} is not installed")
 
 
 class Screen:
