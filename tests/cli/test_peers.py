@@ -13,6 +13,15 @@ CTEST, BUILD = sys.argv[1:3]
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/peers.md"
 PEERS = ["POV-Ray", "c-ray", "LuxCoreRender", "Mitsuba 3", "Cycles", "pbrt-v4", "OSPRay Studio", "Embree",
          "F3D", "Radiance", "tinybvh", "appleseed", "nobody", "all but"]
+LOSSES = ["glass", "textures", "soft shadows", "instancing", "Windows and macOS", "Python", "incoherent rays"]
+# Features that peers have, though they are easily overlooked.
+OVERLOOKED = {
+    "more samples where pixels differ": ["Cycles (by default, threshold 0.01)"],
+    "transparency where nothing is hit": ["F3D (`--no-background`)"],
+    "explaining a pixel's color": ["Radiance (`trace` in `rvu`"],
+    "no gaps between triangles": ["pbrt-v4", "Mitsuba 3"],
+    "counting the leaks of a mesh": ["Embree (`verify`"],
+}
 
 
 def rows():
@@ -34,6 +43,17 @@ class Table(unittest.TestCase):
             self.assertRegex(answer, r"^yes$|^(yes|no|by design not): \S")
             self.assertEqual(answer.startswith("yes"), bool(tests), row)
             self.assertRegex(tests, r"^(`\w+`(, `\w+`)*)?$")
+
+    def test_the_page_states_what_clrt_lacks(self):
+        answers = {row[0]: row[2] for row in rows()}
+        for what in LOSSES:
+            self.assertRegex(answers.get(what, "no row"), "^no: ", what)
+
+    def test_no_peer_s_feature_is_overlooked(self):
+        peers = {row[0]: row[1] for row in rows()}
+        for what, names in OVERLOOKED.items():
+            for name in names:
+                self.assertIn(name, peers[what])
 
     def test_no_row_comes_twice(self):
         names = [row[0] for row in rows()]

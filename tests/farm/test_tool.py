@@ -32,8 +32,8 @@ class Tool(unittest.TestCase):
     def run_program(self, *words, code=0, **more):
         environment = {**os.environ, "CLRT": CLRT, "PATH": f"{self.work}/bin:{os.environ['PATH']}",
                        "LOG": str(self.log), "BROKEN": "", "QUEUED": "", **more}
-        done = subprocess.run(words, cwd=self.work, env=environment, text=True, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        done = subprocess.run(words, cwd=self.work, env=environment, text=True, errors="replace",
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.assertEqual(done.returncode, code, done.stdout)
         return done.stdout
 
@@ -68,6 +68,15 @@ class Tool(unittest.TestCase):
         for more in ["--parts", "3"], ["--parts", "2", "--aa"]:
             self.assertIn("a.exr.farm belongs to another command", self.farm("-o", "a.exr", *more, code=1))
 
+    def test_a_file_name_may_contain_any_characters(self):
+        name = os.fsdecode(b"it's\ntouch broken\r\n\xff.exr")
+        words = ["-o", name, "--parts", "2", "--on", "local"]
+        self.run_program(CLRT, *SMALL, "-o", "whole.exr")
+        self.farm(*words)
+        self.assertEqual(self.bytes_of(name), self.bytes_of("whole.exr"))
+        self.assertIn("is finished", self.farm(*words))
+        self.assertFalse((self.work / "broken").exists())
+
     def test_changed_scripts_stay(self):
         words = ["-o", "a.exr", "--parts", "2"]
         self.farm(*words)
@@ -78,7 +87,8 @@ class Tool(unittest.TestCase):
 
     def test_pictures_are_the_turntable_s(self):
         for more, pattern in ((["--turntable", "7"], "a.pfm"), (["--frames", "1-6:2"], "b##.pfm"),
-                              (["--turntable", "9", "--frames", "2-8"], "c#d#.pfm")):
+                              (["--turntable", "9", "--frames", "2-8"], "c#d#.pfm"),
+                              (["--frames", "1-3"], ".pfm")):
             self.run_program(CLRT, *SMALL, *more, "-o", f"whole-{pattern}", "-q")
             words = [*more, "-o", pattern, "--parts", "3", "--on", "local"]
             self.farm(*words)
@@ -137,6 +147,11 @@ class Tool(unittest.TestCase):
                                 (["--frames", "3-2"], "--frames wants A-B or A-B:S, within the turntable"),
                                 (["--turntable", "5", "--frames", "1-6"], "--frames wants"),
                                 (["--parts", "2", "--on", "pbs"], "--on wants slurm, parallel=HOSTS or local"),
+                                (["--turntable", "0"], "--turntable wants an integer between 1 and 1000000"),
+                                (["--turntable", "-3"], "--turntable wants"),
+                                (["--turntable", "1000001"], "--turntable wants"),
+                                (["--parts", "2", "--exposure", "1"], "--exposure is for 8-bit files, and parts are EXR"),
+                                (["--parts", "2", "--exposure=1", "-o", "a.png"], "--exposure is for"),
                                 (["--turntable", "5", "-o", "a.gif"], "cannot write a GIF")):
             self.assertIn(sentence, self.farm("-o", "a.exr", *words, code=2))
 

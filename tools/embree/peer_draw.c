@@ -5,7 +5,9 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#ifdef __SSE__
 #include <xmmintrin.h>
+#endif
 
 #define TILE_SIZE   32
 #define THREADS_MAX 256
@@ -33,6 +35,14 @@ static uint32_t smaller(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
+// Embree's manual recommends both flags of x86 (FTZ, DAZ), because denormal numbers are slow.
+static void flush_denormals(void)
+{
+#ifdef __SSE__
+    _mm_setcsr(_mm_getcsr() | 0x8040);
+#endif
+}
+
 static void *draw_tiles(void *argument)
 {
     Work *work = argument;
@@ -43,8 +53,7 @@ static void *draw_tiles(void *argument)
     PeerTile tile = {.scene = picture->scene, .framebuffer = work->framebuffer};
     for (int kind = 0; kind < RAY_KINDS; kind++)
         tile.flags[kind] = picture->flags[kind];
-    // Embree's manual recommends both flags (FTZ, DAZ), because denormal numbers are slow.
-    _mm_setcsr(_mm_getcsr() | 0x8040);
+    flush_denormals();
     for (uint32_t i; (i = atomic_fetch_add(&work->next_tile, 1)) < count;) {
         tile.x = i % columns * TILE_SIZE;
         tile.y = i / columns * TILE_SIZE;

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The numbers and names of many pictures, as clrt chooses them."""
 
-import pathlib
 import re
+
+TURNTABLE_MOST = 1000000
 
 
 def numbers(turntable, text):
@@ -23,9 +24,10 @@ def share(all_numbers, task, tasks):
 
 def name(pattern, number):
     """Returns the file's name: the number replaces the last run of '#', or precedes the ending."""
-    path = pathlib.PurePath(pattern)
-    if crosses := re.fullmatch(r"(.*?)(#+)([^#]*)", path.name):
+    folder, slash, file = pattern.rpartition("/")
+    if crosses := re.fullmatch(r"(.*?)(#+)([^#]*)", file, re.DOTALL):
         before, digits, after = crosses[1], len(crosses[2]), crosses[3]
     else:
-        before, digits, after = f"{path.stem}.", 4, path.suffix
-    return str(path.with_name(f"{before}{number:0{digits}}{after}"))
+        end = file.rfind(".") if "." in file else len(file)
+        before, digits, after = f"{file[:end]}.", 4, file[end:]
+    return f"{folder}{slash}{before}{number:0{digits}}{after}"

@@ -58,10 +58,11 @@ MERGE = """\
 
 def write(folder, command, scripts):
     """Writes the scripts to the folder. A script is (name, name of its log, folder in which it
-    runs, lines)."""
+    runs, lines). In their head, each line of the command is a comment."""
     first = folder / f"{scripts[0][0]}.sh"
+    command = command.replace("\n", "\n# ")
     if first.exists():
-        if f"\n# {command}\n" not in first.read_text():
+        if os.fsencode(f"\n# {command}\n") not in first.read_bytes():
             sys.exit(f"{folder} belongs to another command: repeat that one, or remove the folder")
         return
     folder.mkdir(parents=True, exist_ok=True)
@@ -70,7 +71,7 @@ def write(folder, command, scripts):
                            here=shlex.quote(str(here)),
                            clrt=shlex.quote(os.path.abspath(common.CLRT)),
                            folder=shlex.quote(str(folder)))
-        (folder / f"{name}.sh").write_text(head + lines)
+        (folder / f"{name}.sh").write_bytes(os.fsencode(head + lines))
 
 
 def write_farm(options, folder):

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Compares hits with results in quadruple precision. The spheres are far away, huge, tiny, around
 // the eye, or touched by rays, in normalized coordinates.
+#include "oracle/quad.h"
 #include "support/outcome.h"
 #include "support/rays.h"
 #include "support/shapes.h"
-
-__extension__ typedef __float128 Quad;
 
 #define ERROR_LIMIT 3e-7 // of distances, relative
 
@@ -16,14 +15,6 @@ static SphereData sphere_of(Vec3 center, double radius)
     shape_store(data.center_low, vec3_sub(center, vec3_of_floats(data.center)));
     data.radius_low = (float)(radius - (double)data.radius);
     return data;
-}
-
-static Quad root_of(Quad square)
-{
-    Quad root = sqrtl((long double)square);
-    for (int step = 0; step < 2 && root > 0; step++)
-        root = (root + square / root) / 2;
-    return root;
 }
 
 // Returns the distance to the sphere, INFINITY if the ray misses it.
@@ -41,7 +32,7 @@ static double exact_distance(const SphereData *sphere, const TestRay *ray)
     const Quad c = ff - radius * radius, square = fd * fd - dd * c;
     if (square < 0)
         return INFINITY;
-    const Quad root = root_of(square);
+    const Quad root = quad_root(square);
     const Quad q = fd < 0 ? -fd + root : -fd - root;
     const Quad one = q / dd, other = q != 0 ? c / q : 0;
     const Quad near = one < other ? one : other, far = one < other ? other : one;
