@@ -80,6 +80,9 @@ bool model_send(FILE *stream, Files *files, Error *error)
     aiReleaseImport(scene);
     if (!ok)
         return false;
+    if (counts.triangles == 0 && counts.others > 0)
+        return error_set(error, "there are no triangles in it, only %zu lines and points",
+                         counts.others);
     if (counts.triangles == 0)
         return error_set(error, "there are no triangles in it");
     send_note(stream, files, &counts);

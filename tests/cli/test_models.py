@@ -326,7 +326,7 @@ class Hostile(Work):
 
     def test_a_model_without_triangles_is_refused(self):
         self.write(a_obj="v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n", a_3mf=models.three_mf("<model/>", False))
-        self.fails("a.obj: there are no triangles in it", "a.obj")
+        self.fails("a.obj: there are no triangles in it, only 2 lines and points", "a.obj")
         self.fails("a.3mf: there are no triangles in it", "a.3mf")
 
     def test_a_face_with_a_missing_vertex_is_reported(self):

@@ -17,6 +17,7 @@ NO_MESH = (
     "element face 0\nproperty list uchar int vertex_indices\nend_header\n"
 )
 BLANK = "there is nothing to draw: it has no triangles and no spheres"
+POINTS = "there is nothing to draw: it has points and no triangles"
 DARK = "it has no lights: its surfaces show ambient light only"
 
 
@@ -108,6 +109,18 @@ class Notes(Work):
         self.write(a_scn="", b_scn="light 1 1 1 1\n", a_ply="", b_ply=NO_MESH, c_scn="mesh b.ply\n")
         for name in "a.scn", "b.scn", "a.ply", "b.ply", "c.scn":
             self.draws(f"{name}: {BLANK}", name)
+
+    def test_parts_that_are_not_read_are_no_blank_picture(self):
+        points = NO_MESH.replace("vertex 0", "vertex 1") + "0 0 0\n"
+        grid = points.replace("face 0", "face 0\nproperty list uchar int vertex_index\nelement range_grid 1") + "0\n"
+        self.write(a_ply=points, b_ply=grid, a_scn="mesh a.ply\n", b_scn="mesh a.ply\nsphere 0 0 0 1\nlight 0 0 9 1\n")
+        unread = "there is nothing to draw: the file has no triangles, and clrt does not read this element"
+        for words in ["-o", "a.pfm"], ["--explain"]:
+            for name in "a.ply", "a.scn":
+                self.refuses(3, f"{name}: {POINTS}", name, *words)
+            self.refuses(3, f"b.ply:9: element range_grid: {unread}", "b.ply", *words)
+        self.assertIn(f"  FAULT: {POINTS}\n", self.run_clrt("check", "a.ply").stdout)
+        self.draws("", "b.scn")
 
     def test_surfaces_without_lights_are_noted(self):
         self.write(a_scn="material 1\nsphere 0 0 0 1\n", b_scn=f"material 2\nmesh {SCENES}/cube.ply\n")
