@@ -88,7 +88,8 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
 {
     const uint32_t most = find_format(format)->side_max;
     return most == 0 || (width <= most && height <= most) ||
-           error_set(error, "a picture in the format %s has at most %u pixels a side", format, most);
+           error_set(error, "a picture in the format %s has at most %u pixels a side", format,
+                     most);
 }
 
 // On failure, the functions below store only the reason in cause. image_write adds the file name.
