@@ -89,9 +89,11 @@ class Files(SharedWork):
 
     @needs_exr
     def test_encodings_leave_floats_alone(self):
-        for encode in "raw", "srgb":
-            self.clrt(*SMALL, f"{encode}.exr", "--encode", encode)
-        self.assertEqual(read_exr(self.work / "raw.exr"), read_exr(self.work / "srgb.exr"))
+        self.clrt(*SMALL, "raw.exr", "--encode", "raw")
+        self.clrt(*SMALL, "plain.exr")
+        self.assertEqual(read_exr(self.work / "raw.exr"), read_exr(self.work / "plain.exr"))
+        self.refuses(2, "--encode srgb is for 8-bit files: exr holds the traced colors", *SMALL, "a.exr",
+                     "--encode", "srgb")
 
     @needs_exr
     def test_a_picture_past_the_size_of_its_format_is_refused_before_it_is_drawn(self):

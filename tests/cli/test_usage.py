@@ -83,6 +83,42 @@ class Combinations(Work):
             sentence = "--frames names the views: leave out --view"
             self.refuses(sentence, *PICTURE, "--frames", "1-2", "--view", view)
 
+    def test_options_without_effect_beside_another_are_refused(self):
+        vectors = "has no vectors: leave out --lanes"
+        tiles = "--aa-adaptive, --error and --time draw the picture as a whole: leave out --tile"
+        for sentence, *words in (
+            (f"--nodes pair {vectors}", *PICTURE, "--nodes", "pair", "--lanes", "16"),
+            (f"--precision fp64 {vectors}", *PICTURE, "--precision", "fp64", "--lanes", "8"),
+            (f"--nodes pair {vectors}", "check", SCENE, "--nodes", "pair", "--lanes", "16"),
+            (f"--nodes pair {vectors}", "--warm", "--nodes", "pair", "--lanes", "4"),
+            ("--no-bvh builds no tree: leave out --bvh", *PICTURE, "--no-bvh", "--bvh", "midpoint"),
+            ("--no-bvh builds no tree: leave out --bvh", "check", SCENE, "--bvh", "sah", "--no-bvh"),
+            *((tiles, *PICTURE, *words, "--tile", "32x32")
+              for words in (["--error", "5%"], ["--time", "1"], ["--aa-adaptive"])),
+            ("--encode srgb is for 8-bit files: pfm holds the traced colors", *PICTURE, "--encode", "srgb"),
+            *((f"clrt --warm takes no {name}", "--warm", name, *values)
+              for name, *values in (["--hash"], ["--aa"], ["--size", "8x8"], ["--output", "a.png"],
+                                    ["--tile", "8x8"], ["--verbose"], ["--up", "x"])),
+            ("clrt --list-devices takes no --warm", "--warm", "--list-devices"),
+            ("clrt --warm takes no --stats=FILE", SCENE, "--warm", "--stats=a.json"),
+            *((f"--{name} chooses kernels for a scene: name one", "--warm", f"--{name}", *values)
+              for name, *values in (["bvh", "sah"], ["no-bvh"], ["specialize", "never"])),
+            (f"clrt --list-devices takes no '{SCENE}'", "--list-devices", SCENE),
+            ("clrt --list-devices takes no --aa", "--list-devices", SCENE, "--aa=9"),
+            ("clrt --list-devices takes no --device", "--device", "cpu", "--list-devices"),
+            ("clrt --list-devices takes no --quiet", "--list-devices", "-q"),
+            ("clrt --explain takes no --stats=FILE", SCENE, "--explain", "--stats=a.json"),
+            *((f"clrt {name} takes no --verbose", *words, "-v")
+              for name, *words in (["check", "check", SCENE], ["compare", "compare", "a.png", "b.png"],
+                                   ["--explain", SCENE, "--explain"],
+                                   ["--explain-pixel", SCENE, "--explain-pixel", "1,1"])),
+            ("clrt --explain takes no --repeat", SCENE, "--explain", "--repeat", "2"),
+            ("clrt --explain takes no --view", SCENE, "--explain", "--view", "2"),
+        ):
+            self.refuses(sentence, *words)
+        self.clrt(SCENE, "-s", "8x6", "-o", "a.pfm", "--encode", "srgb", "--reference=b.png", "--reference-samples",
+                  "2", "-q")
+
     def test_a_requested_precision_is_kept(self):
         self.write(a_scn="sphere 0 0 0 1\n")
         for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"):
