@@ -41,7 +41,10 @@ static void send_note(FILE *stream, const Files *files, const PartCounts *counts
     if (counts->is_colored)
         fputs("; its colors per vertex are left out", text);
     if (lacks_materials(files))
-        fprintf(text, "; its materials, %.200s, cannot be opened", files->missing);
+        fprintf(text,
+                "; its materials, %.200s, cannot be opened: those that it names are gray (0.6 0.6 "
+                "0.6)",
+                files->missing);
     if (files->outside_count > 0)
         fputs("; it names files outside of its folder, which are not read", text);
     fclose(text);

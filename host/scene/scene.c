@@ -74,7 +74,10 @@ const char *viewpoint_fault(const Viewpoint *viewpoint)
     if (!(vec3_extent(forward) > 0))
         return "the camera looks at its own position";
     if (!(vec3_extent(right) > 1e-9))
-        return "the camera must not look along its 'up' vector";
+        return fabs(forward.z) > 0.5
+                   ? "the camera must not look along its 'up' vector: choose another, as 'up 0 1 0'"
+                   : "the camera must not look along its 'up' vector: choose another, as 'up 0 0 "
+                     "1'";
     return NULL;
 }
 

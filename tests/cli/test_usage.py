@@ -6,6 +6,7 @@ import os
 import sys
 import unittest
 
+import models
 from work import ROOT, SCENE, Work, main, needs_exr
 
 HAS_WINDOW = sys.argv[3] == "ON"
@@ -171,6 +172,22 @@ class Notes(Work):
         )
         for name in "a.scn", "b.scn", "c.scn":
             self.draws("", name)
+
+    def test_flat_mirrors_are_noted(self):
+        points, triangles = models.knot()
+        normals = models.normals_of(points)
+        self.write(a_ply=models.ply(points, triangles), b_ply=models.ply(points, triangles, normals),
+                   c_ply=models.ply(points, triangles[:99]))
+        flat = "a.ply: it has no normals, so its mirrors are flat triangles: 'normals smooth' before the mesh " \
+               "smooths them, and 'normals flat' keeps them"
+        for note, *lines in (
+            (flat, "material 3", "mesh a.ply"), (flat, "define m matte reflectivity 0.1", "material m", "ply_file a.ply"),
+            ("", "material 1", "mesh a.ply"), ("", "material 3", "normals smooth", "mesh a.ply"),
+            ("", "material 3", "normals flat", "mesh a.ply"), ("", "material 3", "mesh b.ply"),
+            ("", "material 3", "mesh c.ply"),
+        ):
+            self.write(a_scn="light 5 5 9 1\n" + "\n".join(lines) + "\n")
+            self.draws(note, "a.scn")
 
     def test_check_notes_both(self):
         self.write(a_ply="", b_ply=NO_MESH, a_scn="material 1\nsphere 0 0 0 1\n")

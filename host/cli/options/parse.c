@@ -126,6 +126,10 @@ static bool read_scene(Options *options, int count, char **arguments, Error *err
         return options_check_general_kernels(options, error);
     if (optind >= count)
         return error_set(error, "no scene is named; clrt --help shows the usage");
+    if (optind + 2 == count && options->action == ACTION_RENDER && options->output_path == NULL &&
+        image_format_of_path(arguments[optind + 1]) != NULL)
+        return error_set(error, "to write the picture '%s', give -o %s", arguments[optind + 1],
+                         arguments[optind + 1]);
     if (optind + 1 < count)
         return error_set(error,
                          "one scene at a time: '%s' comes after '%s' (values of --stats and --json "
