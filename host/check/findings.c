@@ -162,7 +162,8 @@ static void add_scene(Check *check)
     }
     const MissingPart missing = scene_missing(&check->scene);
     if (missing.kind != NULL)
-        add(check, note(missing.kind, FINDING_SCENE, 1), "%s", missing.text);
+        add(check, (Finding){missing.kind, FINDING_SCENE, missing.is_fault, 1, ""}, "%s",
+            missing.text);
     const Finding fault = {"scale", FINDING_SCENE, true, check->frame_fault.text[0] != '\0', ""};
     add(check, fault, "the scene cannot be drawn: %s", check->frame_fault.text);
 }

@@ -255,6 +255,16 @@ static ExitCode check_files(Picture *picture, Error *error)
                                                                              : EXIT_DONE;
 }
 
+// Rejects pictures that are too large for their formats.
+static bool check_sizes(const Run *run, Error *error)
+{
+    const uint32_t width = run->settings.width, height = run->settings.height;
+    const char *reference = run->options->reference_path;
+    return image_check_size(run->options->format, width, height, error) &&
+           (reference == NULL ||
+            image_check_size(image_format_of_path(reference), width, height, error));
+}
+
 static ExitCode prepare(Run *run, Error *error)
 {
     picture_warn_of_goal(run->options);
@@ -262,7 +272,7 @@ static ExitCode prepare(Run *run, Error *error)
     if (started != EXIT_DONE)
         return started;
     picture_warn_of_few_tiles(run);
-    if (!image_check_size(run->options->format, run->settings.width, run->settings.height, error))
+    if (!check_sizes(run, error))
         return EXIT_OUTPUT;
     const ExitCode prepared = run_prepare(run, error);
     if (prepared == EXIT_DONE)

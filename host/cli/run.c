@@ -61,11 +61,14 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
     };
 }
 
-static void print_missing(const Options *options, const Scene *scene)
+static bool check_missing(const Options *options, const Scene *scene, Error *error)
 {
     const MissingPart missing = scene_missing(scene);
+    if (missing.is_fault)
+        return error_set(error, "%s: %s", options->scene_path, missing.text);
     if (missing.kind != NULL && !options->quiet)
         fprintf(stderr, "clrt: %s: %s\n", options->scene_path, missing.text);
+    return true;
 }
 
 bool run_load_scene(Run *run, Error *error)
@@ -81,9 +84,8 @@ bool run_load_scene(Run *run, Error *error)
                        run->scene.viewpoints.count, view);
     run->report.load = run->scene.mesh_seconds;
     run->report.parse = run_lap(&moment) - run->report.load;
-    ok = ok && check_geometry(options, &run->scene, error);
-    if (ok)
-        print_missing(options, &run->scene);
+    ok = ok && check_geometry(options, &run->scene, error) &&
+         check_missing(options, &run->scene, error);
     run->normalization = normalization_of(&run->scene);
     Error cause = {0};
     if (ok && !normalization_check(&run->normalization, &run->scene, &cause))

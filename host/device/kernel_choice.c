@@ -43,6 +43,9 @@ bool kernel_check_request(const KernelRequest *request, Error *error)
     if (is_fp64 && wants_nodes(request, NODES_WIDE))
         return error_set(error, "--precision fp64 uses binary nodes: leave out --nodes "
                                 "wide");
+    if (request->lanes > 0 && (is_fp64 || wants_nodes(request, NODES_PAIR)))
+        return error_set(error, "%s has no vectors: leave out --lanes",
+                         is_fp64 ? "--precision fp64" : "--nodes pair");
     if (wants_packets && wants_nodes(request, NODES_PAIR))
         return error_set(error, "--kernel packet uses wide nodes: leave out --nodes pair");
     return true;
@@ -85,6 +88,9 @@ uint32_t kernel_group_side(const KernelChoice *choice)
 
 bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error)
 {
+    if (choice->lanes > 0 && choice->nodes == NODES_PAIR)
+        return error_set(error, "on %s, --lanes needs --nodes wide or --kernel packet",
+                         device->name);
     return choice->precision == PRECISION_FP32 || device->has_fp64 ||
            error_set(error, "%s has no double arithmetic, which --precision fp64 needs",
                      device->name);

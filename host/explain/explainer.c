@@ -174,6 +174,8 @@ static void take_light(ExplainedLight *light, const Notes *level, uint32_t index
     if (light->state == LIGHT_SEEN) {
         light->diffuse = number_at(&notes, LIGHT_DIFFUSE);
         light->specular = number_at(&notes, LIGHT_SPECULAR);
+        const double intensity = explainer->scene->lights.data[index].intensity;
+        light->shine = intensity > 0 ? light->specular / intensity : 0;
     }
 }
 

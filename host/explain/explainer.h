@@ -18,7 +18,8 @@ typedef struct {
     uint32_t blocker;        // id of the blocking primitive, or NOTHING
     double blocker_distance; // from the hit point; 0 unless state is LIGHT_BLOCKED
     double diffuse;          // intensity * cosine; 0 unless state is LIGHT_SEEN
-    double specular;         // intensity * highlight; 0 unless state is LIGHT_SEEN
+    double specular;         // intensity * shine; 0 unless state is LIGHT_SEEN
+    double shine;            // (normal . half vector)^shininess; 0 unless state is LIGHT_SEEN
 } ExplainedLight;
 
 typedef struct {

@@ -11,6 +11,11 @@ static json_t *vector_json(Vec3 v)
     return json_pack("[f, f, f]", v.x, v.y, v.z);
 }
 
+static json_t *color_json(const float color[3])
+{
+    return json_pack("[f, f, f]", (double)color[0], (double)color[1], (double)color[2]);
+}
+
 static json_t *primitive_json(const Scene *scene, uint32_t id)
 {
     const PrimitiveName name = name_primitive(scene, id);
@@ -26,13 +31,14 @@ static json_t *light_json(const ExplainReport *report, const ExplainedRay *ray, 
     const ExplainedLight *light = &ray->lights[index];
     static const char *const states[] = {"behind", "reaches", "blocked", "behind_face"};
     const bool blocked = light->state == LIGHT_BLOCKED;
-    return json_pack("{s:s, s:f, s:f, s:o, s:o, s:f, s:f, s:o}", "state", states[light->state],
-                     "cosine", light->cosine, "distance", light->distance, "blocker",
-                     blocked ? primitive_json(report->scene, light->blocker) : json_null(),
-                     "blocker_distance", blocked ? json_real(light->blocker_distance) : json_null(),
-                     "diffuse", light->diffuse * (double)material->kd, "highlight",
-                     light->specular * (double)material->ks, "color",
-                     vector_json(report->scene->lights.data[index].color));
+    const Light *source = &report->scene->lights.data[index];
+    return json_pack(
+        "{s:s, s:f, s:f, s:o, s:o, s:f, s:f, s:f, s:f, s:o}", "state", states[light->state],
+        "cosine", light->cosine, "distance", light->distance, "blocker",
+        blocked ? primitive_json(report->scene, light->blocker) : json_null(), "blocker_distance",
+        blocked ? json_real(light->blocker_distance) : json_null(), "intensity", source->intensity,
+        "diffuse", light->diffuse * (double)material->kd, "shine", light->shine, "highlight",
+        light->specular * (double)material->ks, "color", vector_json(source->color));
 }
 
 static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
@@ -45,18 +51,30 @@ static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
     return list;
 }
 
+// The factors of the surface's color besides the lights. Shaders that lack highlights ignore the
+// material's ks.
+static json_t *factors_json(const Scene *scene, const Material *material)
+{
+    static const char *const shaders[] = {"silhouette", "matte", "blinn_phong"};
+    return json_pack("{s:s, s:f, s:o, s:f, s:o, s:f, s:f}", "shader", shaders[material->shader],
+                     "ambient", scene->ambient, "diffuse_color", color_json(material->diffuse),
+                     "kd", (double)material->kd, "specular_color", color_json(material->specular),
+                     "ks", (double)material->ks, "shininess", (double)material->shininess);
+}
+
 static json_t *hit_json(const ExplainReport *report, const ExplainedRay *ray)
 {
     const Scene *scene = report->scene;
     if (ray->primitive == NOTHING)
         return json_null();
-    return json_pack("{s:o, s:s, s:f, s:f, s:o, s:o, s:o, s:o, s:f, s:f}", "primitive",
+    const Material *material = &scene->materials.data[ray->material];
+    return json_pack("{s:o, s:s, s:f, s:f, s:o, s:o, s:o, s:o, s:o, s:f, s:f}", "primitive",
                      primitive_json(scene, ray->primitive), "material",
                      name_material(scene, ray->material), "distance", ray->distance,
                      "distance_error", ray->error, "point", vector_json(ray->point), "normal",
-                     vector_json(ray->normal), "lights", lights_json(report, ray), "color",
-                     vector_json(ray->shaded), "share", ray->share, "reflectivity",
-                     (double)scene->materials.data[ray->material].reflectivity);
+                     vector_json(ray->normal), "lights", lights_json(report, ray), "factors",
+                     factors_json(scene, material), "color", vector_json(ray->shaded), "share",
+                     ray->share, "reflectivity", (double)material->reflectivity);
 }
 
 static json_t *ray_json(const ExplainReport *report, const ExplainedRay *ray, uint32_t level)
@@ -96,16 +114,18 @@ static json_t *samples_json(const ExplainReport *report, Explainer *explainer, E
 json_t *explain_json(const ExplainReport *report, Explainer *explainer, Error *error)
 {
     float color[3];
+    unsigned char bytes[3];
     const RenderSettings *settings = report->settings;
     json_t *samples = samples_json(report, explainer, error);
     if (samples == NULL)
         return NULL;
     explainer_mix(explainer, color);
-    return json_pack("{s:i, s:s, s:o, s:[I, I], s:[I, I], s:I, s:o, s:o, s:[f, f, f]}", "schema",
-                     SCHEMA_VERSION, "version", CLRT_VERSION, "scene",
+    encode_channels(color, 3, report->encoding, 1, bytes);
+    return json_pack("{s:i, s:s, s:o, s:[I, I], s:[I, I], s:I, s:o, s:o, s:o, s:[i, i, i]}",
+                     "schema", SCHEMA_VERSION, "version", CLRT_VERSION, "scene",
                      json_file_path(report->scene_path), "pixel", (json_int_t)report->pixel[0],
                      (json_int_t)report->pixel[1], "size", (json_int_t)settings->width,
                      (json_int_t)settings->height, "view", (json_int_t)report->view, "background",
                      vector_json(report->scene->background), "samples", samples, "color",
-                     (double)color[0], (double)color[1], (double)color[2]);
+                     color_json(color), "bytes", bytes[0], bytes[1], bytes[2]);
 }

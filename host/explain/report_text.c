@@ -38,10 +38,33 @@ static void write_head(const ExplainReport *report, FILE *stream)
     fprintf(stream, "\n");
 }
 
+static Vec3 color_of(const float color[3])
+{
+    return vec3((double)color[0], (double)color[1], (double)color[2]);
+}
+
+// Writes what the surface receives from a light that reaches it.
+static void write_received(const ExplainReport *report, const ExplainedLight *light,
+                           const Light *source, const Material *material, FILE *stream)
+{
+    const int digits = digits_of(report);
+    const bool shines = material->shader == SHADER_BLINN_PHONG;
+    if (!report->is_brief)
+        fprintf(stream, "; intensity %.6g", source->intensity);
+    fprintf(stream, "; diffuse %.*g", digits, light->diffuse * (double)material->kd);
+    if (shines && !report->is_brief)
+        fprintf(stream, "; shine %.6g", light->shine);
+    if (shines)
+        fprintf(stream, "; highlight %.*g", digits, light->specular * (double)material->ks);
+    if (source->color.x < 1 || source->color.y < 1 || source->color.z < 1) {
+        fprintf(stream, "; light color ");
+        write_vector(report, source->color, stream);
+    }
+}
+
 static void write_light(const ExplainReport *report, const ExplainedLight *light, uint32_t number,
                         const Material *material, FILE *stream)
 {
-    const int digits = digits_of(report);
     fprintf(stream, "    light %-4u ", number);
     if (light->state == LIGHT_BEHIND)
         fprintf(stream, "does not reach it: the normal is turned away");
@@ -61,13 +84,22 @@ static void write_light(const ExplainReport *report, const ExplainedLight *light
     if (!report->is_brief)
         fprintf(stream, "; cosine %.6g", light->cosine);
     if (light->state == LIGHT_SEEN)
-        fprintf(stream, "; diffuse %.*g", digits, light->diffuse * (double)material->kd);
-    if (light->state == LIGHT_SEEN && material->shader == SHADER_BLINN_PHONG)
-        fprintf(stream, "; highlight %.*g", digits, light->specular * (double)material->ks);
-    const Vec3 color = report->scene->lights.data[number - 1].color;
-    if (light->state == LIGHT_SEEN && (color.x < 1 || color.y < 1 || color.z < 1)) {
-        fprintf(stream, "; light color ");
-        write_vector(report, color, stream);
+        write_received(report, light, &report->scene->lights.data[number - 1], material, stream);
+    fprintf(stream, "\n");
+}
+
+// Writes the other factors of the surface's color.
+static void write_factors(const ExplainReport *report, const Material *material, FILE *stream)
+{
+    fprintf(stream, "    factors    diffuse color ");
+    write_vector(report, color_of(material->diffuse), stream);
+    if (material->shader != SHADER_SILHOUETTE)
+        fprintf(stream, ", kd %.6g; ambient %.6g", (double)material->kd, report->scene->ambient);
+    if (material->shader == SHADER_BLINN_PHONG) {
+        fprintf(stream, "; specular color ");
+        write_vector(report, color_of(material->specular), stream);
+        fprintf(stream, ", ks %.6g, shininess %.6g", (double)material->ks,
+                (double)material->shininess);
     }
     fprintf(stream, "\n");
 }
@@ -89,6 +121,8 @@ static void write_surface(const ExplainReport *report, const ExplainedRay *ray, 
     fprintf(stream, "\n");
     for (uint32_t i = 0; ray->uses_lights && i < scene->lights.count; i++)
         write_light(report, &ray->lights[i], i + 1, material, stream);
+    if (!report->is_brief)
+        write_factors(report, material, stream);
     fprintf(stream, "    color      ");
     write_vector(report, ray->shaded, stream);
     fprintf(stream, ", weight %.6g in the sample", ray->share);

@@ -41,7 +41,10 @@ static void send_note(FILE *stream, const Files *files, const PartCounts *counts
     if (counts->is_colored)
         fputs("; its colors per vertex are left out", text);
     if (lacks_materials(files))
-        fprintf(text, "; its materials, %.200s, cannot be opened", files->missing);
+        fprintf(text,
+                "; its materials, %.200s, cannot be opened: those that it names are gray (0.6 0.6 "
+                "0.6)",
+                files->missing);
     if (files->outside_count > 0)
         fputs("; it names files outside of its folder, which are not read", text);
     fclose(text);
@@ -80,6 +83,9 @@ bool model_send(FILE *stream, Files *files, Error *error)
     aiReleaseImport(scene);
     if (!ok)
         return false;
+    if (counts.triangles == 0 && counts.others > 0)
+        return error_set(error, "there are no triangles in it, only %zu lines and points",
+                         counts.others);
     if (counts.triangles == 0)
         return error_set(error, "there are no triangles in it");
     send_note(stream, files, &counts);

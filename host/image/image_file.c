@@ -12,20 +12,30 @@
 #include <strings.h>
 
 // libjpeg ends the process if a side is longer.
-#define JPEG_SIZE_MAX 65500
+#define JPEG_SIDE_MAX 65500
+
+// OpenImageIO writes longer sides modulo 65536, without an error.
+#define GIF_SIDE_MAX 65535
 
 typedef struct {
     const char *name;   // also the usual file extension
     const char *module; // OpenImageIO's name of the format; NULL if clrt writes the format itself
     bool is_float;
+    uint32_t side_max; // of a picture in pixels; 0: PICTURE_SIZE_MAX and more
 } Format;
 
 static const Format formats[] = {
-    {"png", NULL, false},    {"pfm", NULL, true},     {"exr", NULL, true},
+    {"png", NULL, false, 0},
+    {"pfm", NULL, true, 0},
+    {"exr", NULL, true, 0},
 #ifdef CLRT_WITH_OPENIMAGEIO
-    {"jpg", "jpeg", false},  {"jpeg", "jpeg", false}, {"tif", "tiff", false},
-    {"tiff", "tiff", false}, {"ppm", "pnm", false},   {"hdr", "hdr", true},
-    {"gif", "gif", false},
+    {"jpg", "jpeg", false, JPEG_SIDE_MAX},
+    {"jpeg", "jpeg", false, JPEG_SIDE_MAX},
+    {"tif", "tiff", false, 0},
+    {"tiff", "tiff", false, 0},
+    {"ppm", "pnm", false, 0},
+    {"hdr", "hdr", true, 0},
+    {"gif", "gif", false, GIF_SIDE_MAX},
 #endif
 };
 
@@ -76,10 +86,10 @@ double image_format_half_step(const char *format, Encoding encoding)
 
 bool image_check_size(const char *format, uint32_t width, uint32_t height, Error *error)
 {
-    const char *module = find_format(format)->module;
-    const bool is_jpeg = module != NULL && strcmp(module, "jpeg") == 0;
-    return !is_jpeg || (width <= JPEG_SIZE_MAX && height <= JPEG_SIZE_MAX) ||
-           error_set(error, "a JPEG has at most %d pixels a side", JPEG_SIZE_MAX);
+    const uint32_t most = find_format(format)->side_max;
+    return most == 0 || (width <= most && height <= most) ||
+           error_set(error, "a picture in the format %s has at most %u pixels a side", format,
+                     most);
 }
 
 // On failure, the functions below store only the reason in cause. image_write adds the file name.
@@ -131,7 +141,10 @@ bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSe
 {
     OutputFile file;
     Error cause = {0};
-    if (!output_file_begin(&file, path, error))
+    const uint32_t frames = settings->frames > 0 ? settings->frames : 1;
+    if (!image_check_size(settings->format, framebuffer->width, framebuffer->height / frames,
+                          error) ||
+        !output_file_begin(&file, path, error))
         return false;
     const bool ok = write_format(framebuffer, file.temporary, settings, &cause);
     return output_file_end(&file, ok, &cause) ||

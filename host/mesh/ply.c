@@ -74,55 +74,87 @@ static bool read_length(PlyReader *reader, const PlyProperty *property, int64_t 
            ply_reader_fail(reader, "list length %lld is negative", (long long)*length);
 }
 
-static bool read_corner(Loader *loader, const PlyProperty *property, uint32_t *corner)
+// In a list of strips, -1 is a valid corner.
+static bool read_corner(Loader *loader, const PlyProperty *property, PlyKind kind, int64_t *corner)
 {
     PlyReader *reader = &loader->reader;
-    int64_t vertex;
-    if (!ply_reader_read_integer(reader, property->type, &vertex))
+    if (!ply_reader_read_integer(reader, property->type, corner))
         return false;
-    if (vertex < 0)
+    const int64_t vertex = *corner;
+    if (vertex < 0 && !(vertex == -1 && kind == PLY_STRIPS))
         return ply_reader_fail(reader, "vertex index %lld is negative", (long long)vertex);
     if (vertex >= loader->header.vertex_count)
         return ply_reader_fail(reader, "vertex index %lld is not below the vertex count %lld",
                                (long long)vertex, (long long)loader->header.vertex_count);
-    *corner = (uint32_t)vertex;
     return true;
 }
 
-// Checks a polygon's corner count and reserves memory for its triangles.
-static bool reserve_fan(Loader *loader, const PlyProperty *property, int64_t length)
+// Checks a list's corner count and reserves memory for its triangles.
+static bool reserve_triangles(Loader *loader, const PlyProperty *property, int64_t length)
 {
     PlyReader *reader = &loader->reader;
     const size_t count = loader->triangles.count;
-    if (length < 3)
-        return ply_reader_fail(reader, "a face needs 3 or more corners, not %lld",
-                               (long long)length);
     if (length - 2 > PLY_COUNT_LIMIT - (int64_t)count)
         return ply_reader_fail(reader, "its %lld corners bring the triangle count above %lld",
                                (long long)length, (long long)PLY_COUNT_LIMIT);
     return ply_reader_check_room(reader, length, ply_reader_value_size(reader, property->type)) &&
            array_reserve(&loader->triangles.memory, &loader->triangles.capacity,
-                         count + (size_t)length - 2, sizeof(Triangle), reader->error);
+                         count + (length > 2 ? (size_t)length - 2 : 0), sizeof(Triangle),
+                         reader->error);
 }
 
-static bool read_polygon(Loader *loader, const PlyProperty *property)
+static void add_triangle(Loader *loader, int64_t a, int64_t b, int64_t c)
 {
-    int64_t length;
-    uint32_t first = 0, previous = 0, corner = 0;
-    if (!read_length(&loader->reader, property, &length) ||
-        !reserve_fan(loader, property, length) || !read_corner(loader, property, &first) ||
-        !read_corner(loader, property, &previous))
+    uint32_t *triangle = loader->triangles.data[loader->triangles.count++];
+    triangle[0] = (uint32_t)a;
+    triangle[1] = (uint32_t)b;
+    triangle[2] = (uint32_t)c;
+}
+
+static bool read_polygon(Loader *loader, const PlyProperty *property, int64_t length)
+{
+    int64_t first, previous, corner;
+    if (length < 3)
+        return ply_reader_fail(&loader->reader, "a face needs 3 or more corners, not %lld",
+                               (long long)length);
+    if (!reserve_triangles(loader, property, length) ||
+        !read_corner(loader, property, PLY_FACE, &first) ||
+        !read_corner(loader, property, PLY_FACE, &previous))
         return false;
-    for (int64_t index = 2; index < length; index++) {
-        if (!read_corner(loader, property, &corner))
+    for (int64_t index = 2; index < length; index++, previous = corner) {
+        if (!read_corner(loader, property, PLY_FACE, &corner))
             return false;
-        uint32_t *triangle = loader->triangles.data[loader->triangles.count++];
-        triangle[0] = first;
-        triangle[1] = previous;
-        triangle[2] = corner;
-        previous = corner;
+        add_triangle(loader, first, previous, corner);
     }
     return true;
+}
+
+// Three consecutive corners form a triangle, and every second triangle of a strip is reversed. To
+// reverse it, the corners of odd positions stay in last[1] and the others in last[0]. The index -1
+// ends a strip.
+static bool read_strips(Loader *loader, const PlyProperty *property, int64_t length)
+{
+    int64_t last[2] = {0, 0}, corner, held = 0;
+    if (!reserve_triangles(loader, property, length))
+        return false;
+    for (int64_t index = 0; index < length; index++) {
+        if (!read_corner(loader, property, PLY_STRIPS, &corner))
+            return false;
+        held = corner < 0 ? 0 : held + 1;
+        if (held > 2)
+            add_triangle(loader, last[1], last[0], corner);
+        last[held % 2] = corner;
+    }
+    return true;
+}
+
+static bool read_corners(Loader *loader, const PlyElement *element, const PlyProperty *property)
+{
+    int64_t length;
+    if (!read_length(&loader->reader, property, &length))
+        return false;
+    return element->kind == PLY_FACE ? read_polygon(loader, property, length)
+                                     : read_strips(loader, property, length);
 }
 
 static bool skip_property(PlyReader *reader, const PlyProperty *property)
@@ -135,12 +167,12 @@ static bool skip_property(PlyReader *reader, const PlyProperty *property)
     return ply_reader_skip_values(reader, property->type, length);
 }
 
-static bool read_property(Loader *loader, const PlyProperty *property)
+static bool read_property(Loader *loader, const PlyElement *element, const PlyProperty *property)
 {
     if (property->role == PLY_UNUSED)
         return skip_property(&loader->reader, property);
     if (property->role == PLY_CORNERS)
-        return read_polygon(loader, property);
+        return read_corners(loader, element, property);
     return read_component(loader, property);
 }
 
@@ -221,7 +253,7 @@ static bool read_element(Loader *loader, const PlyElement *element)
         if (reader->index == element->count)
             break;
         for (size_t index = 0; index < properties.count; index++) {
-            if (!read_property(loader, &properties.data[index]))
+            if (!read_property(loader, element, &properties.data[index]))
                 return false;
         }
     }
@@ -237,11 +269,31 @@ static bool read_elements(Loader *loader)
     return true;
 }
 
+// Fails if the file has no triangles, but has elements that are not read.
+static bool check_elements(const Loader *loader)
+{
+    PlyReader reader = loader->reader;
+    for (size_t index = 0; index < loader->header.elements.count; index++) {
+        const PlyElement *element = &loader->header.elements.data[index];
+        if (loader->triangles.count > 0 || element->kind != PLY_OTHER || element->count == 0 ||
+            element->property_count == 0)
+            continue;
+        reader.place = element->name.start;
+        reader.format = PLY_ASCII; // the header is text
+        reader.element = element->name;
+        reader.index = -1;
+        return ply_reader_fail(&reader, "there is nothing to draw: the file has no triangles, and "
+                                        "clrt does not read this element");
+    }
+    return true;
+}
+
 static bool load(Mesh *mesh, PlyReader reader)
 {
     Loader loader = {.reader = reader, .mesh = mesh};
     *mesh = (Mesh){0};
-    bool ok = ply_header_parse(&loader.header, &loader.reader) && read_elements(&loader);
+    bool ok = ply_header_parse(&loader.header, &loader.reader) && read_elements(&loader) &&
+              check_elements(&loader);
     mesh->triangles = loader.triangles.data;
     mesh->triangle_count = loader.triangles.count;
     ply_header_free(&loader.header);

@@ -11,11 +11,12 @@
 #include <stdio.h>
 
 // Fills mesh from the `size` bytes of a PLY file. Messages call the file `name`. The parser reads
-// vertex x y z nx ny nz and face vertex_indices (or vertex_index), and skips all other elements
-// and properties. Polygons become fans of triangles. Triangles with two equal corners are dropped
-// and counted. Returns false on truncated, inconsistent, non-finite or out-of-range data. The
-// message gives the line or, in a binary body, the byte offset. The parser allocates elements only
-// if the file is long enough for them.
+// vertex x y z nx ny nz and the list vertex_indices (or vertex_index) of face and tristrips, and
+// skips all other elements and properties. Polygons become fans of triangles. Triangles with two
+// equal corners are dropped and counted. Returns false on truncated, inconsistent, non-finite or
+// out-of-range data, and if a file without triangles has elements that the parser skips. The message
+// gives the line or, in a binary body, the byte offset. The parser allocates elements only if the
+// file is long enough for them.
 typedef bool PlyParse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error);
 PlyParse ply_parse;
 

@@ -45,6 +45,8 @@ static const struct {
     {PLY_VERTEX, "nz", PLY_NORMAL_Z},
     {PLY_FACE, "vertex_indices", PLY_CORNERS},
     {PLY_FACE, "vertex_index", PLY_CORNERS},
+    {PLY_STRIPS, "vertex_indices", PLY_CORNERS},
+    {PLY_STRIPS, "vertex_index", PLY_CORNERS},
 };
 
 #define COUNT_OF(table) (sizeof(table) / sizeof *(table))
@@ -111,7 +113,7 @@ static bool read_format(Parser *parser)
                                            "binary_big_endian 1.0'");
 }
 
-// Fails if a vertex or face element repeats or has too large a count.
+// Fails if an element that a mesh uses repeats or has too large a count.
 static bool check_kind(const Parser *parser, const PlyElement *element)
 {
     const PlyHeader *header = parser->header;
@@ -139,6 +141,8 @@ static bool read_element(Parser *parser)
         element.kind = PLY_VERTEX;
     else if (word_is(element.name, "face"))
         element.kind = PLY_FACE;
+    else if (word_is(element.name, "tristrips"))
+        element.kind = PLY_STRIPS;
 
     const PlyWord count = parser->words[2];
     const char *end = count.start + count.length;
@@ -284,9 +288,11 @@ static bool check_element(PlyHeader *header, PlyReader *reader, const PlyElement
         if (element->count > 0 && !has_roles(element, ROLE_BITS(PLY_X, PLY_Z)))
             return ply_reader_fail(reader, "element vertex lacks x, y or z");
     }
-    if (element->kind == PLY_FACE && element->count > 0 &&
+    const bool needs_corners = element->kind == PLY_FACE || element->kind == PLY_STRIPS;
+    if (needs_corners && element->count > 0 &&
         !has_roles(element, ROLE_BITS(PLY_CORNERS, PLY_CORNERS)))
-        return ply_reader_fail(reader, "element face lacks the list vertex_indices");
+        return ply_reader_fail(reader, "element %s lacks the list vertex_indices",
+                               ply_reader_quote(element->name).text);
     return true;
 }
 

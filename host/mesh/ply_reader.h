@@ -75,7 +75,7 @@ bool ply_reader_is_space(char character);
 #define PLY_COUNT_LIMIT      MESH_COUNT_MOST
 #define PLY_COORDINATE_BOUND COORDINATE_MOST
 
-// A property's role in the mesh: a vertex component, the corners of a face, or none.
+// A property's role in the mesh: a vertex component, the corners of a face or of strips, or none.
 typedef enum {
     PLY_X,
     PLY_Y,
@@ -94,18 +94,18 @@ typedef struct {
     PlyType length_type; // an integer type; only for lists
 } PlyProperty;
 
-typedef enum { PLY_VERTEX, PLY_FACE, PLY_OTHER } PlyKind;
+typedef enum { PLY_VERTEX, PLY_FACE, PLY_STRIPS, PLY_OTHER } PlyKind;
 
 typedef struct {
     PlyWord name;
     PlyKind kind;
     unsigned roles; // bit mask of the roles of its properties
-    int64_t count;  // at most PLY_COUNT_LIMIT for vertices and faces
+    int64_t count;  // at most PLY_COUNT_LIMIT unless kind is PLY_OTHER
     size_t first_property, property_count;
 } PlyElement;
 
 typedef struct {
-    ARRAY(PlyElement) elements; // vertices and faces have the properties that a mesh needs
+    ARRAY(PlyElement) elements; // all but PLY_OTHER have the properties that a mesh needs
     ARRAY(PlyProperty) properties;
     int64_t vertex_count;
     bool has_normals;

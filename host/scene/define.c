@@ -27,11 +27,14 @@ static const struct {
 static bool unknown_property(Tokens *tokens, Token property)
 {
     const char *names[PROPERTY_COUNT];
-    for (size_t i = 0; i < PROPERTY_COUNT; i++)
+    char list[128] = "";
+    for (size_t i = 0; i < PROPERTY_COUNT; i++) {
         names[i] = properties[i].name;
+        strcat(strcat(list, i == 0 ? "" : ", "), names[i]);
+    }
     const char *nearest = word_nearest(property.text, property.length, names, PROPERTY_COUNT);
     return nearest == NULL
-               ? tokens_fail(tokens, property, "expected a property of a material")
+               ? tokens_fail(tokens, property, "expected a property of a material (%s)", list)
                : tokens_fail(tokens, property, "unknown property (did you mean '%s'?)", nearest);
 }
 

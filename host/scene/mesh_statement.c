@@ -182,6 +182,29 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
     return ok;
 }
 
+// Meshes with fewer triangles have flat faces more often than round ones.
+#define ROUND_TRIANGLES 100
+
+// Notes meshes whose faces are flat only because neither the file nor the scene gives normals, if a
+// mirror shows this.
+static bool note_flat_mirrors(Scene *scene, Objects added, const MeshLoadOptions *options,
+                              Error *error)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < added.count && !options->is_flat; i++) {
+        const MeshObject *object = &added.data[i];
+        const bool reflects = scene->materials.data[object->material].reflectivity > 0;
+        if (reflects && object->mesh.normals == NULL &&
+            object->mesh.triangle_count >= ROUND_TRIANGLES)
+            ok = scene_add_note(
+                scene, scene->inputs.data[object->input],
+                "it has no normals, so its mirrors are flat triangles: 'normals "
+                "smooth' before the mesh smooths them, and 'normals flat' keeps them",
+                error);
+    }
+    return ok;
+}
+
 bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshLoadOptions *options)
 {
     const size_t count = scene->objects.count;
@@ -196,7 +219,8 @@ bool mesh_statement_read(Scene *scene, Tokens *tokens, const MeshLoadOptions *op
     const Objects added = {scene->objects.data + count, scene->objects.count - count};
     const bool ok = options->is_plain_ply ||
                     (read_transforms(tokens, added) && positions_are_kept(tokens, added));
-    const bool is_complete = ok && mesh_load_normals(scene, count, options, tokens->error);
+    const bool is_complete = ok && mesh_load_normals(scene, count, options, tokens->error) &&
+                             note_flat_mirrors(scene, added, options, tokens->error);
     scene->mesh_seconds += clock_seconds() - start;
     return is_complete;
 }

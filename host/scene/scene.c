@@ -74,7 +74,10 @@ const char *viewpoint_fault(const Viewpoint *viewpoint)
     if (!(vec3_extent(forward) > 0))
         return "the camera looks at its own position";
     if (!(vec3_extent(right) > 1e-9))
-        return "the camera must not look along its 'up' vector";
+        return fabs(forward.z) > 0.5
+                   ? "the camera must not look along its 'up' vector: choose another, as 'up 0 1 0'"
+                   : "the camera must not look along its 'up' vector: choose another, as 'up 0 0 "
+                     "1'";
     return NULL;
 }
 
@@ -197,13 +200,26 @@ static bool has_shaded(const Scene *scene)
     return false;
 }
 
+static bool has_points(const Scene *scene)
+{
+    size_t object = 0;
+    while (object < scene->objects.count && scene->objects.data[object].mesh.vertex_count == 0)
+        object++;
+    return object < scene->objects.count;
+}
+
 MissingPart scene_missing(const Scene *scene)
 {
-    if (scene->spheres.count == 0 && scene_triangle_count(scene) == 0)
-        return (MissingPart){"nothing_to_draw", "there is nothing to draw: it has no triangles "
-                                                "and no spheres"};
+    const bool is_empty = scene->spheres.count == 0 && scene_triangle_count(scene) == 0;
+    if (is_empty && scene_dropped_count(scene) == 0 && has_points(scene))
+        return (MissingPart){"points_alone",
+                             "there is nothing to draw: it has points and no triangles", true};
+    if (is_empty)
+        return (MissingPart){"nothing_to_draw",
+                             "there is nothing to draw: it has no triangles and no spheres", false};
     if (scene->lights.count == 0 && has_shaded(scene))
-        return (MissingPart){"no_lights", "it has no lights: its surfaces show ambient light only"};
+        return (MissingPart){"no_lights", "it has no lights: its surfaces show ambient light only",
+                             false};
     return (MissingPart){0};
 }
 

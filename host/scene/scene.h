@@ -115,6 +115,7 @@ void material_set_shininess(Material *material, float shininess);
 typedef struct {
     const char *kind; // a name for programs; NULL if nothing is missing
     const char *text; // a clause for messages
+    bool is_fault;    // the files have parts that clrt cannot draw, and nothing else
 } MissingPart;
 
 // Returns the first missing part: objects to render, or lights for surfaces that need them.

@@ -29,6 +29,8 @@ REFUSALS = [
     (2, "--size wants a value", [SCENE, "--size"]),
     (2, "--size wants WIDTHxHEIGHT, each between 1 and 131072, not '0x5'", [*FILE, "--size", "0x5"]),
     (2, ONE_SCENE.format("b.scn"), ["a.scn", "b.scn", "-o", "a.pfm"]),
+    (2, "to write the picture 'e.png', give -o e.png", ["a.scn", "e.png"]),
+    (2, ONE_SCENE.format("e.png"), ["a.scn", "e.png", "-o", "a.pfm"]),
     (2, AFTER_EQUALS_SIGN, ["a.scn", "--aa", "4", "-o", "a.pfm"]),
     (2, AFTER_EQUALS_SIGN, ["--aa", "4", "a.scn", "-o", "a.pfm"]),
     (2, AFTER_EQUALS_SIGN, ["--aa", "4", "-o", "a.pfm"]),

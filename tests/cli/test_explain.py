@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Tests --explain-pixel and --explain: text, JSON, the pixel's color, compiled features and uploaded data.
 # Usage: test_explain.py CLRT
+import re
+
 from models import ply
 from pictures import read_pfm
 from work import EVERY_FEATURE, ROOT, SharedWork, main
@@ -99,6 +101,70 @@ FORMS = ["", "--aa=3", "--kernel ray --nodes pair", "--kernel ray --nodes wide",
          "--precision fp64", "--precision fp64 --aa", "--no-bvh", "--max-level 1", "--max-level 0", "-j 1"]
 
 
+NUMBER = r"(-?[\d.]+(?:e[-+]\d+)?)"
+VECTOR = rf"\({NUMBER}, {NUMBER}, {NUMBER}\)"
+
+
+def numbers_after(name, line, default):
+    """Returns the number or vector after the name in a line of text."""
+    found = re.search(rf"\b{name} (?:{VECTOR}|{NUMBER})", line)
+    values = [float(part) for part in found.groups() if part is not None] if found else default
+    return values if len(values) > 1 else values[0]
+
+
+def shaded(factors, lights):
+    """Computes a surface's color from its factors and from its lights' factors."""
+    if factors["shader"] == "silhouette":
+        return factors["diffuse_color"]
+    sums = [[sum(light[part] * light["color"][i] for light in lights) for i in range(3)]
+            for part in ("diffuse", "highlight")]
+    return [min(1, factors["diffuse_color"][i] * (factors["ambient"] + sums[0][i]) +
+                factors["specular_color"][i] * sums[1][i]) for i in range(3)]
+
+
+def received(factors, light):
+    """Computes diffuse and highlight of a light that reaches the surface."""
+    return {**light, "diffuse": factors["kd"] * light["intensity"] * light["cosine"],
+            "highlight": factors["ks"] * light["intensity"] * light["shine"]}
+
+
+def color_of_json(report):
+    """Computes the pixel's color from the factors of its lights, surfaces and samples."""
+    total = [0, 0, 0]
+    for sample in report["samples"]:
+        parts = [(sample["background_weight"], report["background"])]
+        for hit in (ray["hit"] for ray in sample["rays"] if ray["hit"]):
+            lights = [received(hit["factors"], light) for light in hit["lights"] if light["state"] == "reaches"]
+            parts.append((hit["share"], shaded(hit["factors"], lights)))
+        total = [sum(weight * color[i] for weight, color in parts) + total[i] for i in range(3)]
+    return [value / len(report["samples"]) for value in total]
+
+
+def color_of_text(text):
+    """Does the same with the printed lines."""
+    total, samples = [0, 0, 0], text.count("the sample's color")
+    for line in text.splitlines():
+        part = None
+        if line.startswith("    meets"):
+            lights = []
+        if line.startswith("    light") and "reaches it" in line:
+            lights.append({name: numbers_after(name, line, default) for name, default in
+                           (("cosine", [0]), ("intensity", [0]), ("shine", [0]))})
+            lights[-1]["color"] = numbers_after("light color", line, [1, 1, 1])
+        if line.startswith("    factors"):
+            factors = {name.replace(" ", "_"): numbers_after(name, line, default) for name, default in
+                       (("diffuse color", None), ("kd", [0]), ("ambient", [0]), ("specular color", [0, 0, 0]),
+                        ("ks", [0]))}
+            factors["shader"] = "silhouette" if "ambient" not in line else "shaded"
+        if line.startswith("    color"):
+            part = shaded(factors, [received(factors, light) for light in lights])
+        if line.startswith("  the background"):
+            part = numbers_after("background", line, None)
+        if part:
+            total = [total[i] + numbers_after("weight", line, None) * part[i] / samples for i in range(3)]
+    return total
+
+
 class Explain(SharedWork):
     def prepare(self):
         corners = [(-10, -10, 0), (10, -10, 0), (10, 10, 0), (-10, 10, 0)]
@@ -117,6 +183,23 @@ class Pixels(Explain):
         color = "\nthe pixel's color (0.396859199, 0.396859199, 0.521859169), in 8 bits "
         self.assertTrue(done.stdout.endswith(color + "101 101 133\n"))
         self.assertTrue(self.clrt(*PIXEL, "--encode", "srgb").endswith(color + "169 169 191\n"))
+
+    def test_the_printed_factors_add_up_to_the_pixels_color(self):
+        shaders = set()
+        for scene, pixels in (EVERY_FEATURE, ("70,60", "30,75", "90,70", "64,90")), \
+                ("mirrors.scn", ("2,2", "0,4")), ("flat.scn", ("4,4",)), ("lamps.scn", ("64,64", "150,190")):
+            for pixel in pixels:
+                words = [str(ROOT / "scenes" / scene) if scene == "lamps.scn" else scene, "--explain-pixel", pixel,
+                         "--aa=2"]
+                found = self.report(*words, "--json")
+                hits = [ray["hit"] for sample in found["samples"] for ray in sample["rays"] if ray["hit"]]
+                shaders |= {hit["factors"]["shader"] for hit in hits}
+                for mine, color in zip(color_of_json(found), found["color"]):
+                    self.assertAlmostEqual(mine, color, delta=4e-7, msg=words)
+                for mine, color in zip(color_of_text(self.clrt(*words)), found["color"]):
+                    self.assertAlmostEqual(mine, color, delta=1e-5, msg=words)
+                self.assertEqual(found["bytes"], [round(255 * value) for value in found["color"]])
+        self.assertEqual(shaders, {"silhouette", "matte", "blinn_phong"})
 
     def test_a_corner_meets_nothing(self):
         self.assertIn("meets      nothing", self.clrt("mirrors.scn", "--explain-pixel", "0,4"))

@@ -89,13 +89,27 @@ class Files(SharedWork):
 
     @needs_exr
     def test_encodings_leave_floats_alone(self):
-        for encode in "raw", "srgb":
-            self.clrt(*SMALL, f"{encode}.exr", "--encode", encode)
-        self.assertEqual(read_exr(self.work / "raw.exr"), read_exr(self.work / "srgb.exr"))
+        self.clrt(*SMALL, "raw.exr", "--encode", "raw")
+        self.clrt(*SMALL, "plain.exr")
+        self.assertEqual(read_exr(self.work / "raw.exr"), read_exr(self.work / "plain.exr"))
+        self.refuses(2, "--encode srgb is for 8-bit files: exr holds the traced colors", *SMALL, "a.exr",
+                     "--encode", "srgb")
 
     @needs_exr
-    def test_a_jpeg_past_its_size_is_refused(self):
-        self.refuses(5, "a JPEG has at most 65500 pixels a side", SCENE, "-s", "65536x1", "-o", "a.jpg")
+    def test_a_picture_past_the_size_of_its_format_is_refused_before_it_is_drawn(self):
+        jpg, gif = (f"a picture in the format {name} has at most {most} pixels a side"
+                    for name, most in (("jpg", 65500), ("gif", 65535)))
+        for size in "65536x1", "1x65536":
+            words = SCENE, "-s", size
+            self.refuses(5, jpg, *words, "-o", "a.jpg")
+            self.refuses(5, gif, *words, "-o", "a.gif", "--turntable", "2")
+            self.refuses(5, jpg, *words, "-o", "a.pfm", "--reference=a.jpg")
+            self.refuses(5, gif, *words, "-o", "a.pfm", "--reference=a.gif")
+        self.assertEqual(list(self.work.glob("a.*")), [])
+        self.clrt(SCENE, "-s", "65536x1", "-o", "a.pfm")
+        self.refuses(5, jpg, "compare", "a.pfm", "a.pfm", "-q", "-o", "a.jpg")
+        self.clrt(SCENE, "-s", "65535x1", "--turntable", "2", "-o", "a.gif")
+        self.assertEqual(self.bytes_of("a.gif")[6:10], bytes([255, 255, 1, 0]))
 
 
 @needs_exr

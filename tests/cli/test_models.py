@@ -4,6 +4,7 @@
 # files. Usage: test_models.py CLRT 1|0 [EXPORT], with 0 for a build without Assimp. EXPORT is the
 # program of export_model.c.
 import os
+import re
 import subprocess
 import sys
 import time
@@ -27,6 +28,7 @@ DEFINES = (
     "define shiny blinn_phong diffuse 0.125 0.5 0.25 specular 0.5 0.5 0.25 kd 1 ks 1 shininess 40\n"
 )
 COLORED = models.obj(COARSE, TRIANGLES, "mtllib colors.mtl", [("usemtl red", 0), ("usemtl shiny", HALF)])
+GRAY = "those that it names are gray (0.6 0.6 0.6)"
 
 
 @unittest.skipIf(ASSIMP, "this build has Assimp")
@@ -206,7 +208,10 @@ class Materials(Work):
 
     def test_a_missing_library_is_reported(self):
         (self.work / "colors.mtl").unlink()
-        self.picture("colors.obj", says="clrt: colors.obj: its materials, colors.mtl, cannot be opened\n")
+        self.clrt("convert", "colors.obj", "gray.scn", "-q")
+        defined = re.findall(r'define "colors.obj:.*', (self.work / "gray.scn").read_text())
+        self.assertTrue(defined and all("matte diffuse 0.6 0.6 0.6 " in line for line in defined), defined)
+        self.picture("colors.obj", says=f"clrt: colors.obj: its materials, colors.mtl, cannot be opened: {GRAY}\n")
 
     def test_the_pictures_hash_is_of_the_library_too(self):
         def hash_in_picture():
@@ -295,7 +300,7 @@ class Hostile(Work):
         (self.work / "inner/out").symlink_to(self.work)
         plain = self.picture("inner/plain.obj")
         for name, library in ("inner/a.obj", "colors.mtl"), ("inner/b.obj", "out/secret.mtl"):
-            says = f"clrt: {name}: its materials, {library}, cannot be opened; {note}\n"
+            says = f"clrt: {name}: its materials, {library}, cannot be opened: {GRAY}; {note}\n"
             self.assertEqual(self.picture(name, says=says), plain)
         # Links inside the folder work. The model that the user names may be a link, too.
         (self.work / "inner/kept.mtl").write_text(LIBRARY)
@@ -315,7 +320,7 @@ class Hostile(Work):
         for name in ("pipe.obj", "folder.obj"):
             self.fails(f"{name}: cannot be read: it is not a file", name)
         self.write(colors_obj=COLORED)
-        self.picture("colors.obj", says="clrt: colors.obj: its materials, colors.mtl, cannot be opened\n")
+        self.picture("colors.obj", says=f"clrt: colors.obj: its materials, colors.mtl, cannot be opened: {GRAY}\n")
 
     def test_coordinates_that_are_no_numbers_are_refused_as_in_ply(self):
         bad = [(float("nan"), 0, 0)] + POINTS[1:]
@@ -326,7 +331,7 @@ class Hostile(Work):
 
     def test_a_model_without_triangles_is_refused(self):
         self.write(a_obj="v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n", a_3mf=models.three_mf("<model/>", False))
-        self.fails("a.obj: there are no triangles in it", "a.obj")
+        self.fails("a.obj: there are no triangles in it, only 2 lines and points", "a.obj")
         self.fails("a.3mf: there are no triangles in it", "a.3mf")
 
     def test_a_face_with_a_missing_vertex_is_reported(self):

@@ -6,6 +6,7 @@ import os
 import sys
 import unittest
 
+import models
 from work import ROOT, SCENE, Work, main, needs_exr
 
 HAS_WINDOW = sys.argv[3] == "ON"
@@ -17,6 +18,7 @@ NO_MESH = (
     "element face 0\nproperty list uchar int vertex_indices\nend_header\n"
 )
 BLANK = "there is nothing to draw: it has no triangles and no spheres"
+POINTS = "there is nothing to draw: it has points and no triangles"
 DARK = "it has no lights: its surfaces show ambient light only"
 
 
@@ -82,6 +84,42 @@ class Combinations(Work):
             sentence = "--frames names the views: leave out --view"
             self.refuses(sentence, *PICTURE, "--frames", "1-2", "--view", view)
 
+    def test_options_without_effect_beside_another_are_refused(self):
+        vectors = "has no vectors: leave out --lanes"
+        tiles = "--aa-adaptive, --error and --time draw the picture as a whole: leave out --tile"
+        for sentence, *words in (
+            (f"--nodes pair {vectors}", *PICTURE, "--nodes", "pair", "--lanes", "16"),
+            (f"--precision fp64 {vectors}", *PICTURE, "--precision", "fp64", "--lanes", "8"),
+            (f"--nodes pair {vectors}", "check", SCENE, "--nodes", "pair", "--lanes", "16"),
+            (f"--nodes pair {vectors}", "--warm", "--nodes", "pair", "--lanes", "4"),
+            ("--no-bvh builds no tree: leave out --bvh", *PICTURE, "--no-bvh", "--bvh", "midpoint"),
+            ("--no-bvh builds no tree: leave out --bvh", "check", SCENE, "--bvh", "sah", "--no-bvh"),
+            *((tiles, *PICTURE, *words, "--tile", "32x32")
+              for words in (["--error", "5%"], ["--time", "1"], ["--aa-adaptive"])),
+            ("--encode srgb is for 8-bit files: pfm holds the traced colors", *PICTURE, "--encode", "srgb"),
+            *((f"clrt --warm takes no {name}", "--warm", name, *values)
+              for name, *values in (["--hash"], ["--aa"], ["--size", "8x8"], ["--output", "a.png"],
+                                    ["--tile", "8x8"], ["--verbose"], ["--up", "x"])),
+            ("clrt --list-devices takes no --warm", "--warm", "--list-devices"),
+            ("clrt --warm takes no --stats=FILE", SCENE, "--warm", "--stats=a.json"),
+            *((f"--{name} chooses kernels for a scene: name one", "--warm", f"--{name}", *values)
+              for name, *values in (["bvh", "sah"], ["no-bvh"], ["specialize", "never"])),
+            (f"clrt --list-devices takes no '{SCENE}'", "--list-devices", SCENE),
+            ("clrt --list-devices takes no --aa", "--list-devices", SCENE, "--aa=9"),
+            ("clrt --list-devices takes no --device", "--device", "cpu", "--list-devices"),
+            ("clrt --list-devices takes no --quiet", "--list-devices", "-q"),
+            ("clrt --explain takes no --stats=FILE", SCENE, "--explain", "--stats=a.json"),
+            *((f"clrt {name} takes no --verbose", *words, "-v")
+              for name, *words in (["check", "check", SCENE], ["compare", "compare", "a.png", "b.png"],
+                                   ["--explain", SCENE, "--explain"],
+                                   ["--explain-pixel", SCENE, "--explain-pixel", "1,1"])),
+            ("clrt --explain takes no --repeat", SCENE, "--explain", "--repeat", "2"),
+            ("clrt --explain takes no --view", SCENE, "--explain", "--view", "2"),
+        ):
+            self.refuses(sentence, *words)
+        self.clrt(SCENE, "-s", "8x6", "-o", "a.pfm", "--encode", "srgb", "--reference=b.png", "--reference-samples",
+                  "2", "-q")
+
     def test_a_requested_precision_is_kept(self):
         self.write(a_scn="sphere 0 0 0 1\n")
         for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"):
@@ -109,6 +147,18 @@ class Notes(Work):
         for name in "a.scn", "b.scn", "a.ply", "b.ply", "c.scn":
             self.draws(f"{name}: {BLANK}", name)
 
+    def test_parts_that_are_not_read_are_no_blank_picture(self):
+        points = NO_MESH.replace("vertex 0", "vertex 1") + "0 0 0\n"
+        grid = points.replace("face 0", "face 0\nproperty list uchar int vertex_index\nelement range_grid 1") + "0\n"
+        self.write(a_ply=points, b_ply=grid, a_scn="mesh a.ply\n", b_scn="mesh a.ply\nsphere 0 0 0 1\nlight 0 0 9 1\n")
+        unread = "there is nothing to draw: the file has no triangles, and clrt does not read this element"
+        for words in ["-o", "a.pfm"], ["--explain"]:
+            for name in "a.ply", "a.scn":
+                self.refuses(3, f"{name}: {POINTS}", name, *words)
+            self.refuses(3, f"b.ply:9: element range_grid: {unread}", "b.ply", *words)
+        self.assertIn(f"  FAULT: {POINTS}\n", self.run_clrt("check", "a.ply").stdout)
+        self.draws("", "b.scn")
+
     def test_surfaces_without_lights_are_noted(self):
         self.write(a_scn="material 1\nsphere 0 0 0 1\n", b_scn=f"material 2\nmesh {SCENES}/cube.ply\n")
         for name in "a.scn", "b.scn":
@@ -122,6 +172,22 @@ class Notes(Work):
         )
         for name in "a.scn", "b.scn", "c.scn":
             self.draws("", name)
+
+    def test_flat_mirrors_are_noted(self):
+        points, triangles = models.knot()
+        normals = models.normals_of(points)
+        self.write(a_ply=models.ply(points, triangles), b_ply=models.ply(points, triangles, normals),
+                   c_ply=models.ply(points, triangles[:99]))
+        flat = "a.ply: it has no normals, so its mirrors are flat triangles: 'normals smooth' before the mesh " \
+               "smooths them, and 'normals flat' keeps them"
+        for note, *lines in (
+            (flat, "material 3", "mesh a.ply"), (flat, "define m matte reflectivity 0.1", "material m", "ply_file a.ply"),
+            ("", "material 1", "mesh a.ply"), ("", "material 3", "normals smooth", "mesh a.ply"),
+            ("", "material 3", "normals flat", "mesh a.ply"), ("", "material 3", "mesh b.ply"),
+            ("", "material 3", "mesh c.ply"),
+        ):
+            self.write(a_scn="light 5 5 9 1\n" + "\n".join(lines) + "\n")
+            self.draws(note, "a.scn")
 
     def test_check_notes_both(self):
         self.write(a_ply="", b_ply=NO_MESH, a_scn="material 1\nsphere 0 0 0 1\n")

@@ -39,6 +39,40 @@ TEST(a_polygon_becomes_a_fan_around_its_first_corner)
     assert_triangle(&mesh, 2, 4, 2, 3);
 }
 
+#define STRIPS "element tristrips 1\nproperty list int int vertex_indices\n"
+#define SQUARE "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 1 2 0\n"
+
+TEST(the_triangles_of_a_strip_have_one_winding_and_minus_one_begins_a_strip)
+{
+    FREED_BY(mesh_free)
+    Mesh mesh = parse_text(HEAD "element vertex 6\n" XYZ STRIPS "end_header\n" SQUARE
+                                "14 0 1 2 3 4 -1 -1 5 4 -1 2 3 4 5\n");
+    assert_int_equal(mesh.triangle_count, 5);
+    assert_triangle(&mesh, 0, 0, 1, 2);
+    assert_triangle(&mesh, 1, 2, 1, 3);
+    assert_triangle(&mesh, 2, 2, 3, 4);
+    assert_triangle(&mesh, 3, 2, 3, 4);
+    assert_triangle(&mesh, 4, 4, 3, 5);
+}
+
+TEST(strips_in_binary_files_follow_the_faces_and_drop_repeated_corners)
+{
+    Builder builder = {0};
+    static const unsigned char list[] = {6, 0, 1, 2, 2, 3, 255};
+    put_text(&builder, "ply\nformat binary_little_endian 1.0\nelement vertex 4\n");
+    put_text(&builder, "property char x\nproperty char y\nproperty char z\nelement face 1\n");
+    put_text(&builder, "property list uchar uchar vertex_index\nelement tristrips 1\n");
+    put_text(&builder, "property list uchar char vertex_index\nend_header\n");
+    memcpy(builder.bytes + builder.size, "\0\0\0\1\0\0\0\1\0\1\1\0\3\0\1\3", 16);
+    memcpy(builder.bytes + builder.size + 16, list, sizeof list);
+    builder.size += 16 + sizeof list;
+    FREED_BY(mesh_free) Mesh mesh = parse_good(&builder);
+    assert_int_equal(mesh.triangle_count, 2);
+    assert_triangle(&mesh, 0, 0, 1, 3);
+    assert_triangle(&mesh, 1, 0, 1, 2);
+    assert_int_equal(mesh.dropped.count, 2); // of the strip's triangles 0 1 2, 2 1 2 and 2 2 3
+}
+
 TEST(triangles_with_equal_corner_positions_are_dropped)
 {
     FREED_BY(mesh_free)

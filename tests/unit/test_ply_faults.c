@@ -4,6 +4,10 @@
 
 #define TRIANGLE HEAD "element vertex 3\n" XYZ FACES "end_header\n0 0 0\n1 0 0\n0 1 0\n"
 
+#define STRIP                                                                                      \
+    HEAD "element vertex 3\n" XYZ "element tristrips 1\nproperty list uint int "                   \
+         "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+
 static void assert_fails(const char *bytes, size_t size, const char *sentence)
 {
     Mesh mesh;
@@ -57,6 +61,8 @@ TEST(each_fault_of_a_header_has_its_sentence)
          "t.ply:3: element vertex lacks x, y or z"},
         {BINARY "element face 1\nend_header\n",
          "t.ply:3: element face lacks the list vertex_indices"},
+        {BINARY "element tristrips 1\nend_header\n",
+         "t.ply:3: element tristrips lacks the list vertex_indices"},
     };
     for (size_t index = 0; index < sizeof cases / sizeof *cases; index++)
         assert_fails(cases[index][0], strlen(cases[index][0]), cases[index][1]);
@@ -94,6 +100,18 @@ TEST(each_fault_of_an_ascii_body_has_its_sentence)
                                         "triangle count above 2147483647"},
         {TRIANGLE "9223372036854775808\n",
          "t.ply:13: face 0: '9223372036854775808' is not a 64-bit integer"},
+        {STRIP "3 0 1 3\n",
+         "t.ply:13: tristrips 0: vertex index 3 is not below the vertex count 3"},
+        {STRIP "3 0 1 -2\n", "t.ply:13: tristrips 0: vertex index -2 is negative"},
+        {STRIP "5 0 1 2\n", "t.ply:13: tristrips 0: a count of 5 does not fit in the rest of the "
+                            "file"},
+        {STRIP "4294967295 0 1 2\n", "t.ply:13: tristrips 0: its 4294967295 corners bring the "
+                                     "triangle count above 2147483647"},
+        {HEAD "element vertex 1\n" XYZ "element range_grid 1\nproperty list int int b\nend_header\n"
+              "0 0 0\n1 0\n",
+         "t.ply:7: element range_grid: there is nothing to draw: the file has no triangles, and "
+         "clrt "
+         "does not read this element"},
         {HEAD "element a 2\nproperty list int int b\nend_header\n0\n9223372036854775807 1 2\n",
          "t.ply:7: a 1: a count of 9223372036854775807 does not fit in the rest of the file"},
     };

@@ -179,8 +179,15 @@ TEST(faults_name_line_column_and_the_statement)
                      "'size WIDTH HEIGHT'"},
         {"camera 0 0 0 0 0 0 45",
          "1:1: the camera looks at its own position: found 'camera'" CAMERA},
-        {"camera 0 0 5 0 0 0 45",
-         "1:1: the camera must not look along its 'up' vector: found 'camera'" CAMERA},
+        {"camera 0 0 5 0 0 0 45", "1:1: the camera must not look along its 'up' vector: choose "
+                                  "another, as 'up 0 1 0': found "
+                                  "'camera'" CAMERA},
+        {"up 0 -1 0\ncamera 0 5 0 0 0 0 45", "2:1: the camera must not look along its 'up' vector: "
+                                             "choose another, as 'up 0 0 1': found "
+                                             "'camera'" CAMERA},
+        {"define jade matte color 0.2 0.7 0.4",
+         "1:19: expected a property of a material (diffuse, specular, kd, ks, shininess, "
+         "reflectivity): found 'color'" DEFINE},
         {"up 0 1 0", "1:1: no camera follows this 'up': found 'up'" STATEMENT "'up X Y Z'"},
         {"normals smooth 180.5",
          "1:16: expected a number between 0 and 180: found '180.5'" NORMALS},

@@ -24,6 +24,10 @@ static const Conflict conflicts[] = {
      "--%s does not go with --aa-adaptive, --error and --time, which refine the picture as a "
      "whole: "
      "give --aa"},
+    {{"tile"},
+     {REFINES},
+     "--aa-adaptive, --error and --time draw the picture as a whole: leave out --tile"},
+    {{"no-bvh"}, {"bvh"}, "--no-bvh builds no tree: leave out --bvh"},
     {{"part"}, {"no-metadata"}, "--part needs the metadata: leave out --no-metadata"},
     {{"resume"}, {"repeat"}, "--repeat measures whole pictures: leave out --resume"},
     {{"frames", "turntable"},
@@ -129,9 +133,15 @@ static bool check_file(const Options *options, Error *error)
     const bool is_adaptive = options_are_adaptive(options);
     const bool takes_layers = image_format_takes_layers(options->format);
     const bool is_certain = aov_needs(options->aovs, AOV_NEEDS_CERTAINTY);
+    const char *reference = options->reference_path;
+    const bool are_floats =
+        image_format_is_float(options->format) &&
+        (reference == NULL || image_format_is_float(image_format_of_path(reference)));
     const Rule rules[] = {
-        {options->exposure != 0 && image_format_is_float(options->format),
+        {options->exposure != 0 && are_floats,
          "--exposure is for 8-bit files: %s holds the traced colors"},
+        {options->encoding != ENCODE_RAW && are_floats && options->parts == 0,
+         "--encode srgb is for 8-bit files: %s holds the traced colors"},
         {is_adaptive && aov_needs(options->aovs, AOV_NEEDS_TESTS),
          "--aov boxtests and tritests count a grid of samples: leave out --aa-adaptive, --error "
          "and --time"},
@@ -213,6 +223,15 @@ bool options_check_purpose(Options *options, Error *error)
         return error_set(error, "--keys and --quit-after are for the window: leave out -o");
     return check_format(options, error) && check_frames(options, error) &&
            check_file(options, error) && check_streams(options, error);
+}
+
+bool options_check_general_kernels(const Options *options, Error *error)
+{
+    static const char *const of_scenes[NAMES_MOST] = {"bvh", "no-bvh", "specialize"};
+    const char *name = first_given(options, of_scenes, NULL);
+    if (name != NULL)
+        return error_set(error, "--%s chooses kernels for a scene: name one", name);
+    return kernel_check_request(&options->kernel, error);
 }
 
 bool options_check_compare(Options *options, Error *error)

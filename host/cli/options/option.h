@@ -45,7 +45,7 @@ typedef enum {
 
 // The commands and modes that accept an option.
 enum {
-    FOR_FILE = 1,      // writing a picture to a file, and --warm
+    FOR_FILE = 1,      // writing a picture to a file
     FOR_WINDOW = 2,    // the window
     FOR_CHECK = 4,     // clrt check
     FOR_COMPARE = 8,   // clrt compare
@@ -53,8 +53,11 @@ enum {
     FOR_CONVERT = 32,  // clrt convert
     FOR_PIXEL = 64,    // --explain-pixel
     FOR_EXPLAIN = 128, // --explain
+    FOR_WARM = 256,    // --warm
+    FOR_LIST = 512,    // --list-devices
     FOR_PICTURE = FOR_FILE | FOR_WINDOW,
-    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN // all uses that need a device
+    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN, // uses that trace a scene
+    FOR_KERNELS = FOR_TRACING | FOR_WARM                             // uses that compile kernels
 };
 
 // Parses text and stores the value in options. text is NULL if the argument was omitted.
@@ -89,6 +92,9 @@ bool options_check_conflicts(const Options *options, Error *error);
 // Determines whether the picture goes to a file or to the window, and the file's format. Rejects
 // options that do not apply there.
 bool options_check_purpose(Options *options, Error *error);
+
+// Rejects options without effect on the kernels of --warm without a scene.
+bool options_check_general_kernels(const Options *options, Error *error);
 
 // Checks the outputs of clrt compare, and determines the format of its picture if -o is given.
 bool options_check_compare(Options *options, Error *error);

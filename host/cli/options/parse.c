@@ -79,9 +79,13 @@ static bool mark_given(Options *options, size_t row, Error *error)
     return true;
 }
 
+// Rejects options that the command does not take. NULL stands for rendering.
 static bool check_purposes(const Options *options, const Command *command, Error *error)
 {
     char takers[256];
+    if (command != NULL && options->statistics_path != NULL &&
+        (command->use & (FOR_WARM | FOR_EXPLAIN)) != 0)
+        return error_set(error, "clrt %s takes no --stats=FILE", command->name);
     for (size_t i = 0; i < option_count; i++) {
         const Option *option = &option_table[i];
         if (!option_is_given(options, option->name) || command_takes(command, option))
@@ -115,10 +119,17 @@ static bool read_parts(Options *options, int count, char **arguments, Error *err
 
 static bool read_scene(Options *options, int count, char **arguments, Error *error)
 {
+    if (options->action == ACTION_LIST_DEVICES)
+        return optind == count ||
+               error_set(error, "clrt --list-devices takes no '%s'", arguments[optind]);
     if (optind >= count && options->action == ACTION_WARM)
-        return kernel_check_request(&options->kernel, error);
+        return options_check_general_kernels(options, error);
     if (optind >= count)
         return error_set(error, "no scene is named; clrt --help shows the usage");
+    if (optind + 2 == count && options->action == ACTION_RENDER && options->output_path == NULL &&
+        image_format_of_path(arguments[optind + 1]) != NULL)
+        return error_set(error, "to write the picture '%s', give -o %s", arguments[optind + 1],
+                         arguments[optind + 1]);
     if (optind + 1 < count)
         return error_set(error,
                          "one scene at a time: '%s' comes after '%s' (values of --stats and --json "
@@ -179,8 +190,8 @@ bool options_parse(Options *options, int count, char **arguments, Error *error)
     if (command_of_action(options->action) != NULL)
         return check_purposes(options, command_of_action(options->action), error) &&
                read_scene(options, count, arguments, error);
-    if (options->action != ACTION_RENDER && options->action != ACTION_WARM)
-        return true;
+    if (options->action != ACTION_RENDER)
+        return true; // --help and --version ignore the rest of the command line
     const Command *command = optind < count ? command_named(arguments[optind]) : NULL;
     if (command != NULL) {
         optind++;

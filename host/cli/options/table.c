@@ -42,8 +42,7 @@ const Option option_table[] = {
     {"crop", "X0,Y0,X1,Y1", 0, ODD(set_crop), GROUP_PICTURE, CLASS_NONE, FOR_FILE,
      "draw only the pixels from X0,Y0 to X1,Y1 (exclusive); if a number has a dot, all four are "
      "fractions of the sides; an EXR file records the position"},
-    {"view", "N", 0, COUNT(view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE,
-     FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
+    {"view", "N", 0, COUNT(view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
      "use the scene's N-th camera (default: 1); a scene without cameras has the course's six"},
     {"up", "auto|x|y|z|-x|-y|-z", 0, WORD(up), GROUP_PICTURE, CLASS_NONE, FOR_TRACING | FOR_CONVERT,
      "axis that points up in a mesh file without a scene (default: auto, by format and shape)"},
@@ -52,37 +51,38 @@ const Option option_table[] = {
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
      "take N x N samples per pixel (default: 2)"},
     {"aa-adaptive", "[=T]", 0, FIELD(PART, contrast), 0, "0.02", NULL, GROUP_QUALITY,
-     CLASS_STATISTICAL, FOR_FILE,
+     CLASS_STATISTICAL, FOR_FILE | FOR_WARM,
      "add samples where neighbors differ, until a pixel's contrast is at most T (default: 0.02)"},
     {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
      "rays of level N see the background (default: the scene's N, or 3); the error is at most "
      "R^N, where R is the highest reflectivity; auto: the smallest N whose error is below half a "
      "step of the file's values"},
-    {"error", "E", 0, ODD(set_error), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE,
+    {"error", "E", 0, ODD(set_error), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE | FOR_WARM,
      "choose samples, levels and precision for a root mean square error of E, such as 0.5%"},
-    {"time", "S", 0, ODD(set_time), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE,
+    {"time", "S", 0, ODD(set_time), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE | FOR_WARM,
      "choose the number of samples so that tracing takes S seconds"},
     {"precision", "fp32|fp64", 0, WORD(kernel.precision), GROUP_QUALITY, CLASS_STATISTICAL,
-     FOR_TRACING,
+     FOR_KERNELS,
      "arithmetic: fp32 (default), or fp64 as a reference, with single rays and pair nodes"},
 
-    {"bvh", "sah|midpoint", 0, WORD(builder), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+    {"bvh", "sah|midpoint", 0, WORD(builder), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
      "build the tree by the surface area heuristic (default) or by midpoints; without this "
      "option, up to 32 triangles get no tree with wide nodes"},
-    {"no-bvh", NULL, 0, FLAG(no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+    {"no-bvh", NULL, 0, FLAG(no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
      "build no tree and test every triangle"},
     {"tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT, FOR_FILE,
      "size of the tiles in which the picture is traced (default: 128x128; for parts 64x64)"},
     {"work-group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
-     FOR_PICTURE, "size of the device's work-groups (default: 8x8; with wide nodes 2x2)"},
+     FOR_PICTURE | FOR_WARM,
+     "size of the device's work-groups (default: 8x8; with wide nodes 2x2)"},
     {"specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
-     FOR_PICTURE | FOR_EXPLAIN,
+     FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
      "compile kernels for this scene: if it pays (default), always or never"},
-    {"kernel", "auto|ray|packet", 0, WORD(kernel.family), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+    {"kernel", "auto|ray|packet", 0, WORD(kernel.family), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
      "trace single rays or packets; auto (default) chooses by the device"},
-    {"nodes", "auto|pair|wide", 0, WORD(kernel.nodes), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+    {"nodes", "auto|pair|wide", 0, WORD(kernel.nodes), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
      "nodes with two or eight children; auto (default) chooses by the kernel"},
-    {"lanes", "auto|4|8|16", 0, WORD(kernel.lanes), GROUP_SPEED, CLASS_EXACT, FOR_TRACING,
+    {"lanes", "auto|4|8|16", 0, WORD(kernel.lanes), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
      "width of the kernels' vectors; auto (default) chooses by the device"},
 
     {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
@@ -98,16 +98,17 @@ const Option option_table[] = {
      "keep finished tiles in FILE.part until the picture is whole, and resume from them or from an "
      "incomplete EXR file; for many pictures, skip those whose files exist"},
 
-    {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
+    {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
     {"list-devices", "[=text|json]", 0, ODD(set_list_devices), GROUP_DEVICE, CLASS_NONE,
-     FOR_PICTURE, "list the OpenCL devices"},
-    {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_TRACING,
+     FOR_PICTURE | FOR_LIST, "list the OpenCL devices"},
+    {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "threads of a CPU device (default: all that the process may use)"},
-    {"warm", NULL, 0, ACTION(ACTION_WARM), GROUP_DEVICE, CLASS_NONE, FOR_PICTURE,
+    {"warm", NULL, 0, ACTION(ACTION_WARM), GROUP_DEVICE, CLASS_NONE, FOR_PICTURE | FOR_WARM,
      "compile the kernels in advance, and those for SCENE if it is named; draw nothing"},
 
-    {"stats", "[=FILE]", 0, ODD(set_stats), GROUP_STATISTICS, CLASS_NONE, FOR_PICTURE | FOR_EXPLAIN,
+    {"stats", "[=FILE]", 0, ODD(set_stats), GROUP_STATISTICS, CLASS_NONE,
+     FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
      "count rays and tests; write them as JSON to FILE (- is standard output); in the window, "
      "time frames"},
     {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_STATISTICS, CLASS_NONE, FOR_FILE,
@@ -115,8 +116,7 @@ const Option option_table[] = {
      "FILE"},
     {"reference-samples", "N", 0, ODD(set_reference_samples), GROUP_STATISTICS, CLASS_NONE,
      FOR_FILE, "samples per pixel of the reference, an even number (default: 256)"},
-    {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_STATISTICS, CLASS_NONE,
-     FOR_FILE | FOR_EXPLAIN,
+    {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_STATISTICS, CLASS_NONE, FOR_FILE,
      "draw the picture N times, for timing; -v and --stats=FILE report each time (default: 1)"},
     {"explain", NULL, 0, ACTION(ACTION_EXPLAIN_SCENE), GROUP_STATISTICS, CLASS_NONE,
      FOR_PICTURE | FOR_EXPLAIN,
@@ -144,9 +144,9 @@ const Option option_table[] = {
      "close the window after N more frames once all keys are played"},
 
     {"quiet", NULL, 'q', FLAG(quiet), GROUP_TALK, CLASS_NONE,
-     FOR_TRACING | FOR_COMPARE | FOR_MERGE | FOR_CONVERT, "print only errors"},
-    {"verbose", NULL, 'v', FLAG(verbose), GROUP_TALK, CLASS_NONE,
-     FOR_TRACING | FOR_COMPARE | FOR_CONVERT, "print each step and its settings"},
+     FOR_KERNELS | FOR_COMPARE | FOR_MERGE | FOR_CONVERT, "print only errors"},
+    {"verbose", NULL, 'v', FLAG(verbose), GROUP_TALK, CLASS_NONE, FOR_PICTURE | FOR_CONVERT,
+     "print each step and its settings"},
     {"version", NULL, 0, ACTION(ACTION_VERSION), GROUP_TALK, CLASS_NONE, FOR_PICTURE,
      "print the version"},
     {"help", NULL, 'h', ACTION(ACTION_HELP), GROUP_TALK, CLASS_NONE, FOR_PICTURE, "print this"},
@@ -207,11 +207,13 @@ const Command command_table[] = {
      "the names of a scene or mesh and of the file to write"},
     {.name = "--explain-pixel", .action = ACTION_EXPLAIN, .use = FOR_PIXEL},
     {.name = "--explain", .action = ACTION_EXPLAIN_SCENE, .use = FOR_EXPLAIN},
+    {.name = "--warm", .action = ACTION_WARM, .use = FOR_WARM},
+    {.name = "--list-devices", .action = ACTION_LIST_DEVICES, .use = FOR_LIST},
 };
 
 #define ALL_COMMANDS (sizeof command_table / sizeof command_table[0])
 
-const size_t command_count = ALL_COMMANDS - 2; // options select the last two
+const size_t command_count = ALL_COMMANDS - 4; // options select the last four
 
 const Command *command_of_action(Action action)
 {
