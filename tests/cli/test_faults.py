@@ -146,6 +146,12 @@ class Device(Faults):
         self.assert_same_bytes("a.pfm", "whole.pfm")
 
 
+    def test_all_frames_and_their_references_share_a_device(self):
+        words = [SCENE, "-s", "8x8", "-q", "--frames", "1-3", "-o", "a.pfm", "--reference", "--reference-samples=2"]
+        self.assertEqual(self.fail("clCreateContext", 2, *words).returncode, 0)
+        self.assert_fails(self.fail("clCreateContext", 1, *words), 4, "cannot create an OpenCL context: ")
+
+
 class Memory(Faults):
     # Tests each of the first allocations as the first failure, and later allocations in larger
     # steps.
