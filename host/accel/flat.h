@@ -8,7 +8,8 @@
 // The memory layout of triangles and their tree. Both layouts render the same picture.
 typedef enum {
     NODES_PAIR, // two children per node, single triangles: suits GPUs
-    NODES_WIDE  // up to eight children per node, blocks of eight slots: for vector instructions
+    NODES_WIDE, // up to eight children per node, blocks of eight slots: for vector instructions
+    NODE_LAYOUTS
 } NodeLayout;
 
 typedef struct {

@@ -10,6 +10,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -18,12 +19,29 @@
 
 #define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
 
-static int spawn(pid_t *id, const char *program, const char *argument, int output)
+// Returns the environment with which this process was started, or none without /proc. Reading
+// environ would be unsafe, because OpenCL drivers call setenv in other threads. The strings are in
+// bytes. The caller frees both.
+static char **environment_at_start(File *bytes, Error *cause)
+{
+    Error unused = {0};
+    size_t count = 0;
+    if (!file_read(bytes, "/proc/self/environ", &unused))
+        *bytes = (File){0};
+    for (size_t i = 0; i < bytes->size; i++)
+        count += bytes->bytes[i] == '\0';
+    char **list = memory_zeroed(count + 1, sizeof *list, cause);
+    char *next = bytes->bytes;
+    for (size_t i = 0; list != NULL && i < count; i++, next += strlen(next) + 1)
+        list[i] = next;
+    return list;
+}
+
+static int spawn(pid_t *id, char *const words[], char *const environment[], int output)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t none, ordinary;
-    char *const words[] = {(char *)program, (char *)argument, NULL};
     sigemptyset(&none);
     sigemptyset(&ordinary);
     sigaddset(&ordinary, SIGALRM);
@@ -36,7 +54,7 @@ static int spawn(pid_t *id, const char *program, const char *argument, int outpu
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &ordinary);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    const int fault = posix_spawn(id, program, &actions, &attributes, words, environ);
+    const int fault = posix_spawn(id, words[0], &actions, &attributes, words, environment);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     return fault;
@@ -46,10 +64,15 @@ bool child_spawn(ChildProcess *child, const char *program, const char *argument,
 {
     int ends[2]; // the parent's and the child's
     pid_t id = 0;
+    File bytes;
+    char *const words[] = {(char *)program, (char *)argument, NULL};
     *child = (ChildProcess){0};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         return error_set(cause, "%s", strerror(errno));
-    const int fault = spawn(&id, program, argument, ends[1]);
+    char **environment = environment_at_start(&bytes, cause);
+    const int fault = environment == NULL ? ENOMEM : spawn(&id, words, environment, ends[1]);
+    free(environment);
+    file_free(&bytes);
     close(ends[1]);
     if (fault == 0)
         *child = (ChildProcess){id, ends[0]};

@@ -23,8 +23,9 @@ typedef void ChildWork(int socket, const void *context);
 bool child_fork(ChildProcess *child, ChildWork *work, const void *context, Error *cause);
 
 // Starts a program with one argument. Its standard output is the socket, and its standard input and
-// error are /dev/null. Any thread may call child_spawn. On failure, returns false, and *cause
-// receives the reason without a file name.
+// error are /dev/null. Its environment is the one with which this process was started. Any thread
+// may call child_spawn, also while others change the environment. On failure, returns false, and
+// *cause receives the reason without a file name.
 bool child_spawn(ChildProcess *child, const char *program, const char *argument, Error *cause);
 
 // Kills the child and closes the socket. A child that has ended by itself keeps its status.

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Reports whether clrt or a driver crashed. The executable contains no drivers, libraries or
-// kernels, and OpenCL never calls back into it. A program counter outside the executable therefore
-// counts as a driver's crash. LLVM installs its own handlers while it compiles a kernel. LLVM's
-// SIGABRT handler does not pass the signal on to ours. If two threads crash at once, LLVM's other
-// handlers do not restore ours. The executable therefore overrides the C library's sigaction and
-// ignores requests to replace our handlers. Only SIGFPE stays replaceable, because PoCL uses it to
-// step over divisions by zero.
+// Reports a crash with the name of the library in which the program counter was. The message blames
+// only clrt itself, because a caller of the library may be at fault: abort() and damaged heaps
+// crash in the C library. LLVM installs its own handlers while it compiles a kernel. LLVM's SIGABRT
+// handler does not pass the signal on to ours. If two threads crash at once, LLVM's other handlers
+// do not restore ours. The executable therefore overrides the C library's sigaction and ignores
+// requests to replace our handlers. Only SIGFPE stays replaceable, because PoCL uses it to step
+// over divisions by zero.
 #include "cli/process.h"
 
 #include "cli/options/options.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <ucontext.h>
@@ -27,15 +29,49 @@ extern const char __executable_start[], etext[];
 static pid_t watcher;
 static atomic_flag has_ended = ATOMIC_FLAG_INIT;
 
-static bool is_own_code(const ucontext_t *context)
+// Returns the program counter at the crash, or 0 on unknown processors.
+static uintptr_t program_counter(const ucontext_t *context)
 {
-#ifdef __x86_64__
-    const greg_t place = context->uc_mcontext.gregs[REG_RIP];
-    return place >= (greg_t)__executable_start && place < (greg_t)etext;
+#if defined __x86_64__
+    return (uintptr_t)context->uc_mcontext.gregs[REG_RIP];
+#elif defined __aarch64__
+    return (uintptr_t)context->uc_mcontext.pc;
+#elif defined __riscv
+    return (uintptr_t)context->uc_mcontext.__gregs[REG_PC];
 #else
     (void)context;
-    return false;
+    return 0;
 #endif
+}
+
+#define LINE_SIZE 1024
+
+// Reads the next line, without its end. Returns false at the end of the file.
+static bool read_line(int file, char line[LINE_SIZE])
+{
+    size_t length = 0;
+    char next = '\0';
+    while (next != '\n' && read(file, &next, 1) == 1)
+        if (next != '\n' && length < LINE_SIZE - 1)
+            line[length++] = next;
+    line[length] = '\0';
+    return next == '\n';
+}
+
+// Finds the mapped file that contains place. Returns its name without folders, in line, or NULL.
+// Reads /proc, because dladdr takes locks that the crashed thread may hold.
+static const char *file_at(uintptr_t place, char line[LINE_SIZE])
+{
+    const int maps = open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
+    bool is_found = false;
+    while (maps >= 0 && !is_found && read_line(maps, line)) { // "START-END ... /PATH"
+        char *end;
+        is_found = strtoull(line, &end, 16) <= place && strtoull(end + 1, NULL, 16) > place;
+    }
+    if (maps >= 0)
+        close(maps);
+    const char *slash = is_found ? strrchr(line, '/') : NULL;
+    return slash != NULL ? slash + 1 : NULL;
 }
 
 static void print_message(const char *message)
@@ -56,14 +92,18 @@ static _Noreturn void end(const char *message)
 // Only the process that called crash_watch prints. Its forks, such as readers of pictures, do not.
 static void handle(int number, siginfo_t *info, void *context)
 {
-    char message[160];
+    char line[LINE_SIZE], message[LINE_SIZE + 160];
     const bool is_sent = info->si_code <= 0 && info->si_pid != getpid();
-    const bool is_own = is_own_code(context);
-    char *next =
-        stpcpy(message, is_own ? "clrt: clrt itself crashed (SIG" : "clrt: a driver crashed (SIG");
-    next = stpcpy(next, sigabbrev_np(number));
+    const uintptr_t place = program_counter(context);
+    const bool is_own = place >= (uintptr_t)__executable_start && place < (uintptr_t)etext;
+    const char *library = is_own ? NULL : file_at(place, line);
+    char *next = stpcpy(message, is_own ? "clrt: clrt itself crashed" : "clrt: crashed");
+    if (library != NULL)
+        next = stpcpy(stpcpy(next, " in "), library);
+    next = stpcpy(stpcpy(next, " (SIG"), sigabbrev_np(number));
     stpcpy(next, is_own ? "): please report it\n"
-                        : "): run clrt again; if it crashes again, try another --device\n");
+                        : "): run clrt again; if it crashes again, try another --device, and "
+                          "report it\n");
     if (getpid() == watcher && !is_sent && !is_own)
         end(message);
     if (getpid() == watcher && !is_sent)

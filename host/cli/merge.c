@@ -135,6 +135,16 @@ static bool read_settings(StoredTiles *tiles, const ExrFile *file, const char *p
            error_set(error, "%s: is not a part drawn with --part", path);
 }
 
+// Returns whether the file still has the part that check_part found in it.
+static bool is_checked_part(const Merging *merging, const StoredTiles *tiles, const ExrFile *file,
+                            const char *path, Error *error)
+{
+    return (tiles->settings.part < merging->first.settings.parts &&
+            merging->paths[tiles->settings.part] == path &&
+            mismatch_of(merging, tiles, &file->head) == NULL) ||
+           error_set(error, "%s: changed while the parts were merged", path);
+}
+
 // Without a stream, checks the part and records or decodes its tiles. A part that cannot be opened
 // counts as missing. With a stream, copies the part's tiles to it.
 static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *error)
@@ -145,7 +155,8 @@ static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *
     const bool opened = exr_file_open(&file, path, stream == NULL ? &merging->unopened : error);
     bool ok = opened ? read_settings(&tiles, &file, path, error) : stream == NULL;
     if (ok && opened) {
-        ok = (stream != NULL || check_part(merging, &tiles, &file, path, error)) &&
+        ok = (stream != NULL ? is_checked_part(merging, &tiles, &file, path, error)
+                             : check_part(merging, &tiles, &file, path, error)) &&
              take_tiles(merging, &tiles, &file, stream, &cause);
         merging->is_damaged = !ok && merging->join.write_error == 0;
         if (merging->is_damaged)

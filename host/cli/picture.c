@@ -395,6 +395,8 @@ ExitCode picture_make(Run *run, Error *error)
                    : make_frame(&picture, options->view, start, error);
     clear(&picture);
     framebuffer_free(&picture.film);
+    if (CLRT_TIDY_EXIT)
+        reference_close(&picture.reference_renderers);
     resume_close(&picture.resume, false);
     return code;
 }

@@ -8,14 +8,21 @@
 #include "jobs/resume.h"
 #include "render/certifier.h"
 
+// The renderers of a reference's passes, in fp32 and in fp64. All frames of a run share them.
+typedef struct {
+    Renderer fast, exact;
+    bool is_open;
+} ReferenceRenderers;
+
 // A picture in progress. The frames of a run use one Picture in succession.
 typedef struct {
     Run *run;         // the scene, the renderer and the report
     const char *path; // of the output file
     Viewpoint viewpoint;
     Framebuffer framebuffer;
-    Framebuffer film;       // the frames of an animated file, below each other; empty without one
-    Framebuffer reference;  // empty without --reference
+    Framebuffer film;      // the frames of an animated file, below each other; empty without one
+    Framebuffer reference; // empty without --reference
+    ReferenceRenderers reference_renderers;
     Layers layers;          // the channels besides the colors
     uint32_t *samples;      // per pixel; NULL without --aov or without refinement
     CertaintyMap certainty; // empty without --aov certainty
@@ -52,6 +59,8 @@ void reference_name_layer(const Options *options, Layers *layers);
 // scene or of the settings, whichever is higher. Measures nothing if a signal stops the picture or
 // the reference.
 bool reference_measure(Picture *picture, Error *error);
+
+void reference_close(ReferenceRenderers *renderers);
 
 // Writes the reference in the format of the path's ending.
 bool reference_write(const Picture *picture, const char *path, Error *error);

@@ -26,14 +26,8 @@
 // About one of this many passes, and at least two passes, are drawn in fp64 too.
 #define EXACT_STEP 16
 
-// A run that draws passes in one precision.
 typedef struct {
-    Options options;
-    Run run;
-} PassRun;
-
-typedef struct {
-    PassRun fast, exact;    // in fp32 and in fp64
+    ReferenceRenderers *renderers;
     Framebuffer pass;       // the latest one
     double (*halves[2])[3]; // the pictures of the even and of the odd passes
     Progress progress;
@@ -50,36 +44,51 @@ static double part(double value)
     return value - floor(value);
 }
 
-static Options options_of(const Options *picture, Precision precision)
+// Returns the level that the reference's rays reach. If clrt chose the picture's level by an error
+// bound, the reference uses as many levels as a PFM file can show.
+static uint32_t level_of(const Run *run)
 {
-    Options options = *picture;
-    options.kernel = (KernelRequest){.precision = precision};
-    options.samples = 1;
-    options.repeat = picture->reference_samples;
-    // If clrt chose the picture's levels by an error bound, the reference uses as many levels as a
-    // PFM file can show.
-    options.fits_level = picture->max_level < 0 && (picture->fits_level || picture->error_goal > 0);
-    options.format = "pfm";
-    options.group_width = options.group_height = 0;
-    options.contrast = options.error_goal = options.time_goal = 0;
-    options.aovs = 0;
-    options.statistics = false;
-    options.quiet = true;
-    return options;
+    const Options *options = run->options;
+    uint32_t level = run->settings.max_level;
+    if (options->max_level < 0 && (options->fits_level || options->error_goal > 0))
+        level = truncation_level(&run->scene, image_format_half_step("pfm", options->encoding) /
+                                                  exp2(options->exposure));
+    return level > run->scene.max_level ? level : run->scene.max_level;
 }
 
-static bool open_run(PassRun *pass, Precision precision, const Run *original, Error *error)
+static bool open_renderer(Renderer *renderer, Run *run, Precision precision, Error *error)
 {
-    Run *run = &pass->run;
-    pass->options = options_of(original->options, precision);
-    run->options = &pass->options;
-    run->cache = original->cache;
-    run_begin(run);
-    if (!run_load_scene(run, error))
+    const KernelRequest request = {.precision = precision};
+    const Device *device = &run->async_device.device;
+    RendererSetup setup = run->async_device.setup;
+    setup.source.entry = KERNEL_TILE;
+    setup.source.choice = kernel_choose(&request, device);
+    if (!kernel_check_device(&setup.source.choice, device, error))
         return false;
-    if (run->settings.max_level < run->scene.max_level)
-        run->settings.max_level = run->scene.max_level;
-    return run_prepare(run, error) == EXIT_DONE;
+    const FlatScene *flat = run_compiled_scene(run, setup.source.choice.nodes, error);
+    RenderSettings settings = run->settings;
+    settings.samples = 1;
+    settings.max_level = level_of(run);
+    settings.ready_tiles = 0;
+    settings.group_width = settings.group_height = kernel_group_side(&setup.source.choice);
+    settings.statistics = false;
+    return flat != NULL && renderer_open(renderer, &setup, flat, &settings, error);
+}
+
+// Opens the renderers at the first frame of a run.
+static bool open_renderers(ReferenceRenderers *renderers, Run *run, Error *error)
+{
+    renderers->is_open =
+        renderers->is_open || (open_renderer(&renderers->fast, run, PRECISION_FP32, error) &&
+                               open_renderer(&renderers->exact, run, PRECISION_FP64, error));
+    return renderers->is_open;
+}
+
+void reference_close(ReferenceRenderers *renderers)
+{
+    renderer_close(&renderers->fast);
+    renderer_close(&renderers->exact);
+    *renderers = (ReferenceRenderers){0};
 }
 
 // Prints the progress of all passes together.
@@ -94,19 +103,17 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return !reference->stopped;
 }
 
-// Draws a pass and adds it, multiplied by weight, to the picture of its half.
-static bool add_pass(Reference *reference, Run *run, const Viewpoint *viewpoint, double weight,
+// Draws a pass and adds it, multiplied by weight, to the picture of its half. camera is the
+// picture's, without a shift.
+static bool add_pass(Reference *reference, Renderer *renderer, CameraData camera, double weight,
                      Error *error)
 {
     const uint32_t half = reference->passes_done % 2;
     const double place = reference->passes_done / 2; // the index of the pass in its half
-    CameraData camera =
-        camera_make(viewpoint, &run->normalization, render_whole_width(&run->settings),
-                    render_whole_height(&run->settings), 1);
     camera_shift(&camera, part(starts[half][0] + place * ACROSS) - 0.5,
                  part(starts[half][1] + place * DOWN) - 0.5);
     const RenderObserver observer = {tile_done, reference};
-    if (!renderer_draw(&run->renderer, &camera, &observer, &reference->pass, error))
+    if (!renderer_draw(renderer, &camera, &observer, &reference->pass, error))
         return false;
     reference->draws_done++;
     const size_t pixels = (size_t)reference->pass.width * reference->pass.height;
@@ -117,21 +124,26 @@ static bool add_pass(Reference *reference, Run *run, const Viewpoint *viewpoint,
     return true;
 }
 
-static bool draw_pass(Reference *reference, const Viewpoint *viewpoint, Error *error)
+static bool draw_pass(Reference *reference, CameraData camera, Error *error)
 {
+    ReferenceRenderers *renderers = reference->renderers;
     const bool is_exact = reference->passes_done < reference->exact_passes;
     const double exact = is_exact ? 2.0 / reference->exact_passes : 0;
     const double fast = 2.0 / reference->passes - exact;
-    return add_pass(reference, &reference->fast.run, viewpoint, fast, error) &&
-           (!is_exact || add_pass(reference, &reference->exact.run, viewpoint, exact, error));
+    return add_pass(reference, &renderers->fast, camera, fast, error) &&
+           (!is_exact || add_pass(reference, &renderers->exact, camera, exact, error));
 }
 
 static bool draw_passes(Reference *reference, Picture *picture, Error *error)
 {
+    const Run *run = picture->run;
+    const CameraData camera =
+        camera_make(&picture->viewpoint, &run->normalization, render_whole_width(&run->settings),
+                    render_whole_height(&run->settings), 1);
     bool ok = true;
-    reference->progress = progress_begin(picture->run->options->quiet);
+    reference->progress = progress_begin(run->options->quiet);
     while (ok && !reference->stopped && reference->passes_done < reference->passes) {
-        ok = draw_pass(reference, &picture->viewpoint, error);
+        ok = draw_pass(reference, camera, error);
         reference->passes_done++;
     }
     picture->stopped_by = progress_end(&reference->progress);
@@ -210,8 +222,7 @@ static bool draw_and_measure(Reference *reference, Picture *picture, Error *erro
         if (reference->halves[half] == NULL)
             return false;
     }
-    return open_run(&reference->fast, PRECISION_FP32, picture->run, error) &&
-           open_run(&reference->exact, PRECISION_FP64, picture->run, error) &&
+    return open_renderers(reference->renderers, picture->run, error) &&
            framebuffer_make(&reference->pass, settings->width, settings->height, error) &&
            draw_passes(reference, picture, error) &&
            (picture->stopped_by != 0 || measure(reference, picture, error));
@@ -233,6 +244,7 @@ bool reference_measure(Picture *picture, Error *error)
     Reference *reference = memory_zeroed(1, sizeof *reference, error);
     if (reference == NULL)
         return false;
+    reference->renderers = &picture->reference_renderers;
     reference->passes = run->options->reference_samples;
     reference->exact_passes = 2 * (reference->passes / 2 / EXACT_STEP) + 2;
     if (reference->exact_passes > reference->passes)
@@ -242,8 +254,6 @@ bool reference_measure(Picture *picture, Error *error)
     for (int half = 0; half < 2; half++)
         free(reference->halves[half]);
     framebuffer_free(&reference->pass);
-    run_free(&reference->fast.run);
-    run_free(&reference->exact.run);
     free(reference);
     return ok;
 }

@@ -104,29 +104,14 @@ bool refined_picture_draw(Picture *picture, const CameraData *camera,
     return ok;
 }
 
-// Certifies the pixels of a drawn picture. The certifier needs pair nodes, so the scene is
-// flattened again.
-
-static bool flatten(const Run *run, FlatScene *flat, Error *error)
-{
-    const CompileSource source = {.scene = &run->scene,
-                                  .normalization = &run->normalization,
-                                  .layout = certifier_choice().nodes,
-                                  .builder = run->options->builder,
-                                  .has_tree = true,
-                                  .pool = thread_pool_open(threads_allowed(run->options->threads))};
-    const bool ok = scene_compile(flat, NULL, &source, error);
-    thread_pool_close(source.pool);
-    return ok;
-}
-
-static bool certify(Picture *picture, const CameraData *camera, const FlatScene *flat, Error *error)
+static bool certify(Picture *picture, const CameraData *camera, Error *error)
 {
     Run *run = picture->run;
     Certifier certifier;
     RendererSetup setup = run->async_device.setup;
     setup.source.choice = certifier_choice();
-    if (!certifier_open(&certifier, &setup, flat, &run->settings, error))
+    const FlatScene *flat = run_compiled_scene(run, setup.source.choice.nodes, error);
+    if (flat == NULL || !certifier_open(&certifier, &setup, flat, &run->settings, error))
         return false;
     Progress progress = progress_begin(run->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
@@ -140,15 +125,13 @@ static bool certify(Picture *picture, const CameraData *camera, const FlatScene 
 bool certain_picture_make(Picture *picture, const CameraData *camera, Error *error)
 {
     Run *run = picture->run;
-    FlatScene flat = {0};
     double moment = clock_seconds();
     const Framebuffer *frame = &picture->framebuffer;
     if (!certainty_map_make(&picture->certainty, frame->width, frame->height, error))
         return false;
     if (picture->stopped_by != 0)
         return true;
-    const bool ok = flatten(run, &flat, error) && certify(picture, camera, &flat, error);
-    flat_free(&flat);
+    const bool ok = certify(picture, camera, error);
     run->report.complete = run->report.complete && picture->stopped_by == 0;
     run->report.certainty.seconds = run_lap(&moment);
     memcpy(run->report.certainty.pixels, picture->certainty.counts,

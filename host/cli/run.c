@@ -97,11 +97,11 @@ bool run_load_scene(Run *run, Error *error)
     return ok;
 }
 
-// Returns whether to build a tree. With --bvh, few triangles get a tree too.
+// Returns whether a tree saves time. With --bvh, few triangles get a tree too.
 static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
 {
     const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;
-    return !options->no_bvh && (option_is_given(options, "bvh") || !are_few);
+    return option_is_given(options, "bvh") || !are_few;
 }
 
 static void count_tree(Report *report, const Bvh *bvh)
@@ -113,26 +113,44 @@ static void count_tree(Report *report, const Bvh *bvh)
     memcpy(report->bvh_inner, bvh->inner_counts, sizeof report->bvh_inner);
 }
 
+static bool compile(const Run *run, FlatScene *flat, CompileStages *stages,
+                    const CompileSource *form, Error *error)
+{
+    const Options *options = run->options;
+    CompileSource source = *form;
+    source.scene = &run->scene;
+    source.normalization = &run->normalization;
+    source.builder = options->builder;
+    source.has_tree =
+        form->has_tree && wants_tree(options, form->layout, scene_triangle_count(&run->scene));
+    source.pool = thread_pool_open(threads_allowed(options->threads));
+    const bool ok = scene_compile(flat, stages, &source, error);
+    thread_pool_close(source.pool);
+    return ok;
+}
+
 bool run_build_scene(Run *run, Error *error)
 {
     CompileStages stages;
     double moment = clock_seconds();
-    const Options *options = run->options;
-    const NodeLayout layout = run->async_device.setup.source.choice.nodes;
-    const CompileSource source = {
-        .scene = &run->scene,
-        .normalization = &run->normalization,
-        .layout = layout,
-        .builder = options->builder,
-        .has_tree = wants_tree(options, layout, scene_triangle_count(&run->scene)),
-        .pool = thread_pool_open(threads_allowed(options->threads))};
-    const bool ok = scene_compile(&run->flat, &stages, &source, error);
-    thread_pool_close(source.pool);
+    const CompileSource form = {.layout = run->async_device.setup.source.choice.nodes,
+                                .has_tree = !run->options->no_bvh};
+    const bool ok = compile(run, &run->flat, &stages, &form, error);
     run->report.build += run_lap(&moment);
     if (ok)
         count_tree(&run->report, &stages.bvh);
     compile_stages_free(&stages);
     return ok;
+}
+
+const FlatScene *run_compiled_scene(Run *run, NodeLayout layout, Error *error)
+{
+    FlatScene *other = &run->others[layout];
+    const CompileSource form = {.layout = layout, .has_tree = true};
+    if (layout == run->flat.layout && !run->options->no_bvh)
+        return &run->flat;
+    const bool is_compiled = other->lights != NULL;
+    return is_compiled || compile(run, other, NULL, &form, error) ? other : NULL;
 }
 
 ExitCode run_start(Run *run, Error *error)
@@ -161,6 +179,8 @@ void run_free(Run *run)
         renderer_close(&run->renderer);
     run_close_device(run);
     flat_free(&run->flat);
+    for (int layout = 0; layout < NODE_LAYOUTS; layout++)
+        flat_free(&run->others[layout]);
     scene_free(&run->scene);
 }
 

@@ -62,7 +62,8 @@ typedef struct {
     Cache cache;
     Scene scene;
     Normalization normalization;
-    FlatScene flat;
+    FlatScene flat;                 // compiled for the picture's kernels
+    FlatScene others[NODE_LAYOUTS]; // compiled for other kernels; see run_compiled_scene
     AsyncDevice async_device;
     RenderSettings settings;
     Renderer renderer;
@@ -92,6 +93,10 @@ void run_close_device(Run *run);
 
 // Builds the tree and flattens the scene into arrays.
 bool run_build_scene(Run *run, Error *error);
+
+// Returns the scene in a layout of nodes, with a tree also if --no-bvh is given, or NULL. The scene
+// is compiled once per layout, after run_build_scene.
+const FlatScene *run_compiled_scene(Run *run, NodeLayout layout, Error *error);
 
 // Calls run_await_device and run_build_scene, and opens the renderer. Returns the exit status.
 ExitCode run_prepare(Run *run, Error *error);

@@ -151,6 +151,10 @@ typedef struct ClrtRenderer ClrtRenderer;
 // limit PoCL's threads, the program sets POCL_MAX_PTHREAD_COUNT (later versions:
 // POCL_CPU_MAX_CU_COUNT) before PoCL's first call.
 //
+// The call reads environment variables, and PoCL sets some in the first call. Other threads of the
+// program must not use the environment meanwhile, because most versions of getenv and setenv do not
+// allow it. No other function of the library uses the program's environment.
+//
 // The library stores a lock and checksums in clrt/library, a subfolder of $POCL_CACHE_DIR,
 // $XDG_CACHE_HOME or ~/.cache. The lock keeps processes that compile concurrently from losing
 // PoCL's kernels. The checksums detect damaged kernels, which PoCL then compiles again. PoCL finds

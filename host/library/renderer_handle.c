@@ -28,11 +28,12 @@ static bool make_kernel(ClrtRenderer *renderer, Error *cause)
 }
 
 // Opens the device in one thread at a time. PoCL 3.1 crashes if two threads make the first OpenCL
-// calls concurrently.
+// calls concurrently. These calls may change the environment, which cache_open_for_library reads.
 static bool open_renderer(ClrtRenderer *renderer, const char *device, Error *cause)
 {
     static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
     pthread_mutex_lock(&opening);
+    cache_open_for_library(&renderer->cache);
     const bool ok = open_device(renderer, device, cause) && make_kernel(renderer, cause);
     pthread_mutex_unlock(&opening);
     return ok;
@@ -44,7 +45,6 @@ ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtErr
     ClrtRenderer *renderer = memory_zeroed(1, sizeof *renderer, &cause);
     if (renderer != NULL) {
         renderer->threads = threads > 0 ? threads : processors_usable();
-        cache_open_for_library(&renderer->cache);
         if (open_renderer(renderer, device, &cause))
             return renderer;
     }

@@ -183,9 +183,20 @@ bool draw_warm_up(Renderer *renderer, Error *error)
     return tile_pass_warm_up(&pass, renderer, error);
 }
 
+static bool check_size(const Renderer *renderer, const Framebuffer *framebuffer, Error *error)
+{
+    uint32_t width, height;
+    tile_frame_size(&renderer->settings, &width, &height);
+    return (framebuffer->width == width && framebuffer->height == height) ||
+           error_set(error, "the picture has %u x %u pixels, and the framebuffer %u x %u", width,
+                     height, framebuffer->width, framebuffer->height);
+}
+
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error)
 {
+    if (!check_size(renderer, framebuffer, error))
+        return false;
     Drawing drawing = {renderer, framebuffer};
     TilePass pass = pass_of(renderer);
     pass.frame.camera = *camera;

@@ -90,8 +90,8 @@ void renderer_close(Renderer *renderer);
 // Sets the size, samples, max_level and tile size of the next pictures, which must be whole.
 void renderer_resize(Renderer *renderer, const RenderSettings *settings);
 
-// Draws the camera's picture into framebuffer, which must have the size of tile_frame_size.
-// If the observer stops the picture, the call returns true with fewer tiles_done than tiles.
+// Draws the camera's picture into framebuffer. Fails unless it has the size of tile_frame_size. If
+// the observer stops the picture, the call returns true with fewer tiles_done than tiles.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);
 

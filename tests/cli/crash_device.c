@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // If preloaded, makes a driver crash at the first launch of a kernel. CLRT_CRASH selects how:
-// "abort", "exit", "segv", "bus" or "ill". With "-thread" appended, a thread of the driver crashes.
-// With "-two", two threads crash at once. "own" crashes in the program's code. "fpe" crashes at the
-// first call of OpenCL, before PoCL installs its handler for divisions by zero.
+// "abort", "libc", "exit", "segv", "bus" or "ill". "libc" crashes in a function of the C library.
+// With "-thread" appended, a thread of the driver crashes. With "-two", two threads crash at once.
+// "own" crashes in the program's code. "fpe" crashes at the first call of OpenCL, before PoCL
+// installs its handler for divisions by zero.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <pthread.h>
@@ -43,6 +44,8 @@ static void *crash(void *context)
     const char *kind = context;
     if (strncmp(kind, "abort", 5) == 0)
         abort();
+    if (strncmp(kind, "libc", 4) == 0)
+        zero = (int)strlen((const char *)(size_t)zero);
     if (strncmp(kind, "exit", 4) == 0)
         exit(1);
     if (strncmp(kind, "segv", 4) == 0)

@@ -29,6 +29,20 @@ cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t size, void 
     return NULL;
 }
 
+cl_context clCreateContext(const cl_context_properties *properties, cl_uint count,
+                           const cl_device_id *devices,
+                           void(CL_CALLBACK *notify)(const char *, const void *, size_t, void *),
+                           void *context, cl_int *status)
+{
+    __typeof__(clCreateContext) *real;
+    *(void **)&real = dlsym(RTLD_NEXT, "clCreateContext");
+    if (!fails("clCreateContext"))
+        return real(properties, count, devices, notify, context, status);
+    if (status != NULL)
+        *status = CL_OUT_OF_HOST_MEMORY;
+    return NULL;
+}
+
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
                               const size_t *offset, const size_t *grid, const size_t *group,
                               cl_uint count, const cl_event *events, cl_event *event)

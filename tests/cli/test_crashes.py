@@ -27,10 +27,16 @@ class Crashes(CacheWork):
         crashes = itertools.product(("abort", "segv", "bus", "ill"), ("", "-thread", "-two"))
         for kind, place in (*crashes, ("fpe", "")):
             name = "SIG" + kind.upper().replace("ABORT", "ABRT")
-            self.assert_told(self.crash(kind + place), rf"a driver crashed \({name}\): ")
+            library = "libc.so.6" if kind == "abort" else CRASH_DEVICE.rpartition("/")[2]
+            self.assert_told(self.crash(kind + place), rf"crashed in {library} \({name}\): ")
         self.assertEqual(self.draw(), self.expected)
 
-    @unittest.skipUnless(platform.machine() == "x86_64", "elsewhere every crash is a driver's")
+    def test_a_crash_of_the_c_library_names_it_and_blames_no_driver(self):
+        told = self.crash("libc")
+        self.assert_told(told, r"crashed in libc.so.6 \(SIGSEGV\): run clrt again; ")
+        self.assertNotIn("driver", told[1])
+
+    @unittest.skipUnless(platform.machine() == "x86_64", "the crash is an instruction of x86-64")
     def test_a_crash_of_clrt_is_reported_and_ends_clrt_by_the_signal(self):
         told = "clrt: clrt itself crashed (SIGSEGV): please report it\n"
         self.assertEqual(self.crash("own"), (-signal.SIGSEGV, told, None))

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Tests faults of the system: full or read-only disks, files that change during reading, and
 # exhausted memory. clrt must print one message, exit with the documented status and leave no
-# partial file. Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE [TEST...], with the
-# libraries of tests/cli/fail_memory.c and fail_device.c
+# partial file. Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE SET_ENVIRONMENT [TEST...],
+# with the libraries of tests/cli/fail_memory.c, fail_device.c and set_environment.c
 import os
 import sys
 import threading
@@ -11,7 +11,7 @@ import unittest
 
 from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main
 
-FAIL_MEMORY, FAIL_DEVICE = (os.path.abspath(word) for word in sys.argv[3:5])
+FAIL_MEMORY, FAIL_DEVICE, SET_ENVIRONMENT = (os.path.abspath(word) for word in sys.argv[3:6])
 # LARGE's picture does not fit on a disk of DISK_SIZE in any format. The kernels are the same in
 # every run.
 LARGE = [SCENE, "-s", "400x300", "-q", "--kernel=ray", "--specialize=never"]
@@ -146,6 +146,17 @@ class Device(Faults):
         self.assert_same_bytes("a.pfm", "whole.pfm")
 
 
+    def test_all_frames_and_their_references_share_a_device(self):
+        words = [SCENE, "-s", "8x8", "-q", "--frames", "1-3", "-o", "a.pfm", "--reference", "--reference-samples=2"]
+        self.assertEqual(self.fail("clCreateContext", 2, *words).returncode, 0)
+        self.assert_fails(self.fail("clCreateContext", 1, *words), 4, "cannot create an OpenCL context: ")
+
+    def test_a_driver_may_change_the_environment_while_others_read_it(self):
+        for _ in range(3):
+            run = self.run_clrt(SCENE, "-s", "8x8", "-q", "-o", "a.pfm", LD_PRELOAD=SET_ENVIRONMENT)
+            self.assertTrue(run.returncode == 0 and run.stderr == "", run.stderr)
+
+
 class Memory(Faults):
     # Tests each of the first allocations as the first failure, and later allocations in larger
     # steps.
@@ -176,4 +187,4 @@ class Memory(Faults):
 
 
 if __name__ == "__main__":
-    main(4)
+    main(5)

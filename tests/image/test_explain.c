@@ -185,3 +185,27 @@ TEST(distances_are_within_their_reported_error_bounds)
     check_bounds_of(SOURCE_SCENE("tests/image/far_away.scn"), &form_all[1]);
     check_bounds_of(SOURCE_SCENE("tests/image/mirrors.scn"), &form_all[0]);
 }
+
+static void draw_into_a_smaller_framebuffer(Explainer *explainer, const Framebuffer *drawn,
+                                            void *context)
+{
+    FREED_BY(framebuffer_free) Framebuffer small;
+    Renderer renderer = *explainer->renderer;
+    Error error = {0};
+    assert_true(framebuffer_make(&small, drawn->width, drawn->height - 1, &error));
+    assert_false(renderer_draw(&renderer, &explainer->frame.camera, NULL, &small, &error));
+    assert_string_equal(error.text, "the picture has 32 x 24 pixels, and the framebuffer 32 x 23");
+    *(bool *)context = true;
+}
+
+TEST(framebuffers_of_another_size_are_refused)
+{
+    bool is_visited = false;
+    PictureRequest request = picture_request(SOURCE_SCENE("scenes/reflections.scn"), 1);
+    request.width = 32;
+    request.height = 24;
+    request.visit = draw_into_a_smaller_framebuffer;
+    request.visit_context = &is_visited;
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
+    assert_true(is_visited);
+}

@@ -8,6 +8,9 @@
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
 #include <sys/wait.h>
@@ -206,4 +209,49 @@ TEST(a_confined_child_ends_after_its_processor_time)
 TEST(a_confined_child_ends_after_its_time)
 {
     assert_int_equal(expect_late(sleep_confined), SIGALRM);
+}
+
+static atomic_bool has_spawned;
+
+// Adds variables, so that the C library moves environ again and again.
+static void *add_variables(void *context)
+{
+    (void)context;
+    for (int round = 0; !has_spawned; round++) {
+        char name[32];
+        snprintf(name, sizeof name, "CLRT_TEST_%d", round % 5000);
+        round % 10000 < 5000 ? setenv(name, "1", 1) : unsetenv(name);
+    }
+    return NULL;
+}
+
+TEST(children_start_while_another_thread_changes_the_environment)
+{
+    pthread_t thread;
+    pthread_create(&thread, NULL, add_variables, NULL);
+    for (int i = 0; i < 300; i++) {
+        ChildProcess child;
+        Error error = {0};
+        const bool is_spawned = child_spawn(&child, "/bin/true", "", &error);
+        assert_string_equal(error.text, "");
+        assert_true(is_spawned);
+        child_end(&child);
+    }
+    has_spawned = true;
+    pthread_join(thread, NULL);
+}
+
+TEST(a_spawned_child_has_the_environment_of_the_start)
+{
+    ChildProcess child;
+    FREED_BY(file_free) File output;
+    Error error = {0};
+    int signal;
+    const ChildLimits limits = {.seconds = 60, .bytes = 1000000};
+    setenv("CLRT_TEST_LATE", "1", 1);
+    assert_true(child_spawn(&child, "/usr/bin/env", "-0", &error));
+    assert_int_equal(child_collect(&child, &limits, &output, &signal, &error), CHILD_DONE);
+    assert_null(memmem(output.bytes, output.size, "CLRT_TEST_LATE", strlen("CLRT_TEST_LATE")));
+    const char *path = getenv("PATH");
+    assert_non_null(memmem(output.bytes, output.size, path, strlen(path) + 1));
 }
