@@ -177,6 +177,7 @@ void run_free(Run *run)
 {
     if (CLRT_TIDY_EXIT)
         renderer_close(&run->renderer);
+    program_free(&run->renderer.program);
     run_close_device(run);
     flat_free(&run->flat);
     for (int layout = 0; layout < NODE_LAYOUTS; layout++)

@@ -101,7 +101,7 @@ const FlatScene *run_compiled_scene(Run *run, NodeLayout layout, Error *error);
 // Calls run_await_device and run_build_scene, and opens the renderer. Returns the exit status.
 ExitCode run_prepare(Run *run, Error *error);
 
-// Frees the results of all stages; the renderer only with CLRT_TIDY_EXIT.
+// Frees the results of all stages; of the renderer only the program, except with CLRT_TIDY_EXIT.
 void run_free(Run *run);
 
 // Reads the scene that the options name, a file or standard input, as scn_load does.

@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Seconds that a closed window waits for its worker thread. The window should disappear at once,
-// unless a tidy exit must free all memory.
-#define PATIENCE (CLRT_TIDY_EXIT ? 60 : 0.05)
+// Seconds that the process waits for its worker thread after the window has disappeared. The thread
+// may be compiling, and PoCL's files must not vanish meanwhile.
+#define PATIENCE 10
 
 void show_write_keys(FILE *stream)
 {

@@ -1,85 +1,96 @@
 // SPDX-License-Identifier: MIT
-// Finds a writable folder and locks it with flock. The system releases this lock when a process
-// dies. cache_open.c sets the environment.
+// Reads and writes the files of compiled programs. The system releases the lock, an flock, when a
+// process dies.
 #include "device/cache.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <fts.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
-// Creates the folder and its parents. Returns whether the folder is writable.
-static bool make_folder(const char *path)
+// Packages store binaries for all users here.
+#define SYSTEM_FOLDER "/var/cache/clrt"
+
+#define BINARY_PATH_SIZE (CACHE_PATH_SIZE + CACHE_KEY_SIZE + 8)
+
+static void binary_path(char path[BINARY_PATH_SIZE], const char *folder, const char *key)
 {
-    char part[CACHE_PATH_SIZE];
-    snprintf(part, sizeof part, "%s", path);
-    for (char *slash = part + 1; *slash != '\0'; slash++) {
-        if (*slash != '/')
-            continue;
-        *slash = '\0';
-        if (mkdir(part, 0700) != 0 && errno != EEXIST)
-            return false;
-        *slash = '/';
-    }
-    return (mkdir(part, 0700) == 0 || errno == EEXIST) && access(part, W_OK | X_OK) == 0;
+    snprintf(path, BINARY_PATH_SIZE, "%s/%s.bin", folder, key);
 }
 
-bool cache_take_folder(Cache *cache, const char *base, const char *rest)
+// The key is the seed, so a file under another program's name is damaged, too.
+static uint64_t checksum_of(const char *key, const void *bytes, size_t size)
 {
-    *cache = (Cache){0};
-    if (base == NULL || base[0] != '/')
+    return XXH3_64bits_withSeed(bytes, size, XXH3_64bits(key, strlen(key)));
+}
+
+static bool read_from(const char *folder, const char *key, CachedBinary *binary)
+{
+    char path[BINARY_PATH_SIZE];
+    uint64_t checksum;
+    Error unused = {0};
+    binary_path(path, folder, key);
+    if (folder[0] == '\0' || !file_read(&binary->file, path, &unused))
         return false;
-    const int length = snprintf(cache->folder, CACHE_PATH_SIZE, "%s%s", base, rest);
-    if (length < CACHE_PATH_SIZE && make_folder(cache->folder))
-        return true;
-    cache->folder[0] = '\0';
+    if (binary->file.size > sizeof checksum) {
+        memcpy(&checksum, binary->file.bytes, sizeof checksum);
+        binary->bytes = (const unsigned char *)binary->file.bytes + sizeof checksum;
+        binary->size = binary->file.size - sizeof checksum;
+        if (checksum == checksum_of(key, binary->bytes, binary->size))
+            return true;
+    }
+    file_free(&binary->file);
     return false;
 }
 
-// Sets cache->kernels to POCL_CACHE_DIR or, if it is unset, to PoCL's default folder.
-static void find_kernels(Cache *cache)
+bool cache_read(const Cache *cache, const char *key, CachedBinary *binary)
 {
-    const char *chosen = getenv("POCL_CACHE_DIR"), *user = getenv("XDG_CACHE_HOME"),
-               *home = getenv("HOME");
-    int length = 0;
-    if (chosen != NULL)
-        length = snprintf(cache->kernels, CACHE_PATH_SIZE, "%s", chosen);
-    else if (user != NULL && user[0] != '\0')
-        length = snprintf(cache->kernels, CACHE_PATH_SIZE, "%s/pocl/kcache", user);
-    else if (home != NULL)
-        length = snprintf(cache->kernels, CACHE_PATH_SIZE, "%s/.cache/pocl/kcache", home);
-    if (length >= CACHE_PATH_SIZE)
-        cache->kernels[0] = '\0';
+    *binary = (CachedBinary){0};
+    return read_from(cache->folder, key, binary) || read_from(SYSTEM_FOLDER, key, binary);
 }
 
-void cache_open_for_library(Cache *cache)
+bool cache_has(const Cache *cache, const char *key)
 {
-    if (cache_take_folder(cache, getenv("POCL_CACHE_DIR"), "/clrt/library") ||
-        cache_take_folder(cache, getenv("XDG_CACHE_HOME"), "/clrt/library") ||
-        cache_take_folder(cache, getenv("HOME"), "/.cache/clrt/library"))
-        find_kernels(cache);
+    char users[BINARY_PATH_SIZE], systems[BINARY_PATH_SIZE];
+    binary_path(users, cache->folder, key);
+    binary_path(systems, SYSTEM_FOLDER, key);
+    return (cache->folder[0] != '\0' && access(users, R_OK) == 0) || access(systems, R_OK) == 0;
 }
 
-void cache_remove(const char *path)
+static bool write_file(int file, const char *key, const void *bytes, size_t size)
 {
-    char *const paths[] = {(char *)path, NULL};
-    FTS *tree = fts_open(paths, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
-    if (tree == NULL)
+    const uint64_t checksum = checksum_of(key, bytes, size);
+    return write(file, &checksum, sizeof checksum) == (ssize_t)sizeof checksum &&
+           write(file, bytes, size) == (ssize_t)size;
+}
+
+// The temporary file lies in the private folder, if there is one: a killed process leaves only this
+// folder. If the private folder is on another disk, the cache's folder has no room, and renaming
+// fails.
+void cache_write(const Cache *cache, const char *key, const void *bytes, size_t size)
+{
+    const bool is_private = cache->private_folder[0] != '\0';
+    char path[BINARY_PATH_SIZE], temporary[BINARY_PATH_SIZE];
+    binary_path(path, cache->folder, key);
+    snprintf(temporary, sizeof temporary, "%s/XXXXXX",
+             is_private ? cache->private_folder : cache->folder);
+    const int file = cache->folder[0] != '\0' ? mkstemp(temporary) : -1;
+    if (file < 0)
         return;
-    for (FTSENT *entry = fts_read(tree); entry != NULL; entry = fts_read(tree))
-        if (entry->fts_info != FTS_D)
-            remove(entry->fts_path);
-    fts_close(tree);
+    const bool ok = write_file(file, key, bytes, size) && fchmod(file, 0644) == 0;
+    if (close(file) != 0 || !ok || rename(temporary, path) != 0)
+        unlink(temporary);
 }
 
 int cache_lock(const Cache *cache)
 {
     char path[CACHE_PATH_SIZE + 8];
-    if (cache->folder[0] == '\0')
+    if (cache->folder[0] == '\0' || cache->private_folder[0] != '\0')
         return -1;
     snprintf(path, sizeof path, "%s/lock", cache->folder);
     const int lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600);

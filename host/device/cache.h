@@ -1,52 +1,58 @@
 // SPDX-License-Identifier: MIT
-// The folder that holds compiled kernels, and the lock on it. PoCL 3.1 loses builds when several
-// processes share a cold cache. PoCL lists no device if it cannot write its cache. clrt therefore
-// gives PoCL a separate folder and locks the folder during each build.
+// The cache of compiled kernels: one file for each program, with a checksum, because drivers crash
+// or compute wrong results with damaged binaries. Files appear complete or not at all, so processes
+// need no lock. PoCL also keeps files of its own; PoCL 3.1 loses builds when several processes
+// share them, so the program gives PoCL a private folder that it removes at the end.
 #pragma once
 
-#include "base/error.h"
+#include "base/file.h"
+
+#include <stdint.h>
 
 #define CACHE_PATH_SIZE 512
+#define CACHE_KEY_SIZE  33
 
 typedef struct {
-    char folder[CACHE_PATH_SIZE];  // holds the lock and manifests (manifest.h); "" if not writable
-    char kernels[CACHE_PATH_SIZE]; // holds PoCL's files; "" if unknown
-    bool owns_kernels;             // only clrt stores files in `kernels`
-    bool temporary;                // cache_close removes `folder`
+    char folder[CACHE_PATH_SIZE]; // holds KEY.bin files and possibly private folders; "" if unknown
+    char private_folder[CACHE_PATH_SIZE]; // PoCL's files; "" if PoCL chooses its own folder
+    int private_lock;                     // keeps other processes from removing private_folder
+    uint64_t settings; // hash of the environment variables that change what PoCL compiles
     // Called with true before a program is compiled and with false afterwards, on any thread; may
     // be NULL.
     void (*announce)(bool begins);
 } Cache;
 
-// Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt, ~/.cache/clrt and a private
-// temporary folder that is writable and has free space. If hosts share the file system of the
-// second or third, clrt-hosts/HOST/clrt replaces clrt. Sets POCL_CACHE_DIR to a subfolder of the
-// chosen folder. If no folder qualifies, PoCL lists no device. Only main may call cache_open,
-// before the first OpenCL call.
+// Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt and ~/.cache/clrt that exists or
+// can be created. Sets POCL_CACHE_DIR to a private folder in it or, if it is not writable or has no
+// free space, in $TMPDIR or /tmp. Without a private folder, PoCL lists no device. Removes private
+// folders of killed processes. Only main may call cache_open, before the first OpenCL call.
 void cache_open(Cache *cache);
 
-// Opens the cache of libclrt. cache_close is unnecessary. Leaves the environment unchanged, so
-// PoCL stores its kernels in POCL_CACHE_DIR or in its default folder. cache->folder is clrt/library
-// in $POCL_CACHE_DIR, $XDG_CACHE_HOME or ~/.cache, or empty if no folder is writable.
+// Opens the same folder for libclrt, but leaves the environment unchanged. PoCL stores its own
+// files in POCL_CACHE_DIR or in its default folder. cache_close is unnecessary.
 void cache_open_for_library(Cache *cache);
 
-// Removes the folder if it is temporary. No OpenCL object may be in use.
+// Removes the private folder. No OpenCL object may be in use.
 void cache_close(Cache *cache);
 
-// Clears *cache, then creates cache->folder = `base` + `rest`. Returns false if it is not writable.
-bool cache_take_folder(Cache *cache, const char *base, const char *rest);
+// A program's binary in memory. `file` owns the bytes.
+typedef struct {
+    File file;
+    const unsigned char *bytes;
+    size_t size;
+} CachedBinary;
 
-// Removes a file or a folder with its contents, as far as possible.
-void cache_remove(const char *path);
+// Reads the binary with this key from the user's folder or from /var/cache/clrt, which packages
+// fill. Returns false without an intact file. The caller frees binary->file.
+bool cache_read(const Cache *cache, const char *key, CachedBinary *binary);
 
-// Waits for the lock and returns its handle for cache_unlock. Returns -1 without a folder or if
-// locking fails. Builds are then unprotected.
+// Writes the binary to the user's folder, as far as possible.
+void cache_write(const Cache *cache, const char *key, const void *bytes, size_t size);
+
+// Returns whether cache_read would find a file, which may be damaged.
+bool cache_has(const Cache *cache, const char *key);
+
+// Waits for the lock that protects PoCL's files while a program is made, and returns its handle for
+// cache_unlock. Returns -1 if these files are private, or if locking fails.
 int cache_lock(const Cache *cache);
 void cache_unlock(int lock);
-
-// Returns whether several hosts can mount a file system of this type, f_type of statfs, at once.
-// FUSE counts as shared, because sshfs and GlusterFS use it.
-bool disk_type_is_shared(unsigned long type);
-
-// Returns whether the folder lies on a file system that hosts can share; false if statfs fails.
-bool disk_is_shared(const char *folder);

@@ -27,6 +27,8 @@ static void describe(Device *device)
     clGetDeviceInfo(device->id, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL);
     clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof device->platform - 1, device->platform,
                       NULL);
+    clGetPlatformInfo(platform, CL_PLATFORM_VERSION, sizeof device->platform_version - 1,
+                      device->platform_version, NULL);
     clGetDeviceInfo(device->id, CL_DEVICE_NAME, sizeof device->name - 1, device->name, NULL);
     clGetDeviceInfo(device->id, CL_DRIVER_VERSION, sizeof device->version - 1, device->version,
                     NULL);

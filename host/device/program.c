@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Calls clBuildProgram once per program. PoCL caches such programs, but not programs that are
-// compiled and linked in steps. docs/devices.md lists the times with and without the cache.
+// Builds programs from source, or from binaries in the cache. docs/devices.md lists the times.
 #include "device/program.h"
+
+#include "base/array.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -102,27 +103,73 @@ bool program_build(Program *program, const Device *device, const ProgramSource *
     return false;
 }
 
+bool program_load(Program *program, const Device *device, const ProgramSource *source,
+                  const SceneTraits *traits, const Cache *cache)
+{
+    char options[OPTIONS_SIZE];
+    CachedBinary binary;
+    cl_int status, accepted = CL_SUCCESS;
+    *program = (Program){0};
+    program_key(device, source, traits, cache, program->key);
+    if (!write_options(options, device, source, traits) ||
+        !cache_read(cache, program->key, &binary))
+        return false;
+    program->handle = clCreateProgramWithBinary(device->context, 1, &device->id, &binary.size,
+                                                &binary.bytes, &accepted, &status);
+    file_free(&binary.file);
+    if (status == CL_SUCCESS && accepted == CL_SUCCESS &&
+        clBuildProgram(program->handle, 1, &device->id, options, NULL, NULL) == CL_SUCCESS)
+        return true;
+    program_free(program);
+    return false;
+}
+
+static void write_binary(const Program *program)
+{
+    size_t size = 0;
+    Error unused = {0};
+    clGetProgramInfo(program->handle, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL);
+    unsigned char *bytes = size > 0 ? memory_raw(size, 1, &unused) : NULL;
+    if (bytes != NULL && clGetProgramInfo(program->handle, CL_PROGRAM_BINARIES, sizeof bytes,
+                                          &bytes, NULL) == CL_SUCCESS)
+        cache_write(program->unsaved, program->key, bytes, size);
+    free(bytes);
+}
+
+void program_save(Program *program)
+{
+    CachedBinary others; // another process may have saved the program
+    if (program->unsaved == NULL)
+        return;
+    if (!cache_read(program->unsaved, program->key, &others))
+        write_binary(program);
+    file_free(&others.file);
+    program->unsaved = NULL;
+}
+
 void program_free(Program *program)
 {
+    program_save(program);
     if (program->handle != NULL)
         clReleaseProgram(program->handle);
     *program = (Program){0};
 }
 
 void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
-                 char key[PROGRAM_KEY_SIZE])
+                 const Cache *cache, char key[CACHE_KEY_SIZE])
 {
-    char text[OPTIONS_SIZE + sizeof device->name + sizeof device->version + PATH_MAX + 4];
+    char text[OPTIONS_SIZE + sizeof *device + PATH_MAX];
     char options[OPTIONS_SIZE] = "";
     write_options(options, device, source, traits);
     const char *folder = source->kernel_folder != NULL ? source->kernel_folder : "";
     const char *entry = entries[source->entry].source != NULL ? entries[source->entry].source : "";
     const char *appended = source->appended != NULL ? source->appended : "";
-    snprintf(text, sizeof text, "%s|%s|%s|%s", device->name, device->version, options, folder);
+    snprintf(text, sizeof text, "%s|%s|%s|%s|%s|%llx", device->name, device->version,
+             device->platform_version, options, folder, (unsigned long long)cache->settings);
     const XXH64_hash_t last = XXH3_64bits(appended, strlen(appended));
     const XXH64_hash_t behind = XXH3_64bits_withSeed(entry, strlen(entry), last);
     const XXH64_hash_t code = XXH3_64bits_withSeed(kernel_source, kernel_source_size, behind);
     const XXH128_hash_t hash = XXH3_128bits_withSeed(text, strlen(text), code);
-    snprintf(key, PROGRAM_KEY_SIZE, "%016llx%016llx", (unsigned long long)hash.high64,
+    snprintf(key, CACHE_KEY_SIZE, "%016llx%016llx", (unsigned long long)hash.high64,
              (unsigned long long)hash.low64);
 }

@@ -155,14 +155,13 @@ typedef struct ClrtRenderer ClrtRenderer;
 // program must not use the environment meanwhile, because most versions of getenv and setenv do not
 // allow it. No other function of the library uses the program's environment.
 //
-// The library stores a lock and checksums in clrt/library, a subfolder of $POCL_CACHE_DIR,
-// $XDG_CACHE_HOME or ~/.cache. The lock keeps processes that compile concurrently from losing
-// PoCL's kernels. The checksums detect damaged kernels, which PoCL then compiles again. PoCL finds
-// no device unless it can write its own cache, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or
-// ~/.cache/pocl.
+// The library stores compiled kernels with checksums in clrt, a subfolder of $POCL_CACHE_DIR,
+// $XDG_CACHE_HOME or ~/.cache, and compiles damaged ones again. A lock there keeps processes that
+// compile concurrently from losing PoCL's own files. PoCL finds no device unless it can write these
+// files, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
 CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
 
-// Frees the renderer. Accepts NULL.
+// Frees the renderer. Stores its kernels if they are new, which takes up to a second. Accepts NULL.
 CLRT_API void clrt_renderer_free(ClrtRenderer *renderer);
 
 // A function that clrt_render calls in the caller's thread after every finished tile. It returns

@@ -36,18 +36,14 @@ static TilePass pass_of(const Certifier *certifier)
 static bool make_kernel(Certifier *certifier, const RendererSetup *setup, Error *error)
 {
     cl_int status;
-    char key[PROGRAM_KEY_SIZE];
-    CacheCheck build;
-    const SceneTraits traits = traits_general(false);
     const Renderer *reference = &certifier->reference;
     certifier->kernel = clCreateKernel(reference->program.handle, "certify_tile", &status);
     if (!cl_succeeded(status, "create the kernel certify_tile", error))
         return false;
-    program_key(setup->device, &setup->source, &traits, key);
     const TilePass pass = pass_of(certifier);
-    cache_check_begin(&build, setup->cache, key);
+    const int lock = cache_lock(setup->cache);
     const bool ok = tile_pass_warm_up(&pass, reference, error);
-    cache_check_end(&build, ok);
+    cache_unlock(lock);
     return ok;
 }
 

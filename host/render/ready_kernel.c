@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One cache lock covers both the build and the first run. PoCL 3.1 loses builds when several
-// processes share a cold cache.
+// Makes programs from the cache or, with a first run, from source.
 #include "render/ready_kernel.h"
 
 #include "base/clock.h"
@@ -9,16 +8,32 @@
 
 #include <string.h>
 
+static bool build_from_source(Program *program, const RendererSetup *setup,
+                              const SceneTraits *traits, const FirstRun *first, Error *error)
+{
+    const Cache *cache = setup->cache;
+    if (cache->announce != NULL)
+        cache->announce(true);
+    const bool ok = program_build(program, setup->device, &setup->source, traits, error) &&
+                    first->run(first->context, error);
+    if (cache->announce != NULL)
+        cache->announce(false);
+    program_key(setup->device, &setup->source, traits, cache, program->key);
+    // The key of kernels under development would have to contain every edit.
+    program->unsaved = ok && setup->source.kernel_folder == NULL ? cache : NULL;
+    return ok;
+}
+
 bool program_make(Program *program, const RendererSetup *setup, const SceneTraits *traits,
                   const FirstRun *first, Error *error)
 {
-    char key[PROGRAM_KEY_SIZE];
-    CacheCheck build;
-    program_key(setup->device, &setup->source, traits, key);
-    cache_check_begin(&build, setup->cache, key);
-    const bool ok = program_build(program, setup->device, &setup->source, traits, error) &&
-                    first->run(first->context, error);
-    cache_check_end(&build, ok);
+    const int lock = cache_lock(setup->cache);
+    const bool is_loaded =
+        setup->source.kernel_folder == NULL &&
+        program_load(program, setup->device, &setup->source, traits, setup->cache);
+    const bool ok = is_loaded ? first->run(first->context, error)
+                              : build_from_source(program, setup, traits, first, error);
+    cache_unlock(lock);
     return ok;
 }
 
@@ -62,11 +77,9 @@ static bool run_once(void *context, Error *error)
 
 bool ready_kernel_is_compiled(const RendererSetup *setup, const SceneTraits *traits)
 {
-    char key[PROGRAM_KEY_SIZE];
-    program_key(setup->device, &setup->source, traits, key);
-    // The cache ignores kernels under development, because every edit would make their manifests
-    // stale.
-    return setup->source.kernel_folder == NULL && cache_has_program(setup->cache, key);
+    char key[CACHE_KEY_SIZE];
+    program_key(setup->device, &setup->source, traits, setup->cache, key);
+    return setup->source.kernel_folder == NULL && cache_has(setup->cache, key);
 }
 
 bool ready_kernel_make(ReadyKernel *ready, const RendererSetup *setup, const SceneTraits *traits,
@@ -76,7 +89,6 @@ bool ready_kernel_make(ReadyKernel *ready, const RendererSetup *setup, const Sce
     const FirstRun first = {run_once, &making};
     const double start = clock_seconds();
     *ready = (ReadyKernel){.group_width = group[0], .group_height = group[1]};
-    program_key(setup->device, &setup->source, traits, ready->key);
     ready->was_compiled = ready_kernel_is_compiled(setup, traits);
     const bool ok = program_make(&ready->program, setup, traits, &first, error);
     ready->seconds = clock_seconds() - start;
@@ -95,9 +107,9 @@ void ready_kernel_free(ReadyKernel *ready)
 bool ready_kernel_is(const ReadyKernel *ready, const RendererSetup *setup,
                      const SceneTraits *traits, const uint32_t group[2])
 {
-    char key[PROGRAM_KEY_SIZE];
-    program_key(setup->device, &setup->source, traits, key);
-    return ready->handle != NULL && strcmp(ready->key, key) == 0 &&
+    char key[CACHE_KEY_SIZE];
+    program_key(setup->device, &setup->source, traits, setup->cache, key);
+    return ready->handle != NULL && strcmp(ready->program.key, key) == 0 &&
            ready->group_width == group[0] && ready->group_height == group[1];
 }
 

@@ -4,13 +4,11 @@
 // so another thread can read the scene meanwhile.
 #pragma once
 
-#include "device/cache_check.h"
 #include "device/program.h"
 
 typedef struct {
     Program program;
     cl_kernel handle; // NULL if the ReadyKernel is empty
-    char key[PROGRAM_KEY_SIZE];
     uint32_t group_width, group_height; // work-group size of the first run
     double seconds;                     // time spent on making the kernel
     bool was_compiled;                  // by an earlier process, according to the cache
@@ -30,8 +28,8 @@ typedef struct {
     void *context;
 } FirstRun;
 
-// Builds the program of setup->source and calls first->run, both under the cache's lock. On
-// failure, the caller frees the program.
+// Loads the program of setup->source from the cache, or builds it from source, and calls
+// first->run. program_free saves a new program. On failure, the caller frees the program.
 bool program_make(Program *program, const RendererSetup *setup, const SceneTraits *traits,
                   const FirstRun *first, Error *error);
 

@@ -102,6 +102,17 @@ bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error)
     return true;
 }
 
+void tracer_save(Tracer *tracer)
+{
+    program_save(&tracer->renderer.program);
+    program_save(&tracer->counter.program);
+}
+
+bool tracer_is_saved(const Tracer *tracer)
+{
+    return tracer->renderer.program.unsaved == NULL && tracer->counter.program.unsaved == NULL;
+}
+
 RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass)
 {
     RenderSettings settings = tracer->renderer.settings;

@@ -42,6 +42,12 @@ BvhSettings tracer_tree(const Tracer *tracer);
 // the previous model.
 bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error);
 
+// Saves new programs to the cache, which takes about a second.
+void tracer_save(Tracer *tracer);
+
+// Returns whether tracer_save has nothing to do.
+bool tracer_is_saved(const Tracer *tracer);
+
 // A picture to draw: a camera and a pass.
 typedef struct {
     const Viewpoint *camera;

@@ -43,7 +43,13 @@ static Job await_job(Worker *worker)
         job.kind = next_kind(worker, &job.pass);
         if (job.kind != JOB_PASS || job.pass.kind != PASS_NONE)
             break;
-        pthread_cond_wait(&worker->changed, &worker->mutex);
+        if (tracer_is_saved(&worker->tracer)) {
+            pthread_cond_wait(&worker->changed, &worker->mutex);
+            continue;
+        }
+        pthread_mutex_unlock(&worker->mutex);
+        tracer_save(&worker->tracer);
+        pthread_mutex_lock(&worker->mutex);
     }
     pthread_mutex_unlock(&worker->mutex);
     return job;

@@ -59,6 +59,9 @@ class CacheWork(Work):
     def files(self):
         return sorted(path for path in self.cache.rglob("*") if path.is_file())
 
-    def kernels(self):
-        """Returns the modification time of each compiled kernel."""
-        return {path: path.stat().st_mtime_ns for path in self.cache.rglob("*.so")}
+    def programs(self):
+        """Returns the modification time of each cached program."""
+        return {path: path.stat().st_mtime_ns for path in self.cache.glob("clrt/*.bin")}
+
+    def private_folders(self):
+        return list(self.cache.glob("clrt/clrt-*"))

@@ -112,12 +112,25 @@ class Package(unittest.TestCase):
         for package in self.packages.values():
             self.assertEqual(run("dpkg-deb", "-f", package, "Maintainer"), told + "\n")
 
-    def test_they_run_no_scripts_when_they_are_installed(self):
+    def test_only_the_program_runs_scripts_when_it_is_installed(self):
+        more = {"clrt": ["postinst", "prerm"], "libclrt0": ["shlibs", "triggers"]}
         for name, package in self.packages.items():
-            data = ["shlibs", "triggers"] if name == "libclrt0" else []
+            data = more.get(name, [])
             with tempfile.TemporaryDirectory() as control:
                 run("dpkg-deb", "-e", package, control)
                 self.assertEqual(files_under(pathlib.Path(control)), ["control", "md5sums"] + data)
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can replace /var/cache")
+    def test_the_first_picture_after_installation_needs_no_compiler(self):
+        with tempfile.TemporaryDirectory() as work:
+            run("dpkg-deb", "-e", self.package, f"{work}/control")
+            script = f"""mount -t tmpfs none /var/cache && {work}/control/postinst configure
+                clrt --warm && {work}/control/prerm remove && ls /var/cache"""
+            environment = {**os.environ, "XDG_CACHE_HOME": f"{work}/cache",
+                           "PATH": f"{self.clrt.parent}:{os.environ['PATH']}"}
+            environment.pop("POCL_CACHE_DIR", None)
+            text = run("unshare", "-m", "sh", "-ec", script, env=environment)
+            self.assertRegex(text, r"^general kernels, .* already compiled, ready in 0\.\d\d s\n$")
 
     def test_they_depend_on_their_libraries_and_on_an_opencl_driver(self):
         common = ["pocl-opencl-icd | opencl-icd", "libc6", "libxxhash0", "ocl-icd-libopencl1"]

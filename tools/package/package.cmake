@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The other files of an installation, and the Debian packages. `cmake --workflow --preset package`
-# builds them. The packages run no scripts at installation. Kernels are compiled on first use, or by
-# clrt --warm.
+# builds them. Installing compiles the general kernels for all users. Other kernels are compiled on
+# first use.
 set(folder ${CMAKE_BINARY_DIR}/package)
 file(MAKE_DIRECTORY ${folder})
 foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian")
@@ -50,6 +50,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "pocl-opencl-icd | opencl-icd")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS fonts-dejavu-core)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
+    "${CMAKE_SOURCE_DIR}/tools/package/postinst;${CMAKE_SOURCE_DIR}/tools/package/prerm")
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME clrt)

@@ -64,8 +64,9 @@ static bool launch(const RayBatch *batch, BatchTask task, cl_uint count, Error *
     return cl_succeeded(status, "run a kernel", error);
 }
 
-static bool make_kernels(RayBatch *batch, Error *error)
+static bool make_kernels(void *context, Error *error)
 {
+    RayBatch *batch = context;
     for (int task = 0; task < BATCH_TASKS; task++) {
         cl_int status;
         batch->kernels[task] = clCreateKernel(batch->program.handle, kernel_names[task], &status);
@@ -76,19 +77,14 @@ static bool make_kernels(RayBatch *batch, Error *error)
     return cl_succeeded(clFinish(batch->device.queue), "finish the first runs", error);
 }
 
-// Unlocks the cache before a failure ends the test: the next test of the process needs the lock.
-static void build_locked(RayBatch *batch, const ProgramSource *source)
+static void make_program(RayBatch *batch, const ProgramSource *source)
 {
     Error error = {0};
-    char key[PROGRAM_KEY_SIZE];
-    CacheCheck build;
     const SceneTraits traits = traits_general(false);
-    program_key(&batch->device, source, &traits, key);
-    cache_check_begin(&build, &batch->cache, key);
-    const bool ok = program_build(&batch->program, &batch->device, source, &traits, &error) &&
-                    make_kernels(batch, &error);
-    cache_check_end(&build, ok);
-    require(ok, &error);
+    const RendererSetup setup = {
+        .device = &batch->device, .cache = &batch->cache, .source = *source};
+    const FirstRun first = {make_kernels, batch};
+    require(program_make(&batch->program, &setup, &traits, &first, &error), &error);
 }
 
 void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *options)
@@ -111,7 +107,7 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
         .extra_options = options,
         .appended = file.bytes,
         .choice = batch->choice};
-    build_locked(batch, &source);
+    make_program(batch, &source);
     file_free(&file);
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "accel/flat.h"
-#include "device/cache_check.h"
+#include "render/ready_kernel.h"
 #include "device/program.h"
 
 // Equals the RayKind of kernels/ray.cl.
