@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/options/option.h"
+#include "cli/process.h"
 #include "device/device.h"
 #include "image/image_file.h"
 #include "scene/mesh_load.h"
@@ -113,11 +114,18 @@ static void count_tree(Report *report, const Bvh *bvh)
     memcpy(report->bvh_inner, bvh->inner_counts, sizeof report->bvh_inner);
 }
 
+static void show_loading(const Options *options, bool begins)
+{
+    if (progress_on_terminal() && !options->quiet)
+        progress_show_loading(begins);
+}
+
 bool run_build_scene(Run *run, Error *error)
 {
     CompileStages stages;
     double moment = clock_seconds();
     const Options *options = run->options;
+    show_loading(options, true);
     const NodeLayout layout = run->async_device.setup.source.choice.nodes;
     const CompileSource source = {
         .scene = &run->scene,
@@ -128,6 +136,7 @@ bool run_build_scene(Run *run, Error *error)
         .pool = thread_pool_open(threads_allowed(options->threads))};
     const bool ok = scene_compile(&run->flat, &stages, &source, error);
     thread_pool_close(source.pool);
+    show_loading(options, false);
     run->report.build += run_lap(&moment);
     if (ok)
         count_tree(&run->report, &stages.bvh);
@@ -172,10 +181,13 @@ void run_free(Run *run)
 bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
 {
     File file = {0};
+    show_loading(options, true);
     const bool ok = options_read_input(options)
                         ? file_read_stream(&file, stdin, INPUT_NAME, error) &&
                               scn_take(scene, &file, INPUT_NAME, parse, error)
                         : scn_load(scene, options->scene_path, parse, error);
     file_free(&file);
-    return ok && mesh_scene_turn(scene, options->up, error);
+    const bool is_turned = ok && mesh_scene_turn(scene, options->up, error);
+    show_loading(options, false);
+    return is_turned;
 }
