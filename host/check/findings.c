@@ -3,6 +3,7 @@
 // triangles without area, duplicates, and leaks of closed meshes. Other findings may be intended.
 #include "check/findings.h"
 
+#include "check/views.h"
 #include "scene/scene.h"
 
 #include <stdarg.h>
@@ -109,6 +110,11 @@ static void add_shape(Check *check, size_t object)
         "its fronts face inwards, so only its far side is visible from outside");
     add(check, note("unused_vertices", object, census->unused_vertices),
         "%zu vertices that no triangle uses", census->unused_vertices);
+    const bool is_placed = check->frame_fault.text[0] == '\0';
+    add(check,
+        note("out_of_view", object,
+             is_placed && is_out_of_view(&check->scene, &check->normalization, object)),
+        "it is outside every camera's view, so only reflections and shadows can show it");
 }
 
 // Adds at most one finding. Steps are the spacing of floats. Advice to recenter comes first,
@@ -139,6 +145,19 @@ static void add_advice(Check *check, size_t object, double scene_size)
             features->height.triangle, features->height.steps);
 }
 
+static void add_enclosed_eyes(Check *check)
+{
+    const Scene *scene = &check->scene;
+    const EnclosedEyes eyes = enclosed_eyes_find(scene, &check->census);
+    const Finding finding = note("eye_inside", FINDING_SCENE, eyes.count);
+    if (eyes.sphere > 0)
+        add(check, finding, "%zu cameras are inside an object, the first is view %zu in sphere %zu",
+            eyes.count, eyes.view, eyes.sphere);
+    else if (eyes.count > 0)
+        add(check, finding, "%zu cameras are inside an object, the first is view %zu in %s",
+            eyes.count, eyes.view, scene->inputs.data[scene->objects.data[eyes.object].input]);
+}
+
 static void add_scene(Check *check)
 {
     const Census *census = &check->census;
@@ -160,6 +179,7 @@ static void add_scene(Check *check)
                                  ""};
         add(check, finding, "%zu %s", counts[i].count, counts[i].text);
     }
+    add_enclosed_eyes(check);
     const MissingPart missing = scene_missing(&check->scene);
     if (missing.kind != NULL)
         add(check, (Finding){missing.kind, FINDING_SCENE, missing.is_fault, 1, ""}, "%s",

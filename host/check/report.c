@@ -30,8 +30,10 @@ static void write_leaks(const Check *check, size_t object, FILE *stream)
             leaks->total);
     if (leaks->total > LEAKS_AIMS)
         fprintf(stream, " (at most %d are aimed at)", LEAKS_AIMS);
-    fprintf(stream, ": %zu hidden by other parts, %zu pass through\n", leaks->hidden,
-            leaks->leaks.count);
+    const bool is_closed = check->census.meshes[object].closedness.is_closed;
+    fprintf(stream, ": %zu hidden by other parts, %zu pass through%s\n", leaks->hidden,
+            leaks->leaks.count,
+            leaks->leaks.count > 0 && !is_closed ? ", because it is not closed" : "");
 }
 
 static void write_mesh(const Check *check, size_t object, FILE *stream)
@@ -65,11 +67,13 @@ void check_report_write_text(const Check *check, FILE *stream)
         fprintf(stream, "  rays were traced on %s\n", check->device.name);
     else if (check->device_fault.text[0] != '\0')
         fprintf(stream, "  leaks were not tested: %s\n", check->device_fault.text);
-    const size_t failing = check_count_failing(check);
-    if (failing == 0)
+    const size_t failing = check_count_failing(check), all = check->findings.count;
+    if (all == 0)
         fputs("fine\n", stream);
+    else if (failing == 0)
+        fprintf(stream, "no faults, %zu note%s\n", all, all == 1 ? "" : "s");
     else
-        fprintf(stream, "%zu of %zu findings are faults\n", failing, check->findings.count);
+        fprintf(stream, "%zu of %zu findings are faults\n", failing, all);
 }
 
 static json_t *fault_json(MeshFault fault)

@@ -198,6 +198,8 @@ static bool write_picture(Picture *picture, Error *error)
     const uint32_t film_frames = is_film ? add_to_film(picture) : 0;
     if (is_film && film_frames < frames_count(&options->frames) && picture->stopped_by == 0)
         return true;
+    if (picture->path == NULL) // only the hash is requested
+        return true;
     report_fill_provenance(&provenance, run);
     provenance_list(&provenance);
     ImageSettings settings = {.format = options->format,
@@ -248,7 +250,7 @@ static ExitCode check_files(Picture *picture, Error *error)
     const Options *options = run->options;
     if (!provenance_check_date(error))
         return EXIT_USAGE;
-    if (!output_file_check(options->output_path, error) ||
+    if ((options->output_path != NULL && !output_file_check(options->output_path, error)) ||
         (options->reference_path != NULL && !output_file_check(options->reference_path, error)))
         return EXIT_OUTPUT;
     return options->resume && !resume_look(&picture->resume, options, error) ? EXIT_SCENE

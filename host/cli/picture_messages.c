@@ -94,7 +94,8 @@ ExitCode picture_fail_stopped(const Picture *picture, Error *error)
 {
     const Run *run = picture->run;
     const RenderProgress *progress = &run->renderer.progress;
-    const char *path = picture->path, *name = strcmp(path, "-") == 0 ? "the picture" : path;
+    const char *path = picture->path,
+               *name = path == NULL || strcmp(path, "-") == 0 ? "the picture" : path;
     if (run->report.complete)
         error_set(error, "stopped: %s is complete", name);
     else if (progress->tiles_done == progress->tiles || options_are_adaptive(run->options))

@@ -22,6 +22,9 @@ bool progress_on_terminal(void);
 // the end of the last build.
 void progress_show_compiling(bool begins);
 
+// Does the same while a scene is loaded and its tree is built, unless this takes less than 0.5 s.
+void progress_show_loading(bool begins);
+
 // Implements RenderObserver::tile_done; context is a Progress. Returns false after a signal.
 bool progress_tile_done(void *context, const RenderProgress *progress);
 

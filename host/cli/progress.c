@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// On a terminal, one line is rewritten and shows the remaining time, or the time spent on compiling
-// kernels. A log gets a line for every tenth of the picture, but none in the first second.
+// On a terminal, one line is rewritten and shows the remaining time, or the time spent on loading
+// the scene or on compiling kernels. A log gets a line for every tenth of the picture, but none in
+// the first second.
 #include "cli/process.h"
 
 #include "base/clock.h"
 
 #include <pthread.h>
-#include <stdatomic.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,27 +26,68 @@ Progress progress_begin(bool silent)
     return progress;
 }
 
-// series counts the builds that began while no other build was running.
-static atomic_uint running_builds, series;
+// A stage that takes less time than this is not shown.
+#define QUICK_MICROSECONDS 500000
 
-// Rewrites the line every second until the last build of the series ends.
-static void *show_seconds(void *own)
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+// The stage in the rewritten line. series counts the stages that began while none was running.
+static struct {
+    unsigned running;
+    uintptr_t series;
+    const char *text;
+    bool is_shown;
+} stage;
+
+// Rewrites the line. Returns false if the last stage of the series has ended.
+static bool show_line(uintptr_t series, unsigned seconds)
 {
-    for (unsigned seconds = 0; running_builds > 0 && series == (uintptr_t)own; seconds++) {
-        fprintf(stderr, "\r\033[Kcompiling kernels, %u s", seconds);
+    pthread_mutex_lock(&lock);
+    const bool is_running = stage.running > 0 && stage.series == series;
+    if (is_running)
+        fprintf(stderr, "\r\033[K%s, %u s", stage.text, seconds);
+    stage.is_shown = stage.is_shown || is_running;
+    pthread_mutex_unlock(&lock);
+    return is_running;
+}
+
+static void *show_seconds(void *series)
+{
+    for (unsigned seconds = 0; show_line((uintptr_t)series, seconds); seconds++)
         sleep(1);
-    }
     return NULL;
+}
+
+static void *show_slow(void *series)
+{
+    usleep(QUICK_MICROSECONDS);
+    return show_seconds(series);
+}
+
+static void show(const char *text, void *(*work)(void *), bool begins)
+{
+    pthread_t thread;
+    pthread_mutex_lock(&lock);
+    if (!begins && --stage.running == 0 && stage.is_shown) {
+        fputs("\r\033[K", stderr);
+        stage.is_shown = false;
+    }
+    if (begins && stage.running++ == 0) {
+        stage.text = text;
+        if (pthread_create(&thread, NULL, work, (void *)++stage.series) == 0)
+            pthread_detach(thread);
+    }
+    pthread_mutex_unlock(&lock);
 }
 
 void progress_show_compiling(bool begins)
 {
-    pthread_t thread;
-    if (!begins && --running_builds == 0)
-        fputs("\r\033[K", stderr);
-    if (begins && running_builds++ == 0 &&
-        pthread_create(&thread, NULL, show_seconds, (void *)(uintptr_t)++series) == 0)
-        pthread_detach(thread);
+    show("compiling kernels", show_seconds, begins);
+}
+
+void progress_show_loading(bool begins)
+{
+    show("loading the scene", show_slow, begins);
 }
 
 // Estimates the remaining time from the tiles drawn by this process, because tiles of an earlier

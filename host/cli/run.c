@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/options/option.h"
+#include "cli/process.h"
 #include "device/device.h"
 #include "image/image_file.h"
 #include "scene/mesh_load.h"
@@ -129,13 +130,21 @@ static bool compile(const Run *run, FlatScene *flat, CompileStages *stages,
     return ok;
 }
 
+static void show_loading(const Options *options, bool begins)
+{
+    if (progress_on_terminal() && !options->quiet)
+        progress_show_loading(begins);
+}
+
 bool run_build_scene(Run *run, Error *error)
 {
     CompileStages stages;
     double moment = clock_seconds();
     const CompileSource form = {.layout = run->async_device.setup.source.choice.nodes,
                                 .has_tree = !run->options->no_bvh};
+    show_loading(run->options, true);
     const bool ok = compile(run, &run->flat, &stages, &form, error);
+    show_loading(run->options, false);
     run->report.build += run_lap(&moment);
     if (ok)
         count_tree(&run->report, &stages.bvh);
@@ -193,10 +202,13 @@ void run_free(Run *run)
 bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
 {
     File file = {0};
+    show_loading(options, true);
     const bool ok = options_read_input(options)
                         ? file_read_stream(&file, stdin, INPUT_NAME, error) &&
                               scn_take(scene, &file, INPUT_NAME, parse, error)
                         : scn_load(scene, options->scene_path, parse, error);
     file_free(&file);
-    return ok && mesh_scene_turn(scene, options->up, error);
+    const bool is_turned = ok && mesh_scene_turn(scene, options->up, error);
+    show_loading(options, false);
+    return is_turned;
 }

@@ -27,13 +27,30 @@ FORMS = ["--kernel ray --nodes pair", "--kernel ray --nodes wide", "--kernel pac
          "--bvh midpoint", "--no-bvh"]
 SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine red matte\n",
           "mixed": "ply_file closed.ply\nmesh closed.ply scale 1e8\n",
+          # The first camera is outside the balls, the others are inside.
+          "eyes": "camera 0 -9 0 0 0 0 45\ncamera 0.5 0.5 0 9 0 0 45\ncamera 3 0 0 0 0 0 45\n"
+                  "sphere 0 0 0 1\nsphere 3 0 0 1\nlight 9 9 9 1\n",
+          "within": "camera 0.2 0.2 0.2 1 0 0 45\nmesh closed.ply\nsides two\nlight 9 9 9 1\nmesh open.ply\n",
+          # The point is in the bounding box of the tetrahedron, but not in the tetrahedron.
+          "beside": "camera 0.6 0.6 0.6 0 0 0 45\nmesh closed.ply\nlight 9 9 9 1\n",
+          # The cameras look away from the mesh, and past it: the picture is 2 wide at a distance of 1.
+          "behind": "size 40 20\ncamera 5 0.5 0.5 9 0.5 0.5 90\ncamera 0.5 -3 0.5 9 -3 0.5 90\n"
+                    "camera 5.1 -1 0 5.1 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
+          "edge": "size 40 20\ncamera 3.9 -1 0 3.9 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
           "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n"}
 # Each file with its exit status and parts of its report.
 FINDINGS = [
     ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed",
                        "of its 10 edges and points: 0 hidden by other parts, 0 pass through", "\nfine\n"]),
     ("open.ply", 0, ["note: 3 edges of a single triangle, the first at triangle 0",
-                     "open.ply: 3 triangles, 4 vertices, not closed"]),
+                     "open.ply: 3 triangles, 4 vertices, not closed",
+                     " pass through, because it is not closed\n", "\nno faults, 1 note\n"]),
+    ("eyes.scn", 0, ["note: 2 cameras are inside an object, the first is view 2 in sphere 1\nno faults, 1 note\n"]),
+    ("within.scn", 0, ["note: 1 cameras are inside an object, the first is view 1 in closed.ply\n"]),
+    ("beside.scn", 0, ["\nfine\n"]),
+    ("behind.scn", 0, ["closed.ply: 4 triangles", "note: it is outside every camera's view, so only reflections and "
+                       "shadows can show it\n", "\nno faults, 1 note\n"]),
+    ("edge.scn", 0, ["\nfine\n"]),
     ("turned.ply", 0, ["note: 3 edges whose triangles face opposite sides, the first at triangle 0"]),
     ("equal.ply", 1, ["FAULT: 2 triangles with two equal corners, left out, the first triangle 2",
                       "\n1 of 1 findings are faults\n"]),

@@ -8,6 +8,7 @@ import os
 import pty
 import shutil
 import signal
+import threading
 import time
 import unittest
 
@@ -115,6 +116,24 @@ class Terminal(Talk):
         self.assertNotIn(b"compiling", text)
         self.assertRegex(text.split(b"\x1b[K")[-1], wrote)
         self.assertEqual(self.on_terminal(*picture, "-q"), b"")
+
+    def test_a_scene_that_loads_slowly_is_announced_within_a_second(self):
+        scene = "sphere 0 0 0 1\nlight 5 5 5 1\n"
+        os.mkfifo(self.work / "slow.scn")
+
+        def write_slowly():
+            with open(self.work / "slow.scn", "w", encoding="utf-8") as pipe:  # waits for the reader
+                time.sleep(1)
+                pipe.write(scene)
+
+        for quiet in [], ["-q"]:
+            writer = threading.Thread(target=write_slowly)
+            writer.start()
+            text = self.on_terminal("slow.scn", "-s", "8x8", "-o", "a.pfm", *quiet)
+            writer.join()
+            self.assertEqual(b"\r\x1b[Kloading the scene, 0 s\r\x1b[K" in text, not quiet, text)
+        self.write(a_scn=scene)
+        self.assertNotIn(b"loading", self.on_terminal("a.scn", "-s", "8x8", "-o", "a.pfm"))
 
     def test_every_command_announces_compiling(self):
         for words in (["--warm"], [*SMALL, "-o", "a.pfm", "--stats"], ["check", SCENE, "--json"],

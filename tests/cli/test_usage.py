@@ -65,12 +65,28 @@ class Combinations(Work):
             ["--bad-geometry", "fail"], ["--bad-geometry", "drop"], ["--aa-adaptive"], ["--error", "1%"],
             ["--time", "1"], ["--crop", "0,0,4,4"], ["--part", "1/1"], ["--resume"], ["--frames", "1-1"],
             ["--turntable", "1"], ["--reference"], ["--reference-samples", "256"], ["--no-metadata"],
-            ["--hash"], ["--expect-hash", 32 * "0"], ["--format", "png"],
+            ["--format", "png"],
         ):
             self.refuses(f"{words[0]} is for files: give one with -o FILE", SCENE, *words)
         self.refuses("--aov is for files: give one with -o FILE.exr", SCENE, "--aov", "depth")
         self.refuses("--stats=FILE is for files: give one with -o FILE", SCENE, "--stats=a.json")
         self.refuses("--max-level auto is for files: give one with -o FILE", SCENE, "--max-level", "auto")
+
+    def test_hashes_need_no_file(self):
+        whole = self.clrt(*PICTURE, "--hash")
+        os.remove(self.work / "a.pfm")
+        for words in [], ["--kernel", "ray"], ["--tile", "4x4"], ["--repeat", "2"], ["-v"], ["--expect-hash", whole.strip()]:
+            self.assertEqual(self.clrt(*SMALL, "--hash", *words, DISPLAY=None, WAYLAND_DISPLAY=None), whole)
+        self.assertEqual(self.clrt(*SMALL, "--expect-hash", whole.strip(), DISPLAY=None, WAYLAND_DISPLAY=None), "")
+        self.assertIn("the hash of the pixels is", self.clrt(*SMALL, "--expect-hash", 32 * "0", code=1))
+        for name, *values in (["format", "png"], ["encode", "srgb"], ["exposure", "1"], ["aov", "depth"], ["no-metadata"],
+                              ["part", "1/2"], ["resume"], ["frames", "1-2"], ["turntable", "2"]):
+            self.refuses(f"--{name} is for files: give one with -o FILE", *SMALL, "--hash", f"--{name}", *values)
+        self.refuses("--keys and --quit-after are for the window: leave out --hash and --expect-hash", *SMALL, "--hash",
+                     "--keys", "q")
+        self.refuses("the statistics and the hash cannot both go to standard output", *SMALL, "--hash", "--stats=-")
+        self.clrt(*SMALL, "--hash", "--stats=a.json", "--reference=r.pfm", "--reference-samples", "2", "-q")
+        self.assertEqual(sorted(os.listdir(self.work)), ["a.json", "r.pfm"])
 
     def test_options_that_exclude_each_other_do_so_with_any_value(self):
         ways = "--aa, --aa-adaptive, --error and --time each choose the samples: give one"

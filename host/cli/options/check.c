@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define NAMES_MOST 4
+#define NAMES_MOST 9
 
 // Options that exclude each other, regardless of their values.
 typedef struct {
@@ -91,6 +91,17 @@ static bool check_window(Options *options, Error *error)
 }
 #endif
 
+// Without a file, clrt prints the hash of the pixels and writes no picture.
+static bool check_hash_alone(Options *options, Error *error)
+{
+    static const char *const of_files[NAMES_MOST] = {"format", "encode",      "exposure",
+                                                     "aov",    "no-metadata", "part",
+                                                     "resume", "frames",      "turntable"};
+    const char *name = first_given(options, of_files, NULL);
+    options->format = "pfm"; // stores the traced pixels
+    return name == NULL || error_set(error, "--%s is for files: give one with -o FILE", name);
+}
+
 // Advice on film formats that clrt does not write. The name of the film follows.
 #define FILM "; for a film, draw -o turn.####.png and run ffmpeg -framerate 20 -i turn.%04d.png "
 
@@ -110,6 +121,11 @@ static bool check_format(Options *options, Error *error)
     return !options->frames.is_film || frames_are_many(&options->frames) ||
            error_set(error, "a GIF holds the pictures of --turntable or --frames: give one, or "
                             "another format");
+}
+
+static bool is_standard_output(const char *path)
+{
+    return path != NULL && strcmp(path, "-") == 0;
 }
 
 // A rule on combinations of options.
@@ -154,7 +170,7 @@ static bool check_file(const Options *options, Error *error)
         {options->resume && is_adaptive,
          "--resume does not go with --aa-adaptive, --error and --time, which refine the picture as "
          "a whole: give --aa"},
-        {options->resume && strcmp(options->output_path, "-") == 0,
+        {options->resume && is_standard_output(options->output_path),
          "--resume needs a file: give -o FILE"},
         {is_certain && is_adaptive, "--aov certainty certifies the samples of --aa: leave out "
                                     "--aa-adaptive, --error and --time"},
@@ -170,7 +186,7 @@ static bool check_frames(Options *options, Error *error)
 {
     const Frames *frames = &options->frames;
     const Rule rules[] = {
-        {strcmp(options->output_path, "-") == 0, MANY "standard output takes one: give -o FILE"},
+        {is_standard_output(options->output_path), MANY "standard output takes one: give -o FILE"},
         {options->statistics_path != NULL, MANY "--stats=FILE describes one"},
         {options->reference_path != NULL, MANY "--reference=FILE holds one"},
         {options->resume && frames->is_film,
@@ -204,9 +220,8 @@ static void choose_precision(Options *options)
 // Fails if several outputs go to standard output.
 static bool check_streams(const Options *options, Error *error)
 {
-    const bool picture = strcmp(options->output_path, "-") == 0,
-               statistics =
-                   options->statistics_path != NULL && strcmp(options->statistics_path, "-") == 0;
+    const bool picture = is_standard_output(options->output_path),
+               statistics = is_standard_output(options->statistics_path);
     if (picture && statistics)
         return error_set(error, "the picture and the statistics cannot both go to standard output");
     return !options->hash || !(picture || statistics) ||
@@ -216,13 +231,16 @@ static bool check_streams(const Options *options, Error *error)
 
 bool options_check_purpose(Options *options, Error *error)
 {
+    const bool has_file = options->output_path != NULL;
     choose_precision(options);
-    if (options->output_path == NULL)
+    if (!has_file && !options->hash && options->expected_hash == NULL)
         return check_window(options, error);
     if (first_for(options, FOR_WINDOW, FOR_FILE) != NULL)
-        return error_set(error, "--keys and --quit-after are for the window: leave out -o");
-    return check_format(options, error) && check_frames(options, error) &&
-           check_file(options, error) && check_streams(options, error);
+        return error_set(error, "--keys and --quit-after are for the window: leave out %s",
+                         has_file ? "-o" : "--hash and --expect-hash");
+    return (has_file ? check_format(options, error) : check_hash_alone(options, error)) &&
+           check_frames(options, error) && check_file(options, error) &&
+           check_streams(options, error);
 }
 
 bool options_check_general_kernels(const Options *options, Error *error)
@@ -240,7 +258,8 @@ bool options_check_compare(Options *options, Error *error)
         return options->format == NULL ||
                error_set(error,
                          "--format is for the picture of differences: give one with -o FILE");
-    if (strcmp(options->output_path, "-") == 0 && (options_print_json(options) || !options->quiet))
+    if (is_standard_output(options->output_path) &&
+        (options_print_json(options) || !options->quiet))
         return error_set(error, "the picture and the report cannot both go to standard output");
     return check_format(options, error);
 }

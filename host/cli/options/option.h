@@ -89,8 +89,8 @@ bool option_store(const Option *option, Options *options, const char *text, Erro
 // Rejects options that exclude each other, for any command.
 bool options_check_conflicts(const Options *options, Error *error);
 
-// Determines whether the picture goes to a file or to the window, and the file's format. Rejects
-// options that do not apply there.
+// Determines whether the picture goes to a file, to the window, or nowhere because only its hash is
+// requested, and the file's format. Rejects options that do not apply there.
 bool options_check_purpose(Options *options, Error *error);
 
 // Rejects options without effect on the kernels of --warm without a scene.

@@ -32,7 +32,7 @@ const Option option_table[] = {
     {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
      "omit the metadata that records how the picture was made"},
     {"hash", NULL, 0, FLAG(hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
-     "print a hash of the traced pixels on standard output"},
+     "print a hash of the traced pixels on standard output; without -o, write no picture"},
     {"expect-hash", "HASH", 0, ODD(set_expect_hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
      "exit with status 1 if the pixels have another hash"},
 
