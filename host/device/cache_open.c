@@ -2,6 +2,8 @@
 // Opens the cache of the program clrt. Only this file sets POCL_CACHE_DIR.
 #include "device/cache.h"
 
+#include "base/shared_disk.h"
+
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests which file systems count as shared between machines.
-#include "device/cache.h"
+#include "base/shared_disk.h"
 #include "unit/cmocka_all.h"
 
 #include <linux/magic.h>

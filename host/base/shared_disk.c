@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "device/cache.h"
+#include "base/shared_disk.h"
 
 #include <stddef.h>
 #include <sys/vfs.h>
