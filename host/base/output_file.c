@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Renaming replaces a file atomically for all readers, even if the process is killed.
+// Renaming replaces a file atomically for all readers, even if the process is killed. A temporary
+// file's name contains the start of the system's boot id, because locks on a shared disk may not be
+// visible to other machines.
 #include "base/output_file.h"
 
 #include "base/array.h"
 #include "base/file.h"
+#include "base/shared_disk.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -12,11 +16,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define SUFFIX_SIZE sizeof "clrt-01234567"
+#define PREFIX      "clrt-"
+#define SUFFIX_SIZE sizeof PREFIX "0123456701234567"
+#define BOOT_DIGITS 8
 #define ATTEMPTS    100 // to find an unused name
 
 static bool is_replaceable(const char *path)
@@ -25,43 +32,98 @@ static bool is_replaceable(const char *path)
     return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
 }
 
-// Creates an empty file with an unused name. suffix points into name and receives the name's random
-// end. open gives the file the permissions of other new files; mkstemp would make it private.
-static bool make_file(char *suffix, const char *name)
+// Stores the first digits of the number that the running system got at its start, or zeros.
+static void read_boot(char digits[BOOT_DIGITS + 1])
 {
+    FILE *stream = fopen("/proc/sys/kernel/random/boot_id", "re");
+    if (stream == NULL || fgets(digits, BOOT_DIGITS + 1, stream) == NULL)
+        memset(digits, '0', BOOT_DIGITS);
+    digits[BOOT_DIGITS] = '\0';
+    if (stream != NULL)
+        fclose(stream);
+}
+
+// Locks an open file. Returns false if another process has locked or removed it. On file systems
+// without locks, other runs cannot lock the file either, so they do not remove it.
+static bool take_file(int file)
+{
+    struct stat status;
+    return (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) &&
+           fstat(file, &status) == 0 && status.st_nlink > 0;
+}
+
+// Creates and locks an empty file with an unused name. suffix points into name and receives the
+// name's end. open gives the file the permissions of other new files; mkstemp would make it
+// private. Returns -1 on failure.
+static int make_file(char *suffix, const char *name)
+{
+    char boot[BOOT_DIGITS + 1];
+    read_boot(boot);
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
         uint32_t number = 0;
         if (getrandom(&number, sizeof number, 0) != sizeof number)
-            return false;
-        snprintf(suffix, SUFFIX_SIZE, "clrt-%08x", number);
-        const int file = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            return -1;
+        snprintf(suffix, SUFFIX_SIZE, PREFIX "%s%08x", boot, number);
+        const int file = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file >= 0 && take_file(file))
+            return file;
         if (file >= 0)
-            return close(file) == 0;
-        if (errno != EEXIST)
-            return false;
+            close(file);
+        else if (errno != EEXIST)
+            return -1;
     }
-    return false;
+    return -1;
 }
 
-// Creates a temporary file: if `beside`, in the folder of path, so that it can be renamed,
-// otherwise in the system's temporary folder. Returns its path, which the caller frees, or NULL.
-static char *temporary_file(const char *path, bool beside, Error *error)
+// Creates a temporary file: if it replaces the file, in the folder of the path, so that it can be
+// renamed, otherwise in the system's temporary folder.
+static bool make_temporary(OutputFile *file, Error *error)
 {
-    const char *slash = strrchr(path, '/');
+    const char *slash = strrchr(file->path, '/');
     const char *system = getenv("TMPDIR");
     const char *folder = system != NULL && system[0] == '/' ? system : "/tmp";
-    const size_t length = slash == NULL ? 0 : (size_t)(slash - path) + 1;
-    const size_t size = strlen(path) + strlen(folder) + SUFFIX_SIZE + 2;
-    char *name = memory_raw(size, 1, error);
+    const size_t length = slash == NULL ? 0 : (size_t)(slash - file->path) + 1;
+    const size_t size = strlen(file->path) + strlen(folder) + SUFFIX_SIZE + 2;
+    char *name = file->temporary = memory_raw(size, 1, error);
     if (name == NULL)
-        return NULL;
-    const int start = beside ? snprintf(name, size, "%.*s.", (int)length, path)
-                             : snprintf(name, size, "%s/", folder);
-    if (make_file(name + start, name))
-        return name;
-    error_set(error, "%s: cannot be written: %s", path, strerror(errno));
-    free(name);
-    return NULL;
+        return false;
+    const int start = file->replaces ? snprintf(name, size, "%.*s.", (int)length, file->path)
+                                     : snprintf(name, size, "%s/", folder);
+    file->lock = make_file(name + start, name);
+    return file->lock >= 0 ||
+           error_set(error, "%s: cannot be written: %s", file->path, strerror(errno));
+}
+
+static bool is_temporary(const char *name)
+{
+    return strlen(name) == SUFFIX_SIZE && strncmp(name, "." PREFIX, sizeof PREFIX) == 0 &&
+           strspn(name + sizeof PREFIX, "0123456789abcdef") == SUFFIX_SIZE - sizeof PREFIX;
+}
+
+// Removes a temporary file unless a process has locked it. The file stays locked until its name is
+// gone, so that no process that has just created it uses it.
+static void remove_unlocked(int folder, const char *name)
+{
+    const int file = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0)
+        return;
+    if (flock(file, LOCK_EX | LOCK_NB) == 0)
+        unlinkat(folder, name, 0);
+    close(file);
+}
+
+static void clean_folder(const char *path)
+{
+    char boot[BOOT_DIGITS + 1];
+    read_boot(boot);
+    DIR *folder = opendir(path);
+    const bool is_shared = disk_is_shared(path);
+    for (struct dirent *entry = NULL; folder != NULL && (entry = readdir(folder)) != NULL;)
+        if (is_temporary(entry->d_name) &&
+            (!is_shared || strncmp(entry->d_name + sizeof PREFIX, boot, BOOT_DIGITS) == 0))
+            remove_unlocked(dirfd(folder), entry->d_name);
+    if (folder != NULL)
+        closedir(folder);
 }
 
 static bool check_folder(const char *path, Error *error)
@@ -70,6 +132,8 @@ static bool check_folder(const char *path, Error *error)
     const bool ok =
         folder != NULL && (access(folder, W_OK | X_OK) == 0 ||
                            error_set(error, "%s: cannot be written: %s", path, strerror(errno)));
+    if (ok)
+        clean_folder(folder);
     free(folder);
     return ok;
 }
@@ -93,8 +157,11 @@ bool output_file_check(const char *path, Error *error)
 bool output_file_begin(OutputFile *file, const char *path, Error *error)
 {
     *file = (OutputFile){.path = path, .replaces = is_replaceable(path)};
-    file->temporary = temporary_file(path, file->replaces, error);
-    return file->temporary != NULL;
+    if (make_temporary(file, error))
+        return true;
+    free(file->temporary);
+    *file = (OutputFile){0};
+    return false;
 }
 
 bool stream_copy(FILE *from, FILE *to)
@@ -132,6 +199,7 @@ bool output_file_end(OutputFile *file, bool ok, Error *cause)
         ok = error_set(cause, "%s", strerror(errno));
     if (!ok)
         unlink(file->temporary);
+    close(file->lock);
     free(file->temporary);
     *file = (OutputFile){0};
     return ok;

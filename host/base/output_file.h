@@ -11,6 +11,7 @@
 typedef struct {
     const char *path; // the final name, "-" for standard output; borrowed
     char *temporary;  // path of the file to write; owned
+    int lock;         // that file, open and locked, so that no other run removes it
     bool replaces;    // the temporary file is renamed, not copied
 } OutputFile;
 
@@ -26,7 +27,10 @@ bool output_file_end(OutputFile *file, bool ok, Error *cause);
 typedef bool WriteStream(void *context, FILE *stream, Error *cause);
 bool output_file_write(const char *path, WriteStream *write, void *context, Error *error);
 
-// Returns whether path seems writable. Callers check this before long work.
+// Returns whether path seems writable. Callers check this before long work. Also removes the
+// temporary files that killed runs left in path's folder, and never those of a living run: on a
+// local disk, files that no process has locked; on a disk that machines share, only such files of
+// this machine.
 bool output_file_check(const char *path, Error *error);
 
 // Copies the rest of a stream. On failure, errno has the reason.

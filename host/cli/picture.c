@@ -242,8 +242,8 @@ static bool write_statistics(Run *run, double start, Error *error)
     return report_write_json(run, options->statistics_path, error);
 }
 
-// Rejects an invalid SOURCE_DATE_EPOCH and unwritable pictures before any work. With --resume,
-// looks for an earlier run.
+// Rejects an invalid SOURCE_DATE_EPOCH, and outputs that are unwritable or cannot be resumed,
+// before any work.
 static ExitCode check_files(Picture *picture, Error *error)
 {
     Run *run = picture->run;
@@ -253,8 +253,8 @@ static ExitCode check_files(Picture *picture, Error *error)
     if ((options->output_path != NULL && !output_file_check(options->output_path, error)) ||
         (options->reference_path != NULL && !output_file_check(options->reference_path, error)))
         return EXIT_OUTPUT;
-    return options->resume && !resume_look(&picture->resume, options, error) ? EXIT_SCENE
-                                                                             : EXIT_DONE;
+    return options->resume && !resume_prepare(&picture->resume, options, error) ? EXIT_SCENE
+                                                                                : EXIT_DONE;
 }
 
 // Rejects pictures that are too large for their formats.

@@ -4,6 +4,7 @@
 
 #ifdef CLRT_WITH_WINDOW
 #include "base/file.h"
+#include "cli/options/option.h"
 #include "device/device.h"
 #include "view/status_text.h"
 #include "view/viewer.h"
@@ -39,7 +40,8 @@ ExitCode show_scene(Run *run, Error *error)
                                      .width = options->width,
                                      .height = options->height,
                                      .samples = options->samples > 1 ? options->samples : 2,
-                                     .smooth = options->samples > 1,
+                                     .smooth =
+                                         options->samples > 1 || !option_is_given(options, "aa"),
                                      .uses_bvh = !options->no_bvh,
                                      .encoding = options->encoding,
                                      .exposure = (int)lround(2 * options->exposure),

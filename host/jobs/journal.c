@@ -6,6 +6,7 @@
 #include "base/output_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -22,13 +23,6 @@ typedef struct {
 typedef struct {
     uint64_t number, size, checksum;
 } RecordHead;
-
-bool journal_exists(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0 && S_ISREG(status.st_mode) &&
-           status.st_size >= (off_t)sizeof(Head);
-}
 
 static bool cannot(const Journal *journal, const char *what, Error *error)
 {
@@ -67,9 +61,10 @@ static bool is_regular(const Journal *journal)
 
 // On file systems without locks, flock fails with an error other than EWOULDBLOCK. There,
 // journal_claim is the only protection.
-static bool take_lock(Journal *journal, FILE *stream, Error *error)
+static bool take_lock(Journal *journal, Error *error)
 {
-    journal->is_busy = flock(fileno(stream), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    journal->is_busy =
+        flock(fileno(journal->stream), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     return !journal->is_busy ||
            error_set(error, "%s: another process draws this picture: try again later",
                      journal->path);
@@ -96,7 +91,7 @@ bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Err
     if (journal->stream == NULL)
         return cannot(journal, "opened", error);
     bool ok = is_regular(journal) || error_set(error, "%s: is not a journal of clrt", path);
-    ok = ok && take_lock(journal, journal->stream, error);
+    ok = ok && take_lock(journal, error);
     rewind(journal->stream);
     ok = ok && check_head(journal, key, error);
     if (!ok)
@@ -126,7 +121,7 @@ bool journal_read(Journal *journal, void *bytes, size_t size)
     return false;
 }
 
-// Fills and locks the new file, which does not have the journal's name yet.
+// Fills the new file, which is locked and does not have the journal's name yet.
 static bool fill_file(Journal *journal, FILE *stream, Error *error)
 {
     const long end = ftell(journal->stream);
@@ -135,10 +130,9 @@ static bool fill_file(Journal *journal, FILE *stream, Error *error)
         ftruncate(fileno(stream), end) != 0)
         return cannot(journal, "written", error);
     journal->is_busy = !is_current(journal);
-    if (journal->is_busy)
-        return error_set(error, "%s: another process draws this picture: try again later",
-                         journal->path);
-    return take_lock(journal, stream, error);
+    return !journal->is_busy ||
+           error_set(error, "%s: another process draws this picture: try again later",
+                     journal->path);
 }
 
 bool journal_claim(Journal *journal, Error *error)
@@ -147,7 +141,9 @@ bool journal_claim(Journal *journal, Error *error)
     Error cause = {0};
     if (!output_file_begin(&file, journal->path, error))
         return false;
-    FILE *stream = fopen(file.temporary, "ab+e");
+    // The stream keeps the file's lock.
+    const int copy = fcntl(file.lock, F_DUPFD_CLOEXEC, 0);
+    FILE *stream = copy < 0 ? NULL : fdopen(copy, "ab+");
     const bool filled = fill_file(journal, stream, error);
     if (!output_file_end(&file, filled, &cause)) {
         if (stream != NULL)

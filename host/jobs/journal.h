@@ -16,9 +16,6 @@ typedef struct {
     bool is_busy;     // journal_open or journal_claim failed because of another process
 } Journal;
 
-// Returns whether path is a file at least as long as a journal's head.
-bool journal_exists(const char *path);
-
 // Opens the journal at path for reading, or creates one with this key. Fails if the journal has
 // another key or another process has it open.
 bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Error *error);

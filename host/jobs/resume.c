@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 char *resume_journal_name(const char *output_path, Error *error)
@@ -19,7 +20,7 @@ char *resume_journal_name(const char *output_path, Error *error)
     return name;
 }
 
-bool resume_look(Resume *resume, const Options *options, Error *error)
+bool resume_prepare(Resume *resume, const Options *options, Error *error)
 {
     struct stat status;
     const char *path = options->output_path;
@@ -29,9 +30,8 @@ bool resume_look(Resume *resume, const Options *options, Error *error)
     resume->path = resume_journal_name(path, error);
     if (resume->path == NULL)
         return false;
-    resume->stored_path = path;
-    return !exists || journal_exists(resume->path) || !image_format_takes_layers(options->format) ||
-           exr_file_open(&resume->stored, path, error);
+    resume->stored_path = image_format_takes_layers(options->format) ? path : NULL;
+    return true;
 }
 
 // Hashes everything that determines the picture and its tiles.
@@ -108,25 +108,36 @@ static void read_journal(Resume *resume, RenderSettings *settings, const Framebu
     }
 }
 
+// Copies the tiles of an earlier EXR file into framebuffer. Requires the journal's lock: without
+// it, another run may be about to write the file.
+static bool restore_stored(Resume *resume, const Provenance *own, RenderSettings *settings,
+                           Framebuffer *framebuffer, Error *error)
+{
+    if (resume->stored_path == NULL || access(resume->stored_path, F_OK) != 0)
+        return true;
+    const bool ok = exr_file_open(&resume->stored, resume->stored_path, error) &&
+                    take_stored(resume, own, settings, framebuffer, error);
+    exr_file_close(&resume->stored);
+    return ok;
+}
+
 static bool restore_tiles(Resume *resume, const Provenance *own, RenderSettings *settings,
                           Framebuffer *framebuffer, Error *error)
 {
     uint64_t key[2];
     make_key(own, settings, key);
-    const bool is_stored = resume->stored.context != NULL;
-    // If take_stored fails, no journal exists yet, and a later run can still resume from the stored
-    // picture.
-    if (is_stored && !take_stored(resume, own, settings, framebuffer, error))
-        return false;
     if (!journal_open(&resume->journal, resume->path, key, error))
         return false;
-    if (!is_stored)
-        read_journal(resume, settings, framebuffer);
+    read_journal(resume, settings, framebuffer);
+    const uint64_t journaled = settings->ready_tiles;
+    if (journaled == 0 && !restore_stored(resume, own, settings, framebuffer, error)) {
+        journal_close(&resume->journal, true); // it has no tiles
+        return false;
+    }
     bool ok = journal_claim(&resume->journal, error);
     resume->is_broken = !ok && !resume->journal.is_busy;
-    for (uint64_t number = 0; ok && is_stored && number < settings->ready_tiles; number++)
+    for (uint64_t number = journaled; ok && number < settings->ready_tiles; number++)
         ok = resume_keep(resume, settings, framebuffer, number, error);
-    exr_file_close(&resume->stored);
     return ok;
 }
 
@@ -154,7 +165,6 @@ bool resume_keep(Resume *resume, const RenderSettings *settings, const Framebuff
 void resume_close(Resume *resume, bool is_done)
 {
     journal_close(&resume->journal, is_done);
-    exr_file_close(&resume->stored);
     free(resume->tile);
     free(resume->path);
     *resume = (Resume){0};

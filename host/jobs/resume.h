@@ -9,9 +9,9 @@
 #include "jobs/journal.h"
 
 typedef struct {
-    char *path;     // the journal's path; NULL without --resume; owned
-    ExrFile stored; // the earlier run's EXR file; empty if it is missing or a journal exists
-    const char *stored_path;
+    char *path;              // the journal's path; NULL without --resume; owned
+    const char *stored_path; // of the earlier run's EXR file; NULL for other formats
+    ExrFile stored;          // that file, while its tiles are copied
     Journal journal;
     bool is_broken; // writing to the journal failed
     float *tile;    // the colors of one tile, row by row; owned
@@ -20,13 +20,12 @@ typedef struct {
 // Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees it.
 char *resume_journal_name(const char *output_path, Error *error);
 
-// Opens the earlier EXR file unless a journal exists. Fails if the output exists and is not a
-// regular file.
-bool resume_look(Resume *resume, const Options *options, Error *error);
+// Prepares resuming. Fails if the output exists and is not a regular file.
+bool resume_prepare(Resume *resume, const Options *options, Error *error);
 
-// Opens the journal and copies the finished tiles into framebuffer. Stores the number of finished
-// tiles in settings->ready_tiles. Fails if the earlier run had another scene, other settings or
-// another version of clrt.
+// Opens the journal and copies the finished tiles into framebuffer. If the journal has no tiles, an
+// earlier EXR file provides them. Stores the number of finished tiles in settings->ready_tiles.
+// Fails if the earlier run had another scene, other settings or another version of clrt.
 bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,
                  Framebuffer *framebuffer, Error *error);
 

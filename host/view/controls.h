@@ -66,7 +66,7 @@ typedef struct {
 
 typedef struct {
     bool traced; // ray traced; otherwise drawn by OpenGL
-    bool smooth; // anti-aliased
+    bool smooth; // anti-aliased when the camera rests
     bool uses_bvh;
     bool boxes, normals; // drawn over the picture
     bool help, text;     // overlays that are displayed

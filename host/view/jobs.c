@@ -7,11 +7,16 @@
 // The shortest interval between status updates for tiles, in seconds.
 #define WAKE_STEP 0.03
 
+// For this many seconds, other requests do not stop PASS_MOVING, so that pictures of a moving
+// camera appear. Later, they do: in a large scene without a tree, such a pass may take very long.
+#define MOVING_SECONDS 0.5
+
 // A pass in progress.
 typedef struct {
     Worker *worker;
     const Job *job;
     Layer *layer;
+    double start; // clock time
 } Tracing;
 
 // Locks the status. Only code between begin_update and end_update may change it.
@@ -36,15 +41,19 @@ static void report_busy(Worker *worker, const char *busy)
 }
 
 // Returns whether the window still needs the pass.
-static bool is_current(Worker *worker, const Job *job)
+static bool is_current(const Tracing *tracing)
 {
+    Worker *worker = tracing->worker;
+    const Job *job = tracing->job;
+    const bool is_kept =
+        job->pass.kind == PASS_MOVING && clock_seconds() - tracing->start < MOVING_SECONDS;
     pthread_mutex_lock(&worker->mutex);
     const WorkerRequest *request = &worker->request;
     bool current = !worker->stops && request->loads == job->request.loads &&
                    request->renewals == job->request.renewals &&
                    request->uses_bvh == job->request.uses_bvh &&
                    request->width == job->request.width && request->height == job->request.height;
-    if (job->pass.kind != PASS_MOVING)
+    if (!is_kept)
         current = current && request->is_traced && request->subject == job->request.subject &&
                   request->explains == job->request.explains &&
                   (job->pass.samples == 1 || request->samples == job->pass.samples);
@@ -64,7 +73,7 @@ static bool tile_done(void *context, const RenderProgress *progress)
         begin_update(worker)->progress = (double)progress->tiles_done / (double)progress->tiles;
         end_update(worker);
     }
-    return is_current(worker, job);
+    return is_current(tracing);
 }
 
 // Updates the measured time per sample. part is the finished fraction of the pass. The first
@@ -129,10 +138,10 @@ void jobs_trace(Worker *worker, const Job *job)
     const RenderSettings settings = tracer_settings(&worker->tracer, &job->pass);
     const bool hidden = job->pass.kind != PASS_FULL;
     Layer *layer = canvas_begin(worker->setup.canvas, &settings, hidden, &error);
-    Tracing tracing = {worker, job, layer};
+    const double start = clock_seconds();
+    Tracing tracing = {worker, job, layer, start};
     const RenderObserver observer = {tile_done, &tracing};
     const Shot shot = {&job->request.camera, &job->pass};
-    const double start = clock_seconds();
     if (layer != NULL &&
         tracer_draw(&worker->tracer, &shot, &observer, &layer->framebuffer, &error)) {
         finish_pass(worker, job, layer, clock_seconds() - start);

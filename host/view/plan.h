@@ -27,7 +27,8 @@ typedef struct {
 
 typedef enum {
     PASS_NONE,
-    PASS_MOVING, // should fit a frame's time; camera motion does not stop it, so a picture appears
+    PASS_MOVING, // should fit a frame's time; camera motion does not stop it soon, so a picture
+                 // appears
     PASS_FULL,   // all pixels, with one sample or with all samples
     PASS_COUNT   // the full picture again, with counters
 } PassKind;

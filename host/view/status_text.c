@@ -149,7 +149,7 @@ const char *status_text_help(void)
            "click  explain the pixel\n"
            "1-9  the scene's cameras\n"
            "r  rays or OpenGL\n"
-           "a  anti-aliasing\n"
+           "a  anti-alias the resting picture or not\n"
            "+ -  exposure\n"
            "o  turn continuously\n"
            "u  another up axis of a mesh without a scene\n"

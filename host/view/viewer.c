@@ -8,12 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The loop's longest sleep in seconds. Files are checked between sleeps.
+// The loop's longest sleep in seconds. Files are checked between sleeps. A camera that has not
+// moved for this time rests.
 #define REST_SECONDS 0.1
 
+// Returns the samples along each side of a pixel. A moving camera is not anti-aliased, because its
+// next picture would wait for the tiles in flight.
 static uint32_t samples_of(const Viewer *viewer)
 {
-    return viewer->state.smooth ? viewer->settings.samples : 1;
+    return viewer->state.smooth && viewer->moved == 0 ? viewer->settings.samples : 1;
 }
 
 static void run_commands(Viewer *viewer, unsigned commands)
@@ -89,13 +92,18 @@ static void play_key(Viewer *viewer)
     take_event(viewer, &event);
 }
 
-// Removes an old hint. Turns the camera if it turns automatically. The camera waits for the
-// traced picture of its current position, and does not turn while a save is requested.
+// Removes an old hint, and notices that the camera rests. Turns the camera if it turns
+// automatically. The camera waits for the traced picture of its current position, and does not turn
+// while a save is requested.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();
     if (viewer->hint_end > 0 && now >= viewer->hint_end) {
         viewer->hint_end = 0;
+        viewer->is_dirty = true;
+    }
+    if (viewer->moved > 0 && now - viewer->moved > REST_SECONDS) {
+        viewer->moved = 0;
         viewer->is_dirty = true;
     }
     const bool is_behind =
@@ -113,8 +121,11 @@ static void post_request(Viewer *viewer)
     WorkerRequest *request = &viewer->request;
     uint32_t width, height;
     window_measure(&viewer->window, &width, &height);
-    if (width != request->width || height != request->height ||
-        memcmp(&request->camera, &viewer->state.camera, sizeof request->camera) != 0) {
+    const bool has_moved =
+        memcmp(&request->camera, &viewer->state.camera, sizeof request->camera) != 0;
+    if (has_moved)
+        viewer->moved = clock_seconds();
+    if (width != request->width || height != request->height || has_moved) {
         request->subject++;
         viewer->explained = 0;
         viewer->is_dirty = true;

@@ -11,7 +11,7 @@ typedef struct {
     uint32_t view;          // number of the viewpoint, from 1
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // along each side of a pixel, with anti-aliasing
-    bool smooth, uses_bvh;  // initial values
+    bool smooth, uses_bvh;  // initial values; smooth: anti-aliases a resting picture
     Encoding encoding;
     int exposure; // initial, in half stops
     TracerOptions tracer;

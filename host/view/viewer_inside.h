@@ -63,6 +63,7 @@ typedef struct {
     uint64_t explained;    // request.explains of the displayed explanation; 0 for none
     double hint_end;       // time at which the help hint disappears; 0 without a hint
     double advanced;       // time up to which the camera has turned automatically
+    double moved;          // time of the latest camera motion; 0 once the camera rests
     uint64_t moving_shown; // status.moving_frames at the latest displayed frame
     Error failure;         // failure of the window's own operations
     char notice[NOTICE_SIZE];

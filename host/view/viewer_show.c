@@ -89,7 +89,7 @@ static Figures figures_of(const Viewer *viewer)
 bool viewer_is_settled(const Viewer *viewer)
 {
     const WorkerStatus *status = &viewer->status;
-    const bool still = worker_is_finished(status, &viewer->request) &&
+    const bool still = viewer->moved == 0 && worker_is_finished(status, &viewer->request) &&
                        (!viewer->state.traced || status->reached.is_counted);
     return viewer->model != NULL && status->has_tree && status->busy[0] == '\0' &&
            !viewer->wants_save && (viewer->state.turning || still);
@@ -99,6 +99,7 @@ static Frame frame_of(Viewer *viewer)
 {
     const bool lags = viewer->state.traced && viewer->status.reached.subject > 0;
     return (Frame){.state = &viewer->state,
+                   .is_moving = viewer->moved > 0,
                    .model = viewer->model,
                    .has_tree = viewer->status.has_tree,
                    .canvas = &viewer->canvas,

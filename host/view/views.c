@@ -138,7 +138,8 @@ static bool draw(Views *views, const Frame *frame, uint32_t factor, Error *error
 
 bool views_draw(Views *views, const Frame *frame, Error *error)
 {
-    const uint32_t factor = frame->state->smooth && !frame->state->traced ? 2 : 1;
+    const uint32_t factor =
+        frame->state->smooth && !frame->state->traced && !frame->is_moving ? 2 : 1;
     if (!target_begin(&views->target, frame->width, frame->height, factor, error))
         return false;
     const bool ok = draw(views, frame, factor, error);

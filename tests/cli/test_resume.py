@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Tests runs that are killed or stopped at any moment and then resumed. They must write the same file in
 # the end. Only EXR files that are marked as incomplete may be incomplete under the final name.
-# Usage: [CLRT_KILLS=N] test_resume.py CLRT FORMATS [TEST...]
+# Usage: [CLRT_KILLS=N] [CLRT_SEED=N] test_resume.py CLRT FORMATS [TEST...]
 import ctypes
 import fcntl
 import json
@@ -17,7 +17,7 @@ from pathlib import Path
 from pictures import read_exr, read_header
 from work import HAS_EXR, SCENE, Work, main, needs_exr
 
-KILLS = int(os.environ.get("CLRT_KILLS", "10"))
+KILLS, SEED = (int(os.environ.get(f"CLRT_{name}", default)) for name, default in (("KILLS", 10), ("SEED", 1)))
 NAME = "a.exr" if HAS_EXR else "a.pfm"
 # LONG has many small tiles and takes some seconds. ONE_TILE has one tile and takes much longer.
 WIDTH, HEIGHT, TILE = 400, 300, 20
@@ -54,14 +54,23 @@ class Resume(Work):
 
 
 class Kills(Resume):
+    def wait_for_tile(self, process):
+        size = self.journal.stat().st_size if self.journal.exists() else 24
+        self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > size)
+                      or process.poll() is not None)
+
     def test_a_run_killed_at_random_moments_ends_with_the_same_file(self):
         begin = time.monotonic()
         whole = self.whole(*LONG)
-        seconds, chance = time.monotonic() - begin, random.Random(1)
+        seconds, chance = time.monotonic() - begin, random.Random(SEED)
         kills = midway = pictures = 0
         while kills < KILLS:
             process = self.start(*LONG, "-o", NAME, "--resume")
-            time.sleep(chance.uniform(0, seconds))
+            if kills % 4 == 0:
+                time.sleep(chance.uniform(0, seconds))
+            else:
+                self.wait_for_tile(process)
+                time.sleep(chance.uniform(0, 0.05))
             process.kill()
             killed = process.wait() == -signal.SIGKILL
             kills += killed
@@ -76,7 +85,8 @@ class Kills(Resume):
         self.clrt(*LONG, "-o", NAME, "--resume")
         self.assertTrue(self.bytes_of(NAME) == whole)
         self.assertFalse(self.journal.exists())
-        self.assertGreater(midway, 0)
+        self.assertEqual(list(self.work.glob(".clrt-*")), [])
+        self.assertGreater(midway, KILLS // 4)
 
     def test_finished_tiles_are_not_drawn_again(self):
         whole = self.whole(*LONG)
@@ -269,6 +279,21 @@ class Refusals(Resume):
             self.refuses(3, f"{name}: {OTHER}", *SMALL, "-o", name, "--resume")
             self.assertTrue(self.bytes_of(name) == before)
             self.assertFalse((self.work / f"{name}.part").exists())
+
+    @needs_exr
+    def test_a_run_that_ends_meanwhile_with_other_settings_is_refused(self):
+        text = "light 0 0 5 1\nsphere 0 0 0 1\n"
+        (self.work / "own.scn").write_text(text)
+        os.mkfifo(self.work / "late.scn")
+        late = self.start("late.scn", *SMALL[1:], "--aa=3", "-o", NAME, "--resume", "-q")
+        with open(self.work / "late.scn", "w") as pipe:  # opens once clrt reads it
+            self.clrt("own.scn", *SMALL[1:], "-o", NAME, "--resume", "-q")
+            picture = self.bytes_of(NAME)
+            pipe.write(text)
+        self.assertEqual(late.communicate()[1], f"clrt: {NAME}: {OTHER}\n")
+        self.assertEqual(late.returncode, 3)
+        self.assertTrue(self.bytes_of(NAME) == picture)
+        self.assertFalse(self.journal.exists())
 
     def test_two_processes_do_not_draw_one_picture(self):
         process = self.start(*LONG, "-o", NAME, "--resume")

@@ -4,9 +4,12 @@
 
 #include "unit/cmocka_all.h"
 
+#include <linux/magic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 static char folder[] = "/tmp/clrt-output-XXXXXX";
@@ -17,6 +20,16 @@ mode_t umask(mode_t mask)
 {
     mask_changes++;
     return (mode_t)syscall(SYS_umask, mask);
+}
+
+static long disk_type = TMPFS_MAGIC;
+
+// Overrides the C library's function.
+int statfs(const char *path, struct statfs *disk)
+{
+    (void)path;
+    *disk = (struct statfs){.f_type = disk_type};
+    return 0;
 }
 
 static mode_t mode_of(const char *path)
@@ -69,6 +82,66 @@ TEST(the_mask_is_not_changed_even_for_a_moment)
     assert_true(output_file_end(&file, true, &cause));
     assert_int_equal(mask_changes, before);
     unlink("picture");
+}
+
+static void make_file(const char *name)
+{
+    FILE *file = fopen(name, "wx");
+    assert_non_null(file);
+    fclose(file);
+}
+
+// Creates the temporary file of a killed run of another machine.
+static const char *make_strange(void)
+{
+    static const char name[] = ".clrt-00000000deadbeef";
+    make_file(name);
+    return name;
+}
+
+// Creates the temporary file of a killed run of this machine. The caller frees its name.
+static char *make_lost(void)
+{
+    OutputFile file;
+    begin(&file, "picture");
+    char *name = file.temporary;
+    close(file.lock);
+    return name;
+}
+
+TEST(temporary_files_of_killed_runs_are_removed)
+{
+    static const char *const others[] = {".clrt-00000000deadbee", ".clrt-00000000deadbeeg",
+                                         "clrt-00000000deadbeef"};
+    Error error = {0};
+    OutputFile living;
+    char *lost = make_lost();
+    const char *strange = make_strange();
+    begin(&living, "picture");
+    for (int i = 0; i < 3; i++)
+        make_file(others[i]);
+    assert_true(output_file_check("picture", &error));
+    assert_int_not_equal(access(lost, F_OK), 0);
+    assert_int_not_equal(access(strange, F_OK), 0);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(unlink(others[i]), 0);
+    assert_true(output_file_end(&living, true, &error));
+    assert_int_equal(unlink("picture"), 0);
+    free(lost);
+}
+
+// Locks of other machines may be invisible there.
+TEST(on_a_shared_disk_files_of_other_machines_stay)
+{
+    Error error = {0};
+    char *lost = make_lost();
+    const char *strange = make_strange();
+    disk_type = NFS_SUPER_MAGIC;
+    assert_true(output_file_check("picture", &error));
+    disk_type = TMPFS_MAGIC;
+    assert_int_not_equal(access(lost, F_OK), 0);
+    assert_int_equal(unlink(strange), 0);
+    free(lost);
 }
 
 SET_UP(enter_folder)

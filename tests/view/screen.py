@@ -96,10 +96,13 @@ class Screen:
 
 
 class Window:
-    """clrt with a scene in a window. Because of -v, clrt prints the state after each picture."""
+    """clrt with a scene in a window. Because of -v, clrt prints the state after each picture. Unless
+    `refines`, the window opens without anti-aliasing."""
 
-    def __init__(self, screen, scene, *options, size=(320, 240), folder=None):
+    def __init__(self, screen, scene, *options, size=(320, 240), folder=None, refines=False):
         self.screen, self.size = screen, size
+        if not refines and not any(option.startswith("--aa") for option in options):
+            options += ("--aa=1",)
         command = [os.environ["CLRT"], str(scene), "-v", "-s", f"{size[0]}x{size[1]}", *options]
         self.process = subprocess.Popen(command, env=screen.environment(), cwd=folder, text=True,
                                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,

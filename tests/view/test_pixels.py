@@ -35,6 +35,23 @@ def anti_aliased_pictures_are_the_same(window):
     expect_same(window, SCENE, "--aa")
 
 
+def a_resting_picture_is_anti_aliased_by_itself(screen):
+    window = opened(screen, SCENE, refines=True)
+    expect_same(window, SCENE, "--aa")
+    window.press("2", "ray traced, view 2, AA 2x2")
+    expect_same(window, SCENE, "--aa", "--view", "2")
+    window.press("a", "AA off")
+    expect_same(window, SCENE, "--view", "2")
+    window.press("a", "AA 2x2")
+    rested = [window.press("r", "OpenGL") and window.read()]
+    for view in "12":
+        window.press(view, f"OpenGL, view {view}")
+    rested.append(window.read())
+    window.press("a", "AA off")
+    rested.append(window.read())
+    assert rested[0] == rested[1] != rested[2], "OpenGL's picture is not anti-aliased after a motion"
+
+
 def pictures_of_any_size_are_the_same(screen):
     window = opened(screen, SCENE, size=(301, 207))
     expect_same(window, SCENE)

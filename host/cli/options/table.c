@@ -49,7 +49,8 @@ const Option option_table[] = {
 
     {"aa", "[=N]", 0, FIELD(COUNT, samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
-     "take N x N samples per pixel (default: 2)"},
+     "take N x N samples per pixel (default: 2); the window does so when the camera rests, unless "
+     "N is 1"},
     {"aa-adaptive", "[=T]", 0, FIELD(PART, contrast), 0, "0.02", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_FILE | FOR_WARM,
      "add samples where neighbors differ, until a pixel's contrast is at most T (default: 0.02)"},
