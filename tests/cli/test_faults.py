@@ -108,6 +108,25 @@ class Inputs(Faults):
                 self.assert_fails(run, 3, "mesh.ply")
 
 
+# Inputs of few bytes, or without an end, that could take hours or all memory.
+class Sizes(Faults):
+    SECONDS, MEGABYTES = 10, 1000
+    PICTURE = ["-s", "8x8", "-q", "-o", "a.pfm"]
+
+    def within(self, *words, code=0, says="", **settings):
+        status, text = self.run_within(self.SECONDS, self.MEGABYTES, *words, **settings)
+        self.assertEqual((status, text), (code, says and f"clrt: {says}\n"))
+
+    def test_names_are_found_in_constant_time(self):
+        names = range(100000)
+        self.write(
+            a_scn="".join(f"define m{i} matte\nmaterial m{i}\nsphere {i} 0 0 1\n" for i in names) + "light 1 1 1 1\n"
+        )
+        self.within("a.scn", *self.PICTURE)
+        self.within("convert", "a.scn", "b.scn")
+        self.assertIn('define "m99999" matte', (self.work / "b.scn").read_text())
+
+
 class Device(Faults):
     TILES = [SCENE, "-s", "64x48", "--tile", "16x16", "-q", "--kernel=ray", "--specialize=never"]
 
