@@ -126,6 +126,23 @@ class Sizes(Faults):
         self.within("convert", "a.scn", "b.scn")
         self.assertIn('define "m99999" matte', (self.work / "b.scn").read_text())
 
+    def test_pipes_and_devices_end_at_a_limit(self):
+        limit = "a pipe may hold at most 512 MiB"
+        with open("/dev/zero", "rb") as zero:
+            self.within("-", *self.PICTURE, code=3, says=f"standard input: {limit}", stdin=zero)
+        os.mkfifo(self.work / "a.ply")
+        self.write(a_scn="ply_file a.ply\n")
+        # The shell keeps the pipe open until clrt ends.
+        reader = ["sh", "-c", 'exec 3<>a.ply; cat /dev/zero >&3 & "$@"; code=$?; kill $!; exit $code', "sh"]
+        self.within("a.scn", *self.PICTURE, code=3, says=f"a.scn:1:10: a.ply: {limit}", before=reader)
+
+    def test_a_file_with_holes_is_refused(self):
+        with open(self.work / "a.scn", "wb") as file:
+            file.truncate(9 << 30)
+        self.within(
+            "a.scn", *self.PICTURE, code=3, says="a.scn: cannot be read: its bytes are missing from byte 0 on"
+        )
+
 
 class Device(Faults):
     TILES = [SCENE, "-s", "64x48", "--tile", "16x16", "-q", "--kernel=ray", "--specialize=never"]
