@@ -5,11 +5,13 @@
 # partial file. Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE [TEST...], with the
 # libraries of tests/cli/fail_memory.c and fail_device.c
 import os
+import subprocess
 import sys
 import threading
 import unittest
 
-from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main
+import bombs
+from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main, needs_exr
 
 FAIL_MEMORY, FAIL_DEVICE = (os.path.abspath(word) for word in sys.argv[3:5])
 # LARGE's picture does not fit on a disk of DISK_SIZE in any format. The kernels are the same in
@@ -142,6 +144,19 @@ class Sizes(Faults):
         self.within(
             "a.scn", *self.PICTURE, code=3, says="a.scn: cannot be read: its bytes are missing from byte 0 on"
         )
+
+    @needs_exr
+    def test_few_bytes_hold_no_vast_picture(self):
+        side = 8192
+        self.write(a_png=bombs.png(side, side), a_exr=bombs.exr(side, side))
+        words = f"cannot be read: {side} x {side} pixels of 3 channels are too many for so small a file"
+        self.within("compare", "a.png", "a.png", code=3, says="a.png: " + words)
+        self.within("compare", "a.exr", "a.exr", code=3, says="a.exr: cannot be read: it is too large")
+
+    def test_texts_of_a_png_are_limited(self):
+        self.write(a_png=bombs.png(8, 8, texts=1500))
+        status, text = self.run_within(self.SECONDS, 200, "compare", "a.png", "a.png", "-q")
+        self.assertEqual((status, text), (0, ""))
 
 
 class Device(Faults):
