@@ -158,6 +158,12 @@ class Sizes(Faults):
         status, text = self.run_within(self.SECONDS, 200, "compare", "a.png", "a.png", "-q")
         self.assertEqual((status, text), (0, ""))
 
+    def test_a_merge_takes_memory_only_after_it_has_found_all_tiles(self):
+        settings = {"width": 16384, "height": 16384, "part": [1, 1], "tile": [4096, 4096]}
+        self.write(a_exr=bombs.exr_part(settings))
+        says = "a.exr: part 1 of 1 cannot be used: it is damaged at pixel 0,0"
+        self.within("merge", "a.exr", "-o", "m.png", code=3, says=says)
+
 
 class Device(Faults):
     TILES = [SCENE, "-s", "64x48", "--tile", "16x16", "-q", "--kernel=ray", "--specialize=never"]
