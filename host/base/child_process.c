@@ -19,6 +19,8 @@
 
 #define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
 
+#define BYTES_PER_SECOND 2000000 // of a file; slower readers run out of processor time
+
 // Returns the environment with which this process was started, or none without /proc. Reading
 // environ would be unsafe, because OpenCL drivers call setenv in other threads. The strings are in
 // bytes. The caller frees both.
@@ -187,16 +189,28 @@ void confine_resource(int resource, rlim_t most)
     setrlimit((__rlimit_resource_t)resource, &both);
 }
 
-void confine_process(unsigned seconds)
+const TimeLimits reader_limits = {.processor_seconds = 8, .seconds = 120};
+
+void confine_process(TimeLimits limits)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     // At the soft limit, the signal is SIGXCPU; at the hard limit, SIGKILL.
-    const struct rlimit time = {seconds, seconds + 1};
+    const struct rlimit time = {limits.processor_seconds, limits.seconds + 1};
     setrlimit(RLIMIT_CPU, &time);
     confine_resource(RLIMIT_FSIZE, 0);
     confine_resource(RLIMIT_CORE, 0);
-    alarm(seconds);
+    alarm(limits.seconds);
+}
+
+void confine_add_time(uint64_t bytes)
+{
+    struct rlimit time;
+    if (getrlimit(RLIMIT_CPU, &time) != 0 || time.rlim_cur >= time.rlim_max)
+        return;
+    const uint64_t left = time.rlim_max - 1 - time.rlim_cur, more = bytes / BYTES_PER_SECOND;
+    time.rlim_cur += more < left ? more : left;
+    setrlimit(RLIMIT_CPU, &time);
 }
 
 rlim_t confine_mapped_memory(void)

@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 
+#include <stdint.h>
 #include <sys/resource.h>
 #include <sys/types.h>
 
@@ -58,9 +59,19 @@ ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *ou
 
 // The following limits protect from hostile files. Only root can raise the resource limits again.
 
-// Ends this process when the thread that started it ends, and after `seconds` of processor or wall
-// time. From now on, the process gains no privileges, writes no file and dumps no core.
-void confine_process(unsigned seconds);
+typedef struct {
+    unsigned processor_seconds, seconds; // the second is wall time
+} TimeLimits;
+
+// For readers of files. confine_add_time adds processor time for larger files.
+extern const TimeLimits reader_limits;
+
+// Ends this process when the thread that started it ends, and at the time limits. From now on, the
+// process gains no privileges, writes no file and dumps no core.
+void confine_process(TimeLimits limits);
+
+// Adds processor time for reading a file of this size, up to the limit of wall time.
+void confine_add_time(uint64_t bytes);
 
 // Limits a resource, such as RLIMIT_AS, to `most`, unless its hard limit is lower.
 void confine_resource(int resource, rlim_t most);

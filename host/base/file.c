@@ -5,21 +5,23 @@
 #include "base/array.h"
 
 #include <errno.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Pipes report no size, so the buffer grows as bytes arrive.
-static bool read_all(File *file, FILE *stream, size_t expected, Error *error)
+// Pipes report no size, so the buffer grows as bytes arrive. Reads at most one byte more than most.
+static bool read_all(File *file, FILE *stream, size_t expected, size_t most, Error *error)
 {
     void *memory = NULL;
     size_t capacity = 0;
     bool ok = array_reserve(&memory, &capacity, expected + 2, 1, error);
     while (ok) {
-        file->size += fread((char *)memory + file->size, 1, capacity - file->size - 1, stream);
-        if (file->size < capacity - 1)
+        const size_t room = capacity - file->size - 1, left = most + 1 - file->size;
+        file->size += fread((char *)memory + file->size, 1, room < left ? room : left, stream);
+        if (file->size < capacity - 1 || file->size > most)
             break;
         ok = array_reserve(&memory, &capacity, capacity + 1, 1, error);
     }
@@ -29,9 +31,28 @@ static bool read_all(File *file, FILE *stream, size_t expected, Error *error)
     return ok;
 }
 
-static bool read_stream(File *file, FILE *stream, size_t expected, const char *name, Error *error)
+// Fails if a large file has holes. Incomplete downloads have holes, and so have hostile files that
+// claim more bytes than their disk.
+static bool check_holes(int file, off_t size, const char *name, Error *error)
 {
-    bool ok = read_all(file, stream, expected, error);
+    const off_t start = lseek(file, 0, SEEK_CUR);
+    const off_t hole = size > (off_t)FILE_PIPE_MOST ? lseek(file, start, SEEK_HOLE) : -1;
+    lseek(file, start, SEEK_SET);
+    return hole < 0 || hole >= size ||
+           error_set(error, "%s: cannot be read: its bytes are missing from byte %lld on", name,
+                     (long long)hole);
+}
+
+static bool read_stream(File *file, FILE *stream, const char *name, Error *error)
+{
+    struct stat status;
+    const bool is_file = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode);
+    const size_t most = is_file ? SIZE_MAX - 1 : FILE_PIPE_MOST;
+    if (is_file && !check_holes(fileno(stream), status.st_size, name, error))
+        return false;
+    bool ok = read_all(file, stream, is_file ? (size_t)status.st_size : 0, most, error);
+    if (ok && file->size > most)
+        ok = error_set(error, "%s: a pipe may hold at most %zu MiB", name, most >> 20);
     if (ok && ferror(stream))
         ok = error_set(error, "%s: cannot be read: %s", name, strerror(errno));
     if (!ok)
@@ -69,8 +90,7 @@ bool file_read(File *file, const char *path, Error *error)
     FILE *stream = fopen(path, "rbe");
     if (stream == NULL)
         return cannot_open(path, error);
-    const size_t expected = S_ISREG(status.st_mode) ? (size_t)status.st_size : 0;
-    const bool ok = read_stream(file, stream, expected, path, error);
+    const bool ok = read_stream(file, stream, path, error);
     fclose(stream);
     return ok;
 }
@@ -78,7 +98,7 @@ bool file_read(File *file, const char *path, Error *error)
 bool file_read_stream(File *file, FILE *stream, const char *name, Error *error)
 {
     *file = (File){0};
-    return read_stream(file, stream, 0, name, error);
+    return read_stream(file, stream, name, error);
 }
 
 void file_free(File *file)

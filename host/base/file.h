@@ -13,7 +13,11 @@ typedef struct {
     size_t size;
 } File;
 
-// Reads the regular file or pipe at path. Unless memory runs out, the error message names path.
+// A pipe or a device may never end, so the functions below read at most this many bytes from it.
+#define FILE_PIPE_MOST ((size_t)512 << 20)
+
+// Reads the regular file or pipe at path. Larger files than FILE_PIPE_MOST must have no holes.
+// Unless memory runs out, the error message names path.
 bool file_read(File *file, const char *path, Error *error);
 
 // Returns whether file_read can open path. If not, the error message is the same as file_read's.

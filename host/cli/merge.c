@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Reads the parts one after another and copies their tiles into the whole picture. The parts must
-// have the same scene, version and settings, and each part must occur once. If can_join() is true,
-// the whole picture is never in memory.
+// Checks all parts, then reads them again and copies their tiles into the whole picture. The parts
+// must have the same scene, version and settings, and each part must occur once. If can_join() is
+// true, the whole picture is never in memory. Otherwise it takes memory only if all parts are
+// there.
 #include "cli/commands.h"
 
 #include "base/output_file.h"
@@ -24,6 +25,7 @@ typedef struct {
     const char **paths; // by part, NULL for a missing part; the array is owned
     bool joins;         // copies compressed tiles into an EXR file instead of decoding them
     ExrJoin join;
+    bool is_checked; // all parts are checked and are there
     Error unopened;  // the reason why a part cannot be opened
     bool is_damaged; // a part cannot be used
 } Merging;
@@ -86,23 +88,29 @@ static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *fil
     if (!stored_tiles_name_layers(image, &merging->layers))
         return error_set(error, "%s: has channels that clrt does not draw", path);
     merging->joins = can_join(merging->options, file);
-    if (merging->joins)
-        return exr_join_begin(&merging->join, file, error);
-    return framebuffer_make(&merging->framebuffer, image->width, image->height, error) &&
-           layers_make(&merging->layers, image->width, image->height, error);
+    return exr_join_begin(&merging->join, file, error);
 }
 
-// Without a stream, records or decodes the part's tiles. With a stream, copies the tiles to it.
+// Unless all parts are checked, records the part's tiles. Otherwise copies the tiles to the stream
+// or, if it is NULL, decodes them.
 static bool take_tiles(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
                        FILE *stream, Error *error)
 {
     const TileTarget target = {
         .framebuffer = &merging->framebuffer, .layers = &merging->layers, .is_whole = true};
     const RenderSettings *settings = &tiles->settings;
-    if (stream != NULL)
-        return exr_join_copy(&merging->join, file, settings, stream, error);
-    return merging->joins ? exr_join_measure(&merging->join, file, settings, error)
+    if (!merging->is_checked)
+        return exr_join_measure(&merging->join, file, settings, error);
+    return stream != NULL ? exr_join_copy(&merging->join, file, settings, stream, error)
                           : stored_tiles_copy(settings, tile_count(settings), file, &target, error);
+}
+
+static bool check_match(const Merging *merging, const StoredTiles *tiles, const StoredImage *image,
+                        const char *path, Error *error)
+{
+    const char *mismatch = mismatch_of(merging, tiles, image);
+    return mismatch == NULL ||
+           error_set(error, "%s: has %s than %s", path, mismatch, merging->first_path);
 }
 
 static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
@@ -114,9 +122,8 @@ static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile
                          tiles->settings.part + 1, tiles->settings.parts);
     if (merging->paths == NULL && !begin(merging, tiles, file, path, error))
         return false;
-    const char *mismatch = mismatch_of(merging, tiles, image);
-    if (mismatch != NULL)
-        return error_set(error, "%s: has %s than %s", path, mismatch, merging->first_path);
+    if (!check_match(merging, tiles, image, path, error))
+        return false;
     const char **place = &merging->paths[tiles->settings.part];
     if (*place != NULL)
         return error_set(error, "%s: is part %u of %u, as is %s", path, tiles->settings.part + 1,
@@ -145,18 +152,19 @@ static bool is_checked_part(const Merging *merging, const StoredTiles *tiles, co
            error_set(error, "%s: changed while the parts were merged", path);
 }
 
-// Without a stream, checks the part and records or decodes its tiles. A part that cannot be opened
-// counts as missing. With a stream, copies the part's tiles to it.
+// Unless all parts are checked, checks the part and records its tiles. A part that cannot be opened
+// then counts as missing. Otherwise takes its tiles. The file may have changed since the check.
 static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *error)
 {
     ExrFile file;
     StoredTiles tiles = {0};
     Error cause = {0};
-    const bool opened = exr_file_open(&file, path, stream == NULL ? &merging->unopened : error);
-    bool ok = opened ? read_settings(&tiles, &file, path, error) : stream == NULL;
+    const bool opened =
+        exr_file_open(&file, path, merging->is_checked ? error : &merging->unopened);
+    bool ok = opened ? read_settings(&tiles, &file, path, error) : !merging->is_checked;
     if (ok && opened) {
-        ok = (stream != NULL ? is_checked_part(merging, &tiles, &file, path, error)
-                             : check_part(merging, &tiles, &file, path, error)) &&
+        ok = (merging->is_checked ? is_checked_part(merging, &tiles, &file, path, error)
+                                  : check_part(merging, &tiles, &file, path, error)) &&
              take_tiles(merging, &tiles, &file, stream, &cause);
         merging->is_damaged = !ok && merging->join.write_error == 0;
         if (merging->is_damaged)
@@ -216,6 +224,14 @@ static bool write_joined(void *context, FILE *stream, Error *cause)
     return ok;
 }
 
+static bool decode(Merging *merging, Error *error)
+{
+    const RenderSettings *settings = &merging->first.settings;
+    return framebuffer_make(&merging->framebuffer, settings->width, settings->height, error) &&
+           layers_make(&merging->layers, settings->width, settings->height, error) &&
+           visit_parts(merging, NULL, error);
+}
+
 static bool write_whole(Merging *merging, Error *error)
 {
     const Options *options = merging->options;
@@ -256,6 +272,9 @@ static ExitCode run(Merging *merging, Error *error)
                   options->format);
         return EXIT_USAGE;
     }
+    merging->is_checked = true;
+    if (!merging->joins && !decode(merging, error))
+        return EXIT_SCENE;
     if (!write_whole(merging, error))
         return merging->is_damaged ? EXIT_SCENE : EXIT_OUTPUT;
     const char *hash = merging->provenance.texts[STORED_PIXEL_HASH];

@@ -3,6 +3,8 @@
 // its format. Assimp cannot read outside the model's folder, regardless of the paths in a model.
 #include "foreign/model.h"
 
+#include "base/child_process.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,6 +71,7 @@ static bool read_regular(File *file, const char *path, Error *error)
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return error_set(error, "cannot be read: it is not a file");
     limits_allow_file((size_t)status.st_size);
+    confine_add_time((uint64_t)status.st_size);
     Error cause = {0};
     if (file_read(file, path, &cause))
         return true;

@@ -8,10 +8,9 @@
 #include <unistd.h>
 
 #define MEMORY_MOST   ((rlim_t)12 << 30)  // bytes beyond the memory already mapped
-#define MEMORY_LEAST  ((rlim_t)512 << 20) // bytes that even the shortest file may use
+#define MEMORY_LEAST  ((rlim_t)256 << 20) // bytes that even the shortest file may use
 #define MEMORY_FACTOR 128                 // bytes of memory per byte of a file
 #define STACK_LIMIT   ((rlim_t)8 << 20)   // bytes; too deep a tree of nodes crashes this process
-#define TIME_LIMIT    120                 // seconds of processor and of wall time
 #define FILE_LIMIT    32                  // open files
 
 // AddressSanitizer maps more memory than any limit could allow. gcc defines a macro for it; clang
@@ -57,7 +56,7 @@ void limits_allow_file(size_t bytes)
 void limits_take(void)
 {
     close_range(STDERR_FILENO + 1, ~0U, 0);
-    confine_process(TIME_LIMIT);
+    confine_process(reader_limits);
     confine_resource(RLIMIT_NPROC, 0);
     confine_resource(RLIMIT_NOFILE, FILE_LIMIT);
     confine_resource(RLIMIT_STACK, STACK_LIMIT);

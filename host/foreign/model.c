@@ -7,16 +7,53 @@
 #include <assimp/postprocess.h>
 #include <string.h>
 
+// Assimp triangulates a polygon of n corners in n * n steps or more. The sum of the squares may be
+// at most this. One polygon may have 30,000 corners, which take about five seconds.
+#define TRIANGULATION_MOST 900000000.0
+
+static bool fail(Error *error)
+{
+    const char *reason = aiGetErrorString();
+    if (strstr(reason, "bad_alloc") != NULL)
+        return error_set(error, "Assimp needs more memory than the limit for a file of this size");
+    return error_set(error, "Assimp cannot read it: %s",
+                     reason[0] != '\0' ? reason : "no reason is given");
+}
+
+static bool check_polygons(const struct aiScene *scene, Error *error)
+{
+    double steps = 0;
+    unsigned most = 0;
+    for (unsigned mesh = 0; mesh < scene->mNumMeshes; mesh++)
+        for (unsigned face = 0; face < scene->mMeshes[mesh]->mNumFaces; face++) {
+            const unsigned corners = scene->mMeshes[mesh]->mFaces[face].mNumIndices;
+            steps += corners > 4 ? (double)corners * corners : 0;
+            most = corners > most ? corners : most;
+        }
+    return steps <= TRIANGULATION_MOST ||
+           error_set(error,
+                     "its polygons of up to %u corners take too long to triangulate; PLY files may "
+                     "have such polygons if they are convex",
+                     most);
+}
+
 // Returns the model, or NULL on failure. The settings keep Assimp from turning Collada files to y
 // up, and from adding meshes for skeletons.
-static const struct aiScene *import(Files *files)
+static const struct aiScene *import(Files *files, Error *error)
 {
     struct aiPropertyStore *settings = aiCreatePropertyStore();
     aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
     aiSetImportPropertyInteger(settings, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
-    const struct aiScene *scene = aiImportFileExWithProperties(files->model, aiProcess_Triangulate,
-                                                               &files->interface, settings);
+    const struct aiScene *scene =
+        aiImportFileExWithProperties(files->model, 0, &files->interface, settings);
     aiReleasePropertyStore(settings);
+    if (scene != NULL && !check_polygons(scene, error)) {
+        aiReleaseImport(scene);
+        return NULL;
+    }
+    scene = scene == NULL ? NULL : aiApplyPostProcessing(scene, aiProcess_Triangulate);
+    if (scene == NULL)
+        fail(error);
     return scene;
 }
 
@@ -60,23 +97,14 @@ static void send_files(FILE *stream, const Files *files)
     }
 }
 
-static bool fail(Error *error)
-{
-    const char *reason = aiGetErrorString();
-    if (strstr(reason, "bad_alloc") != NULL)
-        return error_set(error, "Assimp needs more memory than the limit for a file of this size");
-    return error_set(error, "Assimp cannot read it: %s",
-                     reason[0] != '\0' ? reason : "no reason is given");
-}
-
 bool model_send(FILE *stream, Files *files, Error *error)
 {
     PartCounts counts;
     if (!files_open_model(files, error))
         return false;
-    const struct aiScene *scene = import(files);
+    const struct aiScene *scene = import(files, error);
     if (scene == NULL)
-        return fail(error);
+        return false;
     send_files(stream, files);
     const bool ok =
         parts_send(stream, scene, !file_has_ending(files->model, ".stl"), &counts, error);

@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define DEFLATE_RATIO 1032 // no compressed byte becomes more bytes
+
 void exr_file_ignore(exr_const_context_t context, exr_result_t code, const char *message)
 {
     (void)context;
@@ -95,7 +97,8 @@ void exr_file_close(ExrFile *file)
 bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk_info_t *tile)
 {
     return exr_read_tile_chunk_info(file->context, 0, (int)column, (int)row, 0, 0, tile) ==
-           EXR_ERR_SUCCESS;
+               EXR_ERR_SUCCESS &&
+           tile->unpacked_size / DEFLATE_RATIO <= tile->packed_size;
 }
 
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,

@@ -24,8 +24,8 @@ typedef struct {
 bool exr_file_open(ExrFile *file, const char *path, Error *error);
 void exr_file_close(ExrFile *file);
 
-// Finds a tile by its column and row. Returns false if the tile is missing or damaged, or extends
-// past the end of the file.
+// Finds a tile by its column and row. Returns false if the tile is missing or damaged, extends past
+// the end of the file, or has fewer bytes than its pixels need.
 bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk_info_t *tile);
 
 // Reads tile->packed_size compressed bytes and checks them. scratch needs tile->unpacked_size

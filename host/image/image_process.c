@@ -4,15 +4,17 @@
 #include "image/image_process.h"
 
 #include "base/child_process.h"
+#include "base/processors.h"
 
 #include <dlfcn.h>
+#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#define MEMORY_LIMIT ((rlim_t)12 << 30) // bytes beyond the memory already mapped
-#define TIME_LIMIT   120                // seconds of processor and of wall time
+#define MEMORY_LEAST      ((rlim_t)256 << 20) // bytes beyond the memory already mapped
+#define MEMORY_PER_THREAD ((rlim_t)16 << 20)  // bytes; mostly stack
 
 // The header that the child sends, followed by the values if ok.
 typedef struct {
@@ -42,24 +44,26 @@ ModuleFunction *open_module(const char *name, Error *cause)
     return function;
 }
 
-static void live_within_limits(void)
+// Decoders need memory for the values and about as much for themselves. Each thread reserves some.
+static void live_within_limits(uint64_t bytes)
 {
-    confine_process(TIME_LIMIT);
-    confine_resource(RLIMIT_AS, confine_mapped_memory() + MEMORY_LIMIT);
+    const rlim_t values = 2 * sizeof(float) * stored_values_most(bytes);
+    confine_process(reader_limits);
+    confine_add_time(bytes);
+    mallopt(M_ARENA_MAX, 1);
+    confine_resource(RLIMIT_AS, confine_mapped_memory() + values +
+                                    processors_usable() * MEMORY_PER_THREAD + MEMORY_LEAST);
     dup2(STDOUT_FILENO, STDERR_FILENO); // decoders print warnings
 }
 
-typedef struct {
-    const char *path, *format;
-} ReadRequest;
-
 static void serve(int socket, const void *context)
 {
-    const ReadRequest *request = context;
+    const ImageRequest *request = context;
     Error failure = {0};
-    Head head = {.content = {.values_max = STORED_VALUES_MAX, .text_names = stored_text_names}};
+    Head head = {.content = {.values_max = stored_values_most(request->bytes),
+                             .text_names = stored_text_names}};
     const ImageModuleContent *content = &head.content;
-    live_within_limits();
+    live_within_limits(request->bytes);
     ImageModuleRead *read = (ImageModuleRead *)open_module(IMAGE_MODULE_READ, &failure);
     snprintf(head.message, sizeof head.message, "%.500s", failure.text);
     head.ok = read != NULL && read(request->path, request->format, &head.content, head.message,
@@ -81,13 +85,11 @@ static bool take_message(const Head *head, Error *cause)
     return error_set(cause, "%s", message[0] != '\0' ? message : "it is damaged");
 }
 
-static bool take_head(StoredImage *image, const Head *head, Error *cause)
+static bool take_head(StoredImage *image, const Head *head, uint64_t most, Error *cause)
 {
     const ImageModuleContent *content = &head->content;
     if (!head->ok)
         return take_message(head, cause);
-    if (!stored_image_check_size(content->width, content->height, content->channel_count, cause))
-        return false;
     *image = (StoredImage){.width = content->width,
                            .height = content->height,
                            .channel_count = content->channel_count};
@@ -97,7 +99,7 @@ static bool take_head(StoredImage *image, const Head *head, Error *cause)
         image->names[i][STORED_NAME_SIZE - 1] = '\0';
     for (int i = 0; i < STORED_TEXTS; i++)
         image->texts[i][STORED_TEXT_SIZE - 1] = '\0';
-    return stored_image_allocate(image, cause);
+    return stored_image_check_size(image, most, cause) && stored_image_allocate(image, cause);
 }
 
 static bool take_values(StoredImage *image, int socket, bool is_8_bit, Error *cause)
@@ -113,22 +115,21 @@ static bool take_values(StoredImage *image, int socket, bool is_8_bit, Error *ca
     return true;
 }
 
-static bool receive_image(StoredImage *image, int socket, Error *cause)
+static bool receive_image(StoredImage *image, int socket, uint64_t most, Error *cause)
 {
     Head head;
     if (!child_receive(socket, &head, sizeof head))
         return error_set(cause, "the process that reads it ended too early");
-    return take_head(image, &head, cause) &&
+    return take_head(image, &head, most, cause) &&
            take_values(image, socket, head.content.is_8_bit != 0, cause);
 }
 
-bool image_process_read(StoredImage *image, const char *path, const char *format, Error *cause)
+bool image_process_read(StoredImage *image, const ImageRequest *request, Error *cause)
 {
-    const ReadRequest request = {path, format};
     ChildProcess child;
-    if (!child_fork(&child, serve, &request, cause))
+    if (!child_fork(&child, serve, request, cause))
         return false;
-    const bool ok = receive_image(image, child.socket, cause);
+    const bool ok = receive_image(image, child.socket, stored_values_most(request->bytes), cause);
     child_end(&child);
     return ok;
 }

@@ -12,7 +12,12 @@ typedef void ModuleFunction(void);
 // Returns NULL on failure.
 ModuleFunction *open_module(const char *name, Error *cause);
 
+typedef struct {
+    const char *path, *format; // format is OpenImageIO's name
+    uint64_t bytes;            // size of the file
+} ImageRequest;
+
 // Reads the file in the given OpenImageIO format, and trusts nothing that the child sends. On
 // failure returns false and the reason without the file name. The caller frees the image in both
 // cases.
-bool image_process_read(StoredImage *image, const char *path, const char *format, Error *cause);
+bool image_process_read(StoredImage *image, const ImageRequest *request, Error *cause);

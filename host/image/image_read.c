@@ -47,17 +47,19 @@ static const char *module_format(const char *start, size_t length)
 static bool read_stream(StoredImage *image, FILE *stream, const char *path, Error *cause)
 {
     char start[8];
+    struct stat status;
     const size_t length = fread(start, 1, sizeof start, stream);
-    if (ferror(stream) || fseek(stream, 0, SEEK_SET) != 0)
+    if (ferror(stream) || fseek(stream, 0, SEEK_SET) != 0 || fstat(fileno(stream), &status) != 0)
         return error_set(cause, "%s", strerror(errno));
+    const uint64_t bytes = (uint64_t)status.st_size, most = stored_values_most(bytes);
     if (length == 8 && memcmp(start, "\x89PNG\r\n\x1a\n", 8) == 0)
-        return png_file_read(image, stream, cause);
+        return png_file_read(image, stream, most, cause);
     if (length >= 2 && start[0] == 'P' && (start[1] == 'F' || start[1] == 'f'))
-        return pfm_read(image, stream, cause);
+        return pfm_read(image, stream, most, cause);
     const char *format = module_format(start, length);
     if (format == NULL)
         return error_set(cause, "it is not a %s", READABLE);
-    return image_process_read(image, path, format, cause);
+    return image_process_read(image, &(ImageRequest){path, format, bytes}, cause);
 }
 
 // Rejects pipes, because they may never end and cannot be rewound after the signature is read.

@@ -43,14 +43,13 @@ static bool read_header(StoredImage *image, FILE *stream, double *scale, Error *
     for (int i = 0; ok && i < 3; i++) {
         ok = read_word(stream, words[i]);
         const char *end = words[i] + strlen(words[i]);
-        ok = ok && (i < 2 ? integer_parse(words[i], end, &sides[i]) == end && sides[i] > 0
+        ok = ok && (i < 2 ? integer_parse(words[i], end, &sides[i]) == end && sides[i] > 0 &&
+                                sides[i] <= UINT32_MAX
                           : number_parse(words[i], end, scale) == end && *scale != 0);
     }
     if (!ok)
         return error_set(cause, "it has no valid PFM header");
     const uint32_t channels = kind[1] == 'F' ? 3 : 1;
-    if (!stored_image_check_size((uint64_t)sides[0], (uint64_t)sides[1], channels, cause))
-        return false;
     *image = (StoredImage){.width = (uint32_t)sides[0],
                            .height = (uint32_t)sides[1],
                            .channel_count = channels,
@@ -70,10 +69,11 @@ static void swap_bytes(float *values, size_t count)
     }
 }
 
-bool pfm_read(StoredImage *image, FILE *stream, Error *cause)
+bool pfm_read(StoredImage *image, FILE *stream, uint64_t most, Error *cause)
 {
     double scale;
-    if (!read_header(image, stream, &scale, cause) || !stored_image_allocate(image, cause))
+    if (!read_header(image, stream, &scale, cause) ||
+        !stored_image_check_size(image, most, cause) || !stored_image_allocate(image, cause))
         return false;
     const size_t row_values = (size_t)image->width * image->channel_count;
     for (uint32_t row = image->height; row-- > 0;) {

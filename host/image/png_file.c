@@ -110,11 +110,13 @@ bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *setting
     return ok && fflush(stream) == 0 && !ferror(stream);
 }
 
-// The largest text or profile in a PNG file, in bytes after decompression.
-#define CHUNK_SIZE_MAX 1000000
+// The largest text or profile in a PNG file, in bytes after decompression, and their number.
+#define CHUNK_SIZE_MAX  1000000
+#define CHUNK_COUNT_MAX 64
 
 typedef struct {
     StoredImage *image;
+    uint64_t most;        // values that the picture may have
     unsigned char *bytes; // the whole picture, because interlaced files store it in several passes
     int passes;
     Error *cause;
@@ -181,7 +183,8 @@ static bool read_picture(png_structp png, png_infop info, Loading *loading)
     read_header(png, info, loading->image);
     loading->passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
-    if (!stored_image_allocate(loading->image, loading->cause))
+    if (!stored_image_check_size(loading->image, loading->most, loading->cause) ||
+        !stored_image_allocate(loading->image, loading->cause))
         return false;
     loading->bytes =
         memory_raw(loading->image->height, png_get_rowbytes(png, info), loading->cause);
@@ -192,9 +195,9 @@ static bool read_picture(png_structp png, png_infop info, Loading *loading)
     return true;
 }
 
-bool png_file_read(StoredImage *image, FILE *stream, Error *cause)
+bool png_file_read(StoredImage *image, FILE *stream, uint64_t most, Error *cause)
 {
-    Loading loading = {.image = image, .cause = cause};
+    Loading loading = {.image = image, .most = most, .cause = cause};
     png_structp png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, cause, take_fault, ignore_warning);
     png_infop info = png == NULL ? NULL : png_create_info_struct(png);
@@ -203,6 +206,7 @@ bool png_file_read(StoredImage *image, FILE *stream, Error *cause)
         png_set_read_fn(png, stream, read_bytes);
         png_set_user_limits(png, STORED_SIDE_MAX, STORED_SIDE_MAX);
         png_set_chunk_malloc_max(png, CHUNK_SIZE_MAX);
+        png_set_chunk_cache_max(png, CHUNK_COUNT_MAX);
         ok = read_picture(png, info, &loading);
     }
     png_destroy_read_struct(&png, &info, NULL);

@@ -18,22 +18,32 @@ void stored_image_free(StoredImage *image)
     *image = (StoredImage){0};
 }
 
-bool stored_image_check_size(uint64_t width, uint64_t height, uint64_t channels, Error *cause)
+uint64_t stored_values_most(uint64_t bytes)
 {
+    if (bytes >= STORED_VALUES_MAX / STORED_VALUES_PER_BYTE)
+        return STORED_VALUES_MAX;
+    const uint64_t most = bytes * STORED_VALUES_PER_BYTE;
+    return most < STORED_VALUES_LEAST ? STORED_VALUES_LEAST : most;
+}
+
+bool stored_image_check_size(const StoredImage *image, uint64_t most, Error *cause)
+{
+    const uint32_t width = image->width, height = image->height, channels = image->channel_count;
     if (width < 1 || height < 1 || channels < 1)
         return error_set(cause, "it has no pixels");
+    const uint64_t pixels = (uint64_t)width * height;
     if (width > STORED_SIDE_MAX || height > STORED_SIDE_MAX || channels > STORED_CHANNELS_MAX ||
-        width * height > STORED_VALUES_MAX / channels)
-        return error_set(cause, "%llu x %llu pixels of %llu channels are too many",
-                         (unsigned long long)width, (unsigned long long)height,
-                         (unsigned long long)channels);
+        pixels > STORED_VALUES_MAX / channels)
+        return error_set(cause, "%u x %u pixels of %u channels are too many", width, height,
+                         channels);
+    if (pixels > most / channels)
+        return error_set(cause, "%u x %u pixels of %u channels are too many for so small a file",
+                         width, height, channels);
     return true;
 }
 
 bool stored_image_allocate(StoredImage *image, Error *cause)
 {
-    if (!stored_image_check_size(image->width, image->height, image->channel_count, cause))
-        return false;
     const size_t pixels = (size_t)image->width * image->height;
     image->values = memory_raw(pixels * image->channel_count, sizeof *image->values, cause);
     return image->values != NULL;

@@ -9,10 +9,14 @@
 #define STORED_NAME_SIZE 32
 #define STORED_TEXT_SIZE 512
 
-// image_read rejects pictures beyond these limits. A picture's values take at most 4 GiB.
-#define STORED_SIDE_MAX     65536
-#define STORED_CHANNELS_MAX 64
-#define STORED_VALUES_MAX   ((uint64_t)1 << 30)
+// image_read rejects pictures beyond these limits. A picture's values take at most 4 GiB. A file of
+// any size may hold STORED_VALUES_LEAST, and a larger picture needs a byte for every
+// STORED_VALUES_PER_BYTE: files of some kilobytes could claim gigabytes.
+#define STORED_SIDE_MAX        65536
+#define STORED_CHANNELS_MAX    64
+#define STORED_VALUES_MAX      ((uint64_t)1 << 30)
+#define STORED_VALUES_LEAST    ((uint64_t)100000000)
+#define STORED_VALUES_PER_BYTE 256
 
 // The texts that clrt stores in pictures. stored_text_names holds their names in files.
 typedef enum {
@@ -38,10 +42,13 @@ typedef struct {
 
 void stored_image_free(StoredImage *image);
 
-// Returns whether a picture of this size is within the limits.
-bool stored_image_check_size(uint64_t width, uint64_t height, uint64_t channels, Error *cause);
+// Returns how many values a picture in a file of `bytes` bytes may have.
+uint64_t stored_values_most(uint64_t bytes);
 
-// Allocates the values of an image whose size and channel count are set.
+// Returns whether a picture of this size is within the limits and has at most `most` values.
+bool stored_image_check_size(const StoredImage *image, uint64_t most, Error *cause);
+
+// Allocates the values of an image whose size and channel count are set and checked.
 bool stored_image_allocate(StoredImage *image, Error *cause);
 
 // Returns the index of the channel with this name, or -1 without one.

@@ -72,10 +72,9 @@ static bool read_shader(Tokens *tokens, Shader *shader)
 
 static const MaterialName *find_name(const Scene *scene, Token token)
 {
-    for (size_t i = 0; i < scene->material_names.count; i++)
-        if (token_is(token, scene->material_names.data[i].name))
-            return &scene->material_names.data[i];
-    return NULL;
+    return token.text == NULL
+               ? NULL
+               : material_names_find(&scene->material_names, token.text, token.length);
 }
 
 static bool read_name(const Scene *scene, Tokens *tokens, MaterialName *entry)
@@ -108,20 +107,21 @@ bool materials_define(Scene *scene, Tokens *tokens)
         if (!read_property(tokens, property, &material))
             return false;
     }
-    return array_push(&scene->material_names, entry, tokens->error) &&
+    return material_names_add(&scene->material_names, &entry, tokens->error) &&
            array_push(&scene->materials, material, tokens->error);
 }
 
 static bool unknown_name(const Scene *scene, const Tokens *tokens, Token token)
 {
     const char *nearest = NULL;
-    const char **names = memory_raw(scene->material_names.count, sizeof *names, tokens->error);
+    const size_t count = scene->material_names.list.count;
+    const char **names = memory_raw(count, sizeof *names, tokens->error);
     if (names == NULL)
         return false;
-    for (size_t i = 0; i < scene->material_names.count; i++)
-        names[i] = scene->material_names.data[i].name;
+    for (size_t i = 0; i < count; i++)
+        names[i] = scene->material_names.list.data[i].name;
     if (token.text != NULL)
-        nearest = word_nearest(token.text, token.length, names, scene->material_names.count);
+        nearest = word_nearest(token.text, token.length, names, count);
     if (nearest == NULL)
         tokens_fail(tokens, token, "expected an integer or a defined name");
     else

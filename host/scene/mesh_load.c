@@ -40,7 +40,7 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
         const ForeignMaterial *given = &model->materials.data[i];
         const MaterialName name = name_of(given, path, (uint32_t)scene->materials.count);
         if (!array_push(&scene->materials, material_of(given), error) ||
-            !array_push(&scene->material_names, name, error))
+            !material_names_add(&scene->material_names, &name, error))
             return false;
     }
     return true;

@@ -162,7 +162,7 @@ void scene_free(Scene *scene)
     free(scene->spheres.memory);
     free(scene->objects.memory);
     free(scene->materials.memory);
-    free(scene->material_names.memory);
+    material_names_free(&scene->material_names);
     free(scene->viewpoints.memory);
     *scene = (Scene){0};
 }

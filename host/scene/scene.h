@@ -7,6 +7,7 @@
 #include "base/array.h"
 #include "base/vec.h"
 #include "mesh/mesh.h"
+#include "scene/material_names.h"
 
 // Limits that keep sample coordinates exact in float, and loops short.
 #define PICTURE_SIZE_MAX 131072
@@ -51,16 +52,11 @@ typedef struct {
 } Viewpoint;
 
 typedef struct {
-    char name[64];
-    uint32_t material; // index in Scene::materials
-} MaterialName;
-
-typedef struct {
     ARRAY(Light) lights;
     ARRAY(Sphere) spheres;
     ARRAY(MeshObject) objects;
-    ARRAY(Material) materials; // the course's materials, then defined and imported materials
-    ARRAY(MaterialName) material_names; // names of defined and imported materials
+    ARRAY(Material) materials;    // the course's materials, then defined and imported materials
+    MaterialNames material_names; // names of defined and imported materials
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six
     UpAxis mesh_up;        // up axis of a file that is a mesh, turned to z; UP_AUTO for scene text

@@ -15,7 +15,7 @@ static const char *const shaders[] = {[SHADER_SILHOUETTE] = "silhouette",
 typedef struct {
     const Scene *scene;
     FILE *stream;
-    MaterialName *names; // names of the materials in the written text, by index
+    MaterialNames names; // of the materials in the written text, except the course's
     MeshObject current;  // the properties that statements have set so far
 } Writer;
 
@@ -112,12 +112,9 @@ bool scn_write_can_name(const char *name)
     return name[0] != '\0';
 }
 
-static bool is_taken(const Writer *writer, size_t before, const char *name)
+static bool is_taken(const Writer *writer, const char *name)
 {
-    for (size_t i = COURSE_MATERIALS; i < before; i++)
-        if (strcmp(writer->names[i].name, name) == 0)
-            return true;
-    return false;
+    return material_names_find(&writer->names, name, strlen(name)) != NULL;
 }
 
 static bool is_definable(const char *name)
@@ -129,20 +126,37 @@ static bool is_definable(const char *name)
 
 // A material keeps its name if scene text can define the name and no earlier material has it.
 // Otherwise, its new name is material_INDEX, followed by underscores if that name is taken.
-static void choose_names(Writer *writer)
+static bool choose_name(Writer *writer, uint32_t material, const char *given, Error *error)
+{
+    MaterialName name = {.material = material};
+    if (given != NULL)
+        strcpy(name.name, given);
+    if (!is_definable(name.name) || is_taken(writer, name.name)) {
+        snprintf(name.name, sizeof name.name, "material_%u", material);
+        for (size_t length = strlen(name.name);
+             is_taken(writer, name.name) && length + 1 < sizeof name.name; length++)
+            strcpy(name.name + length, "_");
+    }
+    return material_names_add(&writer->names, &name, error);
+}
+
+static bool choose_names(Writer *writer, Error *error)
 {
     const Scene *scene = writer->scene;
-    for (size_t i = 0; i < scene->material_names.count; i++)
-        writer->names[scene->material_names.data[i].material] = scene->material_names.data[i];
-    for (size_t i = COURSE_MATERIALS; i < scene->materials.count; i++) {
-        MaterialName *name = &writer->names[i];
-        if (is_definable(name->name) && !is_taken(writer, i, name->name))
-            continue;
-        snprintf(name->name, sizeof name->name, "material_%zu", i);
-        for (size_t length = strlen(name->name);
-             is_taken(writer, i, name->name) && length + 1 < sizeof name->name; length++)
-            strcpy(name->name + length, "_");
-    }
+    const char **given = memory_zeroed(scene->materials.count, sizeof *given, error);
+    bool ok = given != NULL;
+    for (size_t i = 0; ok && i < scene->material_names.list.count; i++)
+        given[scene->material_names.list.data[i].material] =
+            scene->material_names.list.data[i].name;
+    for (uint32_t i = COURSE_MATERIALS; ok && i < scene->materials.count; i++)
+        ok = choose_name(writer, i, given[i], error);
+    free(given);
+    return ok;
+}
+
+static const char *name_of(const Writer *writer, size_t material)
+{
+    return writer->names.list.data[material - COURSE_MATERIALS].name;
 }
 
 // Writes the define statements. Only Blinn-Phong materials use their specular properties.
@@ -151,7 +165,7 @@ static void write_defines(const Writer *writer)
     FILE *stream = writer->stream;
     for (size_t i = COURSE_MATERIALS; i < writer->scene->materials.count; i++) {
         const Material *material = &writer->scene->materials.data[i];
-        fprintf(stream, "define \"%s\" %s", writer->names[i].name, shaders[material->shader]);
+        fprintf(stream, "define \"%s\" %s", name_of(writer, i), shaders[material->shader]);
         write_color(stream, "diffuse", material->diffuse);
         write_factor(stream, "kd", material->kd);
         if (material->shader == SHADER_BLINN_PHONG) {
@@ -185,7 +199,7 @@ static void select_material(Writer *writer, uint32_t material)
     if (material < COURSE_MATERIALS)
         fprintf(writer->stream, "material %u\n", material);
     else
-        fprintf(writer->stream, "material \"%s\"\n", writer->names[material].name);
+        fprintf(writer->stream, "material \"%s\"\n", name_of(writer, material));
 }
 
 static void write_spheres(Writer *writer)
@@ -215,16 +229,15 @@ static void write_objects(Writer *writer, char *const *mesh_names)
 bool scn_write(const Scene *scene, char *const *mesh_names, FILE *stream, Error *error)
 {
     Writer writer = {.scene = scene, .stream = stream, .current = {.material = UINT32_MAX}};
-    writer.names = memory_zeroed(scene->materials.count, sizeof *writer.names, error);
-    if (writer.names == NULL)
-        return false;
-    choose_names(&writer);
-    write_picture(&writer);
-    write_cameras(&writer);
-    write_lights(&writer);
-    write_defines(&writer);
-    write_spheres(&writer);
-    write_objects(&writer, mesh_names);
-    free(writer.names);
-    return ferror(stream) == 0;
+    const bool ok = choose_names(&writer, error);
+    if (ok) {
+        write_picture(&writer);
+        write_cameras(&writer);
+        write_lights(&writer);
+        write_defines(&writer);
+        write_spheres(&writer);
+        write_objects(&writer, mesh_names);
+    }
+    material_names_free(&writer.names);
+    return ok && ferror(stream) == 0;
 }

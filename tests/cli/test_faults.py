@@ -5,11 +5,13 @@
 # partial file. Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE SET_ENVIRONMENT [TEST...],
 # with the libraries of tests/cli/fail_memory.c, fail_device.c and set_environment.c
 import os
+import subprocess
 import sys
 import threading
 import unittest
 
-from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main
+import bombs
+from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main, needs_exr
 
 FAIL_MEMORY, FAIL_DEVICE, SET_ENVIRONMENT = (os.path.abspath(word) for word in sys.argv[3:6])
 # LARGE's picture does not fit on a disk of DISK_SIZE in any format. The kernels are the same in
@@ -106,6 +108,61 @@ class Inputs(Faults):
         for run in runs:
             if run.returncode == 3:
                 self.assert_fails(run, 3, "mesh.ply")
+
+
+# Inputs of few bytes, or without an end, that could take hours or all memory.
+class Sizes(Faults):
+    SECONDS, MEGABYTES = 10, 1000
+    PICTURE = ["-s", "8x8", "-q", "-o", "a.pfm"]
+
+    def within(self, *words, code=0, says="", **settings):
+        status, text = self.run_within(self.SECONDS, self.MEGABYTES, *words, **settings)
+        self.assertEqual((status, text), (code, says and f"clrt: {says}\n"))
+
+    def test_names_are_found_in_constant_time(self):
+        names = range(100000)
+        self.write(
+            a_scn="".join(f"define m{i} matte\nmaterial m{i}\nsphere {i} 0 0 1\n" for i in names) + "light 1 1 1 1\n"
+        )
+        self.within("a.scn", *self.PICTURE)
+        self.within("convert", "a.scn", "b.scn")
+        self.assertIn('define "m99999" matte', (self.work / "b.scn").read_text())
+
+    def test_pipes_and_devices_end_at_a_limit(self):
+        limit = "a pipe may hold at most 512 MiB"
+        with open("/dev/zero", "rb") as zero:
+            self.within("-", *self.PICTURE, code=3, says=f"standard input: {limit}", stdin=zero)
+        os.mkfifo(self.work / "a.ply")
+        self.write(a_scn="ply_file a.ply\n")
+        # The shell keeps the pipe open until clrt ends.
+        reader = ["sh", "-c", 'exec 3<>a.ply; cat /dev/zero >&3 & "$@"; code=$?; kill $!; exit $code', "sh"]
+        self.within("a.scn", *self.PICTURE, code=3, says=f"a.scn:1:10: a.ply: {limit}", before=reader)
+
+    def test_a_file_with_holes_is_refused(self):
+        with open(self.work / "a.scn", "wb") as file:
+            file.truncate(9 << 30)
+        self.within(
+            "a.scn", *self.PICTURE, code=3, says="a.scn: cannot be read: its bytes are missing from byte 0 on"
+        )
+
+    @needs_exr
+    def test_few_bytes_hold_no_vast_picture(self):
+        side = 8192
+        self.write(a_png=bombs.png(side, side), a_exr=bombs.exr(side, side))
+        words = f"cannot be read: {side} x {side} pixels of 3 channels are too many for so small a file"
+        self.within("compare", "a.png", "a.png", code=3, says="a.png: " + words)
+        self.within("compare", "a.exr", "a.exr", code=3, says="a.exr: cannot be read: it is too large")
+
+    def test_texts_of_a_png_are_limited(self):
+        self.write(a_png=bombs.png(8, 8, texts=1500))
+        status, text = self.run_within(self.SECONDS, 200, "compare", "a.png", "a.png", "-q")
+        self.assertEqual((status, text), (0, ""))
+
+    def test_a_merge_takes_memory_only_after_it_has_found_all_tiles(self):
+        settings = {"width": 16384, "height": 16384, "part": [1, 1], "tile": [4096, 4096]}
+        self.write(a_exr=bombs.exr_part(settings))
+        says = "a.exr: part 1 of 1 cannot be used: it is damaged at pixel 0,0"
+        self.within("merge", "a.exr", "-o", "m.png", code=3, says=says)
 
 
 class Device(Faults):

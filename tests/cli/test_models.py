@@ -273,6 +273,15 @@ class Hostile(Work):
             told = self.clrt(name, "-o", "a.pfm", code=3)
             self.assertRegex(told, rf"^clrt: {name}: Assimp cannot read it: .*\n$")
 
+    def test_a_polygon_of_many_corners_is_one_sentence(self):
+        corners = range(1, 300001)
+        points = "".join(f"v {corner} {corner % 7} 0\n" for corner in corners)
+        self.write(a_obj=points + "f " + " ".join(map(str, corners)) + "\n")
+        status, text = self.run_within(10, 1000, "a.obj", "-o", "a.pfm", "-s", "8x8")
+        says = "its polygons of up to 300000 corners take too long to triangulate; PLY files may have such " \
+               "polygons if they are convex"
+        self.assertEqual((status, text), (3, f"clrt: a.obj: {says}\n"))
+
     def test_a_model_reads_no_file_outside_of_its_folder(self):
         (self.work / "inner").mkdir()
         self.write(secret_mtl=LIBRARY)

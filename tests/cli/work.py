@@ -64,11 +64,11 @@ class Work(unittest.TestCase):
         """Compares two files without printing their bytes."""
         self.assertTrue(self.bytes_of(one) == self.bytes_of(other), f"{one} and {other} differ: {words}")
 
-    def start(self, *words, **settings):
+    def start(self, *words, before=(), **settings):
         settings = {"cwd": self.work, "stderr": subprocess.PIPE, "text": True, **settings}
         for stream in "stdin", "stdout":
             settings.setdefault(stream, subprocess.DEVNULL)
-        process = subprocess.Popen([CLRT, *words], **settings)
+        process = subprocess.Popen([*before, CLRT, *words], **settings)
         self.addCleanup(process.__exit__, None, None, None)  # closes the streams and waits
         self.addCleanup(process.kill)
         return process
@@ -87,6 +87,17 @@ class Work(unittest.TestCase):
         kept = {name: value for name, value in environment.items() if value is not None}
         return subprocess.run([*before, CLRT, *words], cwd=self.work, env=kept, input=content, text=text,
                               capture_output=True, timeout=600)
+
+    def run_within(self, seconds, megabytes, *words, **settings):
+        """Runs clrt and returns its exit status and standard error. Fails if clrt or a process that
+        it started takes more processor time or memory."""
+        process = self.start(*words, **settings)
+        text = process.stderr.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertLess(usage.ru_utime + usage.ru_stime, seconds, (words, text))
+        self.assertLess(usage.ru_maxrss, 1000 * megabytes, (words, text))
+        return process.returncode, text
 
     def clrt(self, *words, code=0, **environment):
         """Returns standard output or, if code is not 0, standard error. clrt must exit with code."""

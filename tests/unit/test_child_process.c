@@ -165,7 +165,7 @@ TEST(a_child_ends_with_its_parent)
 
 static void sleep_confined(int socket, const void *context)
 {
-    confine_process(1);
+    confine_process((TimeLimits){1, 1});
     sleep_long(socket, context);
 }
 
@@ -182,9 +182,35 @@ static void burn_confined(int socket, const void *context)
     char byte = 0;
     pthread_t thread;
     (void)socket, (void)context;
-    confine_process(1);
+    confine_process((TimeLimits){1, 1});
     pthread_create(&thread, NULL, burn, &byte);
     burn(&byte);
+}
+
+// Sends its limits of processor time: at first, after a file of 10 MB and after one of 1 TB.
+static void send_limits(int socket, const void *context)
+{
+    static const uint64_t sizes[3] = {0, 10000000, 1000000000000};
+    struct rlimit limits[3];
+    (void)context;
+    confine_process(reader_limits);
+    for (int i = 0; i < 3; i++) {
+        confine_add_time(sizes[i]);
+        getrlimit(RLIMIT_CPU, &limits[i]);
+    }
+    child_send(socket, limits, sizeof limits);
+}
+
+TEST(processor_time_grows_with_the_files_read_up_to_a_limit)
+{
+    ChildProcess child;
+    struct rlimit limits[3];
+    start(&child, send_limits, NULL);
+    assert_true(child_receive(child.socket, limits, sizeof limits));
+    assert_int_equal(limits[0].rlim_cur, 8);
+    assert_int_equal(limits[1].rlim_cur, 13);
+    assert_int_equal(limits[2].rlim_cur, 120);
+    child_end(&child);
 }
 
 // Returns the signal that ends the child.

@@ -91,7 +91,7 @@ TEST(names_that_no_scene_can_define_are_replaced)
         strcpy(name.name, names[i]);
         material.diffuse[0] = (float)i / 8;
         assert_true(array_push(&scene.materials, material, &error));
-        assert_true(array_push(&scene.material_names, name, &error));
+        assert_true(material_names_add(&scene.material_names, &name, &error));
         assert_true(array_push(&scene.spheres, ((Sphere){{0, 0, i}, 1, name.material}), &error));
     }
     FREED_BY(scene_free) Scene copy = written_and_read(&scene, NULL, &again);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The names of materials, in the order in which they were added, and a hash table that finds them.
+#pragma once
+
+#include "base/array.h"
+
+#include <stdint.h>
+
+typedef struct {
+    char name[64];
+    uint32_t material; // index in Scene::materials
+} MaterialName;
+
+// {0} has no names.
+typedef struct {
+    ARRAY(MaterialName) list;
+    ARRAY(uint32_t) slots; // of the hash table: 1 + an index in list, or 0; a power of two
+} MaterialNames;
+
+// Appends a name. Returns false if memory runs out.
+bool material_names_add(MaterialNames *names, const MaterialName *name, Error *error);
+
+// Returns the first entry with this name, or NULL without one.
+const MaterialName *material_names_find(const MaterialNames *names, const char *name,
+                                        size_t length);
+
+void material_names_free(MaterialNames *names);
