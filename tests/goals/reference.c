@@ -162,8 +162,8 @@ int main(int count, char **words)
 {
     if (count != 7)
         return 2;
-    Error error;
-    Framebuffer picture;
+    Error error = {0};
+    Framebuffer picture = {0};
     Reference reference = {.wanted = atof(words[4]), .most = (uint32_t)atoi(words[5])};
     PictureRequest request = picture_request(words[1], 1);
     const ImageSettings settings = {.format = "pfm"};
