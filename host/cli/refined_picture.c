@@ -76,7 +76,9 @@ static bool draw_for_goal(Picture *picture, const CameraData *camera, ThreadPool
     GoalOutcome outcome = {0};
     Report *report = &run->report;
     const double start = clock_seconds();
-    const LadderSetup setup = {&run->renderer, camera, pool, &picture->framebuffer, observer};
+    const LadderSetup setup = {
+        &run->renderer,        &run->flat, camera, pool, &run->scene, &run->normalization,
+        &picture->framebuffer, observer};
     if (!ladder_open(&ladder, &setup, error))
         return false;
     const bool ok = refine(run, &ladder, start, &outcome, error);

@@ -171,8 +171,8 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
     frame->camera = *setup->camera;
     frame->samples = REFINE_GRID;
     renderer->progress = (RenderProgress){0};
-    const ThinSource thin = {frame, setup->scene, setup->normalization, setup->flat->spheres,
-                             setup->pool};
+    const ThinSource thin = {frame,       setup->scene, setup->normalization, setup->flat->spheres,
+                             setup->pool, REFINE_LEVELS};
     const bool ok = refine_tree_make(&adaptive->tree, frame->width, frame->height, error) &&
                     thin_parts_make(&adaptive->thin_parts, &thin, error) &&
                     trace_pixels(adaptive, observer, error);

@@ -52,7 +52,7 @@ bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
                          picture->width, picture->height);
     const bool ok = make_arrays(ladder, error) &&
                     pixel_requests_draw_centers(requests, picture, error) &&
-                    ladder_enter(ladder, error);
+                    ladder_enter(ladder, setup, error);
     ladder->samples = ladder->statistics.pixels;
     if (!ok)
         ladder_close(ladder);

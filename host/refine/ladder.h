@@ -10,6 +10,7 @@
 #include "image/framebuffer.h"
 #include "refine/ladder_strata.h"
 #include "render/renderer.h"
+#include "scene/normalize.h"
 
 // The functions below trace lists of requests for samples of pixels, and sum the samples.
 
@@ -76,9 +77,12 @@ typedef struct {
 } Ladder;
 
 typedef struct {
-    Renderer *renderer;             // with entry KERNEL_LADDER
-    const CameraData *camera;       // made for LADDER_GRID samples
-    ThreadPool *pool;               // threads for the work, NULL for none
+    Renderer *renderer;       // with entry KERNEL_LADDER
+    const FlatScene *flat;    // the renderer's scene
+    const CameraData *camera; // made for LADDER_GRID samples
+    ThreadPool *pool;         // threads for the work, NULL for none
+    const Scene *scene;       // the source of flat
+    const Normalization *normalization;
     Framebuffer *picture;           // of the renderer's size; the ladder renders into it
     const RenderObserver *observer; // may stop the refinement; may be NULL
 } LadderSetup;
@@ -96,7 +100,7 @@ bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
 uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel);
 
 // Assigns all pixels to strata of rung 0. The pixels' centers must be drawn.
-bool ladder_enter(Ladder *ladder, Error *error);
+bool ladder_enter(Ladder *ladder, const LadderSetup *setup, Error *error);
 
 // Seeds of a pixel's hashes: SCRAMBLE_SEED for its samples, RUNG_SEED + rung for its selection on a
 // rung.
@@ -126,8 +130,7 @@ typedef struct {
     double start, seconds;
 } GoalTime;
 
-// Refines until about time->seconds have passed since time->start, the bound is 0 or no pixel can
-// advance.
+// Refines until about time->seconds have passed since time->start, or no pixel can advance.
 bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);
 
 // The bend of a pixel measures how far its color is from the means of opposite neighbors.

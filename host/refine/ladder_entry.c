@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Assigns each pixel to a stratum of rung 0 by its bend (ladder_bends.c). Each task sums the
-// features of its pixels in order, and one thread then adds the tasks' sums in order. The result
-// therefore does not depend on threads.
+// Assigns each pixel to a stratum of rung 0 by its bend (ladder_bends.c), and by whether a thin
+// part touches it. Each task sums the features of its pixels in order, and one thread then adds the
+// tasks' sums in order. The result therefore does not depend on threads.
 #include "refine/ladder.h"
+#include "refine/thin_parts.h"
 
 #include <stdlib.h>
 
@@ -18,6 +19,7 @@ typedef struct {
     Ladder *ladder;
     float *bends, *nearby; // of each pixel
     Entries *entries;      // of each task
+    ThinParts thin_parts;
 } Entering;
 
 static void enter_part(void *context, uint32_t first, uint32_t end)
@@ -27,7 +29,8 @@ static void enter_part(void *context, uint32_t first, uint32_t end)
     Entries entries = {.pixels = {0}};
     for (uint32_t pixel = first; pixel < end; pixel++) {
         const double bend = (double)entering->bends[pixel];
-        const uint32_t stratum = strata_of_bend(bend, (double)entering->nearby[pixel]);
+        const uint32_t stratum = strata_of_bend(bend, (double)entering->nearby[pixel],
+                                                thin_parts_touch(&entering->thin_parts, pixel));
         ladder->strata[pixel] = (uint8_t)stratum;
         ladder->places[pixel].feature = (float)(bend * bend);
         entries.pixels[stratum]++;
@@ -50,18 +53,35 @@ static void enter_all(const Entering *entering)
                          entering->entries[task].features[stratum]);
 }
 
-bool ladder_enter(Ladder *ladder, Error *error)
+// Finds the pixels that thin parts touch.
+static bool find_thin_parts(ThinParts *parts, const LadderSetup *setup, Error *error)
+{
+    FrameData frame = setup->renderer->frame;
+    frame.camera = *setup->camera;
+    for (int axis = 0; axis < 3; axis++) {
+        frame.camera.right_step[axis] *= (float)LADDER_GRID / REFINE_GRID;
+        frame.camera.down_step[axis] *= (float)LADDER_GRID / REFINE_GRID;
+    }
+    const ThinSource source = {
+        &frame, setup->scene, setup->normalization, setup->flat->spheres, setup->pool, 1};
+    return thin_parts_make(parts, &source, error);
+}
+
+bool ladder_enter(Ladder *ladder, const LadderSetup *setup, Error *error)
 {
     const size_t pixels = ladder->statistics.pixels;
     const size_t tasks = range_count((uint32_t)pixels, PIXELS_OF_TASK);
-    Entering entering = {ladder, memory_raw(pixels, sizeof(float), error),
-                         memory_raw(pixels, sizeof(float), error),
-                         memory_raw(tasks, sizeof(Entries), error)};
-    const bool ok = entering.bends != NULL && entering.nearby != NULL && entering.entries != NULL;
+    Entering entering = {.ladder = ladder,
+                         .bends = memory_raw(pixels, sizeof(float), error),
+                         .nearby = memory_raw(pixels, sizeof(float), error),
+                         .entries = memory_raw(tasks, sizeof(Entries), error)};
+    const bool ok = entering.bends != NULL && entering.nearby != NULL && entering.entries != NULL &&
+                    find_thin_parts(&entering.thin_parts, setup, error);
     if (ok)
         enter_all(&entering);
     free(entering.bends);
     free(entering.nearby);
     free(entering.entries);
+    thin_parts_free(&entering.thin_parts);
     return ok;
 }

@@ -67,7 +67,7 @@ bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome,
         const StrataAim aim = {FALL_OF_ROUND * estimate.bound,
                                samples_in_time(time, seconds_per_sample)};
         const uint64_t before = ladder->samples;
-        if (estimate.bound == 0 || aim.samples < ladder_samples[1] ||
+        if (aim.samples < ladder_samples[1] ||
             (strata_raise(&ladder->statistics, &aim) == STRATA_EXHAUSTED && advanced == 0))
             break;
         ok = ladder_advance(ladder, &advanced, error);

@@ -14,12 +14,14 @@
 static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
 
 // On rung 0, strata are octaves of the pixel's bend (refine/ladder.h). Each octave from FLAT_CLASS
-// on has a second stratum for pixels near contrast, numbered from NEAR_CLASS on. On higher rungs,
+// on has a second stratum for pixels near contrast, numbered from NEAR_CLASS on. The pixels of
+// these octaves that thin parts touch (refine/thin_parts.h) form THIN_CLASS. On higher rungs,
 // strata are octaves of the standard deviation of a pixel's samples, separately for bent pixels
-// (with a large bend) and others.
+// (with a large bend or a thin part) and others.
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
-#define BEND_CLASSES      12
+#define THIN_CLASS        12
+#define BEND_CLASSES      13
 #define DEVIATION_CLASSES 7
 #define STRATA_COUNT      (BEND_CLASSES + (LADDER_RUNGS - 1) * 2 * DEVIATION_CLASSES)
 
@@ -48,8 +50,8 @@ typedef struct {
 uint32_t strata_rung(uint32_t stratum);
 
 // Returns the stratum of a pixel on rung 0 from its bend and the largest bend nearby
-// (refine/ladder.h).
-uint32_t strata_of_bend(double bend, double nearby);
+// (refine/ladder.h), and from whether a thin part touches it.
+uint32_t strata_of_bend(double bend, double nearby, bool is_thin);
 
 // Returns the stratum of a pixel above rung 0 from the standard deviation of its samples.
 uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent);

@@ -44,7 +44,7 @@ uint32_t thin_parts_affordable(const ThinParts *parts)
     const double most = (double)THIN_SAMPLES * parts->width * parts->height;
     double samples = 0;
     uint32_t level = 0;
-    while (level < REFINE_LEVELS) {
+    while (level < parts->most) {
         samples += (GROUP_CELLS - 1) * (double)parts->cuts[level];
         if (samples > most)
             break;
@@ -79,7 +79,7 @@ bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error)
 {
     const FrameData *frame = source->frame;
     const size_t pixels = (size_t)frame->width * frame->height;
-    *parts = (ThinParts){.width = frame->width, .height = frame->height};
+    *parts = (ThinParts){.width = frame->width, .height = frame->height, .most = source->levels};
     parts->slots = memory_zeroed(pixels, sizeof *parts->slots, error);
     bool ok = parts->slots != NULL;
     // With max_level 0, camera rays see only the background.

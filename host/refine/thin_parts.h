@@ -32,6 +32,7 @@ typedef struct {
     uint32_t count;                      // of slots; slots are numbered from 1
     ARRAY(uint32_t) rows[REFINE_LEVELS]; // by level, then slot: a mask of cells for each row
     uint64_t cuts[REFINE_LEVELS];        // cells to subdivide, by level
+    uint32_t most;                       // levels to search
     uint32_t levels;                     // number of levels with subdivisions
 } ThinParts;
 
@@ -42,10 +43,17 @@ typedef struct {
     const Normalization *normalization; // of the scene
     const SphereData *spheres;          // of the frame
     ThreadPool *pool;                   // threads for the work, NULL for none
+    uint32_t levels;                    // to search, from 1 to REFINE_LEVELS
 } ThinSource;
 
 bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error);
 void thin_parts_free(ThinParts *parts);
+
+// Returns whether a thin part touches the pixel.
+static inline bool thin_parts_touch(const ThinParts *parts, uint32_t pixel)
+{
+    return parts->slots[pixel] != 0;
+}
 
 // Returns the number of a level's cells along a pixel's side.
 static inline uint32_t thin_parts_scale(uint32_t level)

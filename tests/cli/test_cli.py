@@ -221,10 +221,11 @@ class Samples(Work):
         self.assertGreater(found["samples"]["total"], 10000)
         self.assertLess(found["seconds"]["trace"], 2)
 
-    def test_a_picture_without_error_takes_no_more_time(self):
+    def test_no_bound_is_0_and_the_last_rung_ends_a_picture_of_one_color(self):
         self.write(blank_scn="size 64 64\nsphere 0 0 0 1\ncamera 0 -9 0 0 -99 0 30\n")
         found = self.statistics("blank.scn", "-o", "a.pfm", "--time", "60")
-        self.expect(found, samples__error_bound=0)
+        self.assertTrue(0 < found["samples"]["error_bound"] < 0.0001)
+        self.expect(found, samples__per_pixel=1025)
         self.assertLess(found["seconds"]["trace"], 30)
 
     def test_too_little_time_is_exit_1(self):

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Draws generated scenes with --error and measures the true error of every picture.
 
-Each scene is one line of SEED-WIDTHxHEIGHT.jsonl, in a folder named after the program's hash.
+Each scene is one line of SEED-WIDTHxHEIGHT.jsonl, in a folder named after the program's hash. The
+references of all programs are beside this folder.
 Scenes with a line are skipped, so that an interrupted run resumes. Prints a summary. The exit
 status is 1 if the results break the promise of --error."""
 
@@ -15,14 +16,16 @@ import sys
 import tempfile
 
 import generate
+import hidden
 import summary
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 GOALS = "0.02,0.01,0.005,0.002"
 
-# The error of a reference may be this fraction of the smallest goal.
-REFERENCE_PART = 0.1
-REFERENCE_SAMPLES = [64, 65536]
+# The error of a reference may be this fraction of the smallest goal, unless it takes too many
+# samples.
+REFERENCE_PART = 0.2
+REFERENCE_SAMPLES = 65536
 
 # The largest N of --aa=N to compare with. The thresholds of --aa-adaptive are as in tools/trade.
 LARGEST_SIDE = 24
@@ -68,18 +71,14 @@ class Clrt:
                 "seconds": min(report["frame_seconds"])}
 
 
-def draw_reference(clrt, path, wanted):
-    """Draws a reference with an own error of at most `wanted`, or with the most samples. Returns
-    its figures. It has all levels that floats can show, because truncated reflections count."""
-    samples = REFERENCE_SAMPLES[0]
-    while True:
-        _, report = clrt.draw("--max-level", "auto", f"--reference={path}",
-                              "--reference-samples", samples)
-        own_error = report["reference"]["own_error"]
-        if own_error <= wanted or samples == REFERENCE_SAMPLES[1]:
-            return {"samples": samples, "own_error": own_error}
-        needed = samples * (own_error / wanted) ** 1.5
-        samples = min(REFERENCE_SAMPLES[1], 2 * round(needed / 2) + 2)
+def draw_reference(options, scene, path, wanted):
+    """Draws a reference with an own error of at most `wanted`, or with the most samples (see
+    reference.c). Returns its figures."""
+    words = [options.reference, scene, *options.size.split("x"), wanted, REFERENCE_SAMPLES, path]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, words))}: {done.stderr}")
+    return json.loads(done.stdout)
 
 
 def cheapest_side(clrt, reference, goal, sides):
@@ -107,16 +106,25 @@ def measure_rivals(clrt, reference, goals):
     return rivals
 
 
+def name_of(options, seed):
+    """Returns the name of the results of a seed."""
+    return f"{'hidden-' * options.hidden}{seed}-{options.size}"
+
+
 def measure_scene(options, seed, number, folder):
-    scene = generate.generate(seed, number, folder / "scene")
+    if options.hidden:
+        size = list(map(int, options.size.split("x")))
+        scene = hidden.generate(seed, number, folder / "scene", size)
+    else:
+        scene = generate.generate(seed, number, folder / "scene")
     clrt = Clrt(options.clrt, scene, options.size, folder)
-    references = options.output / "references" / str(seed)
+    references = options.output.parent / "references" / name_of(options, seed)
     references.mkdir(parents=True, exist_ok=True)
-    reference = references / f"{scene.stem}-{options.size}.pfm"
+    reference = references / f"{scene.stem}.pfm"
     notes = reference.with_suffix(".json")
     if not notes.exists():
         notes.write_text(json.dumps(
-            draw_reference(clrt, reference, REFERENCE_PART * min(options.goals))))
+            draw_reference(options, scene, reference, REFERENCE_PART * min(options.goals))))
     frames = FRAMES if options.costs else 1
     goals = [{"goal": goal, **clrt.measure(reference, "--error", goal, statuses=(0, 1),
                                            frames=frames)} for goal in options.goals]
@@ -135,7 +143,11 @@ def parse():
     parser.add_argument("--goals", default=GOALS, help=f"values of --error ({GOALS})")
     parser.add_argument("--costs", action="store_true",
                         help="also measure the cost of --aa and --aa-adaptive for each error")
+    parser.add_argument("--hidden", action="store_true",
+                        help="draw scenes of dots and lines that no center of a pixel sees")
     parser.add_argument("--clrt", default=ROOT / "build" / "release" / "clrt", help="the program")
+    parser.add_argument("--reference", default=ROOT / "build" / "release" / "goal_reference",
+                        help="the program that draws references")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "build" / "goals")
     options = parser.parse_args()
     options.goals = [float(goal) for goal in options.goals.split(",")]
@@ -144,7 +156,7 @@ def parse():
 
 def measure_seed(options, seed):
     """Measures the scenes of a seed that are not in its file. Returns the file's path."""
-    path = options.output / f"{seed}-{options.size}.jsonl"
+    path = options.output / f"{name_of(options, seed)}.jsonl"
     done = {row["scene"][:3] for row in summary.read([path])} if path.exists() else set()
     for number in range(options.scenes):
         if f"{number:03}" in done:

@@ -112,7 +112,8 @@ static bool draw_for_goal(Pipeline *pipeline, const CameraData *camera, Framebuf
     GoalOutcome outcome;
     const PictureRequest *request = pipeline->request;
     ThreadPool *pool = thread_pool_open(request->threads);
-    const LadderSetup setup = {&pipeline->renderer, camera, pool, framebuffer, NULL};
+    const LadderSetup setup = {&pipeline->renderer, &pipeline->flat,          camera,      pool,
+                               &pipeline->scene,    &pipeline->normalization, framebuffer, NULL};
     const bool ok = ladder_open(&ladder, &setup, error) &&
                     goal_reach_error(&ladder, request->error_goal, &outcome, error) &&
                     (outcome.reached || error_set(error, "the goal is missed"));
@@ -125,7 +126,7 @@ static bool draw_for_goal(Pipeline *pipeline, const CameraData *camera, Framebuf
 
 static KernelEntry entry_of(const PictureRequest *request)
 {
-    if (request->contrast > 0)
+    if (request->contrast > 0 || request->draw != NULL)
         return KERNEL_SAMPLES;
     return request->error_goal > 0 ? KERNEL_LADDER : KERNEL_TILE;
 }
@@ -133,7 +134,10 @@ static KernelEntry entry_of(const PictureRequest *request)
 static bool draw_colors(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 {
     const PictureRequest *request = pipeline->request;
-    CameraData camera;
+    CameraData camera = camera_of(pipeline, request->samples);
+    if (request->draw != NULL)
+        return request->draw(request->draw_context, &pipeline->renderer, &camera, framebuffer,
+                             error);
     switch (entry_of(request)) {
     case KERNEL_SAMPLES:
         camera = camera_of(pipeline, REFINE_GRID);
@@ -142,7 +146,6 @@ static bool draw_colors(Pipeline *pipeline, Framebuffer *framebuffer, Error *err
         camera = camera_of(pipeline, LADDER_GRID);
         return draw_for_goal(pipeline, &camera, framebuffer, error);
     default:
-        camera = camera_of(pipeline, request->samples);
         return renderer_draw(&pipeline->renderer, &camera, NULL, framebuffer, error);
     }
 }

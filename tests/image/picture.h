@@ -10,6 +10,10 @@
 // A callback that receives a picture and an explainer for its pixels.
 typedef void PictureVisit(Explainer *explainer, const Framebuffer *picture, void *context);
 
+// A callback that draws the picture by a renderer with KERNEL_SAMPLES.
+typedef bool PictureDraw(void *context, Renderer *renderer, const CameraData *camera,
+                         Framebuffer *picture, Error *error);
+
 typedef struct {
     const char *scene_path;
     const Scene *scene;     // replaces the file's scene; borrowed; NULL: the file's
@@ -32,6 +36,8 @@ typedef struct {
     Layers *layers;            // the caller frees them; NULL without channels
     PictureVisit *visit;       // called after drawing; NULL for none
     void *visit_context;
+    PictureDraw *draw; // replaces clrt's ways of drawing; NULL for none
+    void *draw_context;
 } PictureRequest;
 
 // Returns clrt's defaults, with the kernels of form_choice. The kernels are general, because the

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Tests pictures with error goals. Every form of the kernels must draw the same picture. Also tests
-// the largest goal and a picture of one color. tests/goals measures whether clrt meets the goals.
+// the largest goal, a picture of one color, and parts that no center of a pixel sees. tests/goals
+// measures whether clrt meets the goals.
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -59,4 +62,57 @@ TEST(a_picture_of_one_color_keeps_it)
     for (size_t i = 0; i < pixels; i++)
         assert_memory_equal(picture.pixels[i], ((float[3]){0.1f, 0.3f, 0.7f}), 3 * sizeof(float));
     unlink(path);
+}
+
+#define DOTS      16
+#define SCENES_OF 5
+#define DOT_GOAL  0.004
+
+// Writes a scene of white spheres, 0.6 pixels wide, at corners of the pixels of request_for()'s
+// picture. No center of a pixel sees one. If is_mirrored, the spheres are behind the eye, and a
+// mirror fills the picture.
+static void write_dots(FILE *scene, uint64_t seed, bool is_mirrored)
+{
+    const double depth = 5, side = 2 * sqrt(1.0 / 3) / 61 * depth;
+    uint64_t state = seed;
+    fprintf(scene, "up 0 1 0\ncamera 0 0 0 0 0 -1 60\nbackground 0 0 0\n");
+    if (is_mirrored)
+        fprintf(scene, "define mirror matte diffuse 0 0 0 reflectivity 1\nmaterial mirror\n"
+                       "mesh " SCENES "plateau.ply scale 4 translate 0 0 -2\n");
+    fprintf(scene, "define white silhouette diffuse 1 1 1\nmaterial white\n");
+    for (int i = 0; i < DOTS; i++) {
+        const double x = floor(95 * random_unit(&state)) - 46.5;
+        const double y = floor(59 * random_unit(&state)) - 28.5;
+        fprintf(scene, "sphere %.9g %.9g %g %.9g\n", x * side, y * side,
+                is_mirrored ? depth - 4 : -depth, 0.3 * side);
+    }
+}
+
+static void expect_goal(uint64_t seed, bool is_mirrored)
+{
+    char path[TEMPORARY_PATH];
+    FILE *scene = temporary_open(path);
+    write_dots(scene, seed, is_mirrored);
+    temporary_close(scene);
+    PictureRequest request = request_for(path, DOT_GOAL);
+    FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
+    request.error_goal = 0;
+    FREED_BY(framebuffer_free) Framebuffer centers = rendered(&request);
+    request.samples = 16;
+    FREED_BY(framebuffer_free) Framebuffer reference = rendered(&request);
+    const double before = rendered_error(&centers, &reference);
+    const double error = rendered_error(&picture, &reference);
+    print_message("error %.2f E, with centers %.2f E\n", error / DOT_GOAL, before / DOT_GOAL);
+    for (size_t i = 0; i < (size_t)picture.width * picture.height; i++)
+        assert_true(centers.pixels[i][0] == 0);
+    assert_true(before > 1.5 * DOT_GOAL && error < 1.1 * DOT_GOAL);
+    unlink(path);
+}
+
+TEST(parts_that_no_center_sees_are_found)
+{
+    for (uint64_t seed = 1; seed <= SCENES_OF; seed++) {
+        expect_goal(seed, false);
+        expect_goal(seed, true);
+    }
 }

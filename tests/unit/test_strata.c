@@ -32,7 +32,7 @@ static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
         const double bend =
             is_edge ? random_unit(&state) : 0.02 * random_unit(&state) * random_unit(&state);
         const double error = is_edge ? 0.1 * bend : hides ? 0.1 * random_unit(&state) : 0.1 * bend;
-        pixels[i] = (Pixel){.stratum = strata_of_bend(bend, is_near ? 0.5 : 0),
+        pixels[i] = (Pixel){.stratum = strata_of_bend(bend, is_near ? 0.5 : 0, false),
                             .feature = bend * bend,
                             .error = error * error,
                             .chance = random_unit(&state)};
@@ -102,7 +102,7 @@ TEST(flat_strata_get_controls_for_any_aim)
 {
     const StrataAim aim = {.mean_square = 1, .samples = INFINITY};
     Strata strata = {.pixels = PIXELS};
-    const uint32_t flat = strata_of_bend(0, 0), near = strata_of_bend(0, 1);
+    const uint32_t flat = strata_of_bend(0, 0, false), near = strata_of_bend(0, 1, false);
     for (int i = 0; i < PIXELS; i++)
         strata_enter(&strata, i % 2 ? flat : near, 1, 0);
     assert_int_not_equal(flat, near);
@@ -131,6 +131,29 @@ static double estimate_on(uint32_t rung)
                      deviation * deviation / ladder_samples[rung]);
     }
     return strata_estimate(&strata).mean;
+}
+
+TEST(no_bound_of_pixels_without_contrast_is_0)
+{
+    const uint32_t last = LADDER_RUNGS - 1;
+    for (uint32_t rung = 0; rung <= last; rung++) {
+        Strata strata = {.pixels = PIXELS};
+        const uint32_t stratum =
+            rung == 0 ? strata_of_bend(0, 0, false) : strata_of_deviation(rung, 0, false);
+        strata_enter(&strata, stratum, PIXELS, 0);
+        for (int i = 0; i < PIXELS / 2 && rung < last; i++)
+            strata_advance(&strata, stratum, 0, 0);
+        assert_true(strata_estimate(&strata).mean > 0);
+    }
+}
+
+TEST(thin_parts_form_a_stratum_unless_there_is_contrast)
+{
+    const uint32_t thin = strata_of_bend(0, 0, true);
+    assert_int_not_equal(thin, strata_of_bend(0, 0, false));
+    assert_int_equal(thin, strata_of_bend(0, 1, true));
+    assert_int_equal(strata_of_bend(0.7, 1, true), strata_of_bend(0.7, 1, false));
+    assert_true(strata_is_bent(thin, 0) && !strata_is_bent(strata_of_bend(0, 0, false), 0));
 }
 
 // More samples of a flat pixel leave less room for hidden detail.

@@ -59,7 +59,8 @@ static void search(World *world, uint32_t threads)
     world->frame = (FrameData){.width = SIDE, .height = SIDE, .max_level = 1};
     world->frame.camera = camera_make(&viewpoint, &world->normalization, SIDE, SIDE, REFINE_GRID);
     ThreadPool *pool = thread_pool_open(threads);
-    const ThinSource source = {&world->frame, &world->scene, &world->normalization, NULL, pool};
+    const ThinSource source = {&world->frame, &world->scene, &world->normalization,
+                               NULL,          pool,          REFINE_LEVELS};
     Error error;
     assert_true(thin_parts_make(&world->parts, &source, &error));
     thread_pool_close(pool);
