@@ -8,6 +8,7 @@
 #include "image/image_file.h"
 #include "render/aov.h"
 #include "render/renderer.h"
+#include "scene/scn.h"
 
 #include <jansson.h>
 #include <stdint.h>
@@ -151,8 +152,8 @@ typedef struct {
     double error_goal;       // largest root mean square error; 0: no goal
     double time_goal;        // seconds of tracing; 0: no goal
     uint32_t view;           // from 1
-    UpAxis up;               // of a mesh that replaces a scene
-    uint32_t width, height;  // 0: the scene's
+    SceneLoadOptions load;
+    uint32_t width, height; // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: the whole picture
     bool resume;          // for one picture; frames have skips_finished
