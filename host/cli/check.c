@@ -88,7 +88,7 @@ static ExitCode perform(Check *check, const Run *run, Error *error)
 {
     const Options *options = run->options;
     const double start = clock_seconds();
-    if (!scene_source_load(&check->scene, options, ply_parse_tolerantly, error))
+    if (!scene_source_load(&check->scene, options, error))
         return EXIT_SCENE;
     if (!command_files_check(options, &check->scene, error))
         return EXIT_OUTPUT;

@@ -9,7 +9,6 @@
 #include "cli/process.h"
 #include "device/device.h"
 #include "image/image_file.h"
-#include "scene/mesh_load.h"
 #include "scene/scene.h"
 #include "scene/scn.h"
 
@@ -19,6 +18,9 @@
 // The truncation of reflections may use this fraction of the error goal. The fraction is small
 // because more levels cost less than more samples.
 #define TRUNCATION_PART 0.25
+
+// The samples per pixel and axis of a lone mesh.
+#define MESH_SAMPLES 3
 
 // Up to this number, testing all triangles is faster than traversing a tree. With 8, 16, 32 and 64
 // triangles, packets take 0.92, 0.91, 0.95 and 1.06 times as long without a tree as with one.
@@ -42,6 +44,13 @@ static uint32_t max_level_of(const Options *options, const Scene *scene)
     return options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level;
 }
 
+// A lone mesh is anti-aliased unless the options choose its samples.
+static uint32_t samples_of(const Options *options, const Scene *scene)
+{
+    const bool is_chosen = option_is_given(options, "aa") || options_are_adaptive(options);
+    return is_chosen || scene->mesh_up == UP_AUTO ? options->samples : MESH_SAMPLES;
+}
+
 static RenderSettings settings_of(const Options *options, const Scene *scene)
 {
     const bool sized = options->width > 0;
@@ -49,7 +58,7 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
     return (RenderSettings){
         .width = sized ? options->width : scene->width,
         .height = sized ? options->height : scene->height,
-        .samples = options->samples,
+        .samples = samples_of(options, scene),
         .max_level = max_level_of(options, scene),
         .tile_width = small ? OPTIONS_PART_TILE : options->tile_width,
         .tile_height = small ? OPTIONS_PART_TILE : options->tile_height,
@@ -76,7 +85,7 @@ bool run_load_scene(Run *run, Error *error)
 {
     double moment = clock_seconds();
     const Options *options = run->options;
-    bool ok = scene_source_load(&run->scene, options, ply_parse, error);
+    bool ok = scene_source_load(&run->scene, options, error);
     const Frames *frames = &options->frames;
     const bool are_views = frames->turntable == 0 && frames->last > 0;
     const uint32_t view = are_views ? frames->last : options->view;
@@ -199,16 +208,17 @@ void run_free(Run *run)
 // is a file name.
 #define INPUT_NAME "standard input"
 
-bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error)
+bool scene_source_load(Scene *scene, const Options *options, Error *error)
 {
     File file = {0};
+    SceneLoadOptions load = options->load;
+    load.is_tolerant = options->action == ACTION_CHECK;
     show_loading(options, true);
     const bool ok = options_read_input(options)
                         ? file_read_stream(&file, stdin, INPUT_NAME, error) &&
-                              scn_take(scene, &file, INPUT_NAME, parse, error)
-                        : scn_load(scene, options->scene_path, parse, error);
+                              scn_take(scene, &file, INPUT_NAME, &load, error)
+                        : scn_load(scene, options->scene_path, &load, error);
     file_free(&file);
-    const bool is_turned = ok && mesh_scene_turn(scene, options->up, error);
     show_loading(options, false);
-    return is_turned;
+    return ok;
 }

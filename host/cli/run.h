@@ -6,7 +6,6 @@
 
 #include "accel/flat.h"
 #include "cli/options/options.h"
-#include "mesh/ply.h"
 
 #include <pthread.h>
 
@@ -105,4 +104,4 @@ ExitCode run_prepare(Run *run, Error *error);
 void run_free(Run *run);
 
 // Reads the scene that the options name, a file or standard input, as scn_load does.
-bool scene_source_load(Scene *scene, const Options *options, PlyParse *parse, Error *error);
+bool scene_source_load(Scene *scene, const Options *options, Error *error);

@@ -35,7 +35,7 @@ ExitCode show_scene(Run *run, Error *error)
                                      [VIEWER_NO_SCENE] = EXIT_SCENE,
                                      [VIEWER_NO_DEVICE] = EXIT_DEVICE};
     const ViewerSettings settings = {.scene_path = options->scene_path,
-                                     .up = options->up,
+                                     .load = options->load,
                                      .view = options->view,
                                      .width = options->width,
                                      .height = options->height,

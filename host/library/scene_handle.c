@@ -117,9 +117,9 @@ static ClrtScene *make(const char *path, ClrtError *error)
 {
     Error cause = {0};
     ClrtScene *scene = memory_zeroed(1, sizeof *scene, &cause);
-    const bool ok =
-        scene != NULL && (path != NULL ? scn_load(&scene->scene, path, ply_parse, &cause)
-                                       : scene_init(&scene->scene, &cause));
+    const bool ok = scene != NULL &&
+                    (path != NULL ? scn_load(&scene->scene, path, &(SceneLoadOptions){0}, &cause)
+                                  : scene_init(&scene->scene, &cause));
     if (scene_handle_changed(scene, ok, &cause, error))
         return scene;
     clrt_scene_free(scene);

@@ -48,7 +48,7 @@ static Vec3 given_normal(const Mesh *mesh, uint32_t vertex)
     return vec3_of_floats(n);
 }
 
-static bool is_complete(const Mesh *mesh)
+bool mesh_has_all_normals(const Mesh *mesh)
 {
     for (size_t corner = 0; corner < 3 * mesh->triangle_count; corner++)
         if (vec3_extent(given_normal(mesh, mesh->triangles[corner / 3][corner % 3])) == 0)
@@ -84,7 +84,19 @@ static void join_edge(const Smoothing *smoothing, const Edge *edge)
         }
 }
 
-static bool make_fans(Smoothing *smoothing, Error *error)
+static void choose_crease(Smoothing *smoothing, const Edges *edges)
+{
+    Edge edge = {0};
+    EdgeAngles angles = {0};
+    const Face *faces = smoothing->faces;
+    while (edges_next(edges, &edge))
+        if (edge.count == 2)
+            edge_angles_add(&angles, faces[edge.sides[0].triangle].normal,
+                            faces[edge.sides[1].triangle].normal);
+    smoothing->cosine = cosine_of_degrees(crease_of_angles(&angles)) - COSINE_SLACK;
+}
+
+static bool make_fans(Smoothing *smoothing, bool is_by_shape, Error *error)
 {
     Weld weld = {0};
     Edges edges = {0};
@@ -96,6 +108,8 @@ static bool make_fans(Smoothing *smoothing, Error *error)
                     fans_make(&smoothing->fans, mesh, &weld, error);
     for (size_t i = 0; ok && i < mesh->triangle_count; i++)
         smoothing->faces[i] = face_of(mesh, mesh->triangles[i]);
+    if (ok && is_by_shape)
+        choose_crease(smoothing, &edges);
     while (ok && edges_next(&edges, &edge))
         join_edge(smoothing, &edge);
     edges_free(&edges);
@@ -175,9 +189,10 @@ bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error)
 {
     Smoothing smoothing = {.mesh = mesh,
                            .cosine = cosine_of_degrees(crease_degrees) - COSINE_SLACK};
-    const bool ok = is_complete(mesh) ||
-                    (make_fans(&smoothing, error) && make_vertices(&smoothing, error) &&
-                     split_corners(&smoothing, error) && replace_vertices(mesh, &smoothing, error));
+    const bool ok = mesh_has_all_normals(mesh) ||
+                    (make_fans(&smoothing, crease_degrees == CREASE_BY_SHAPE, error) &&
+                     make_vertices(&smoothing, error) && split_corners(&smoothing, error) &&
+                     replace_vertices(mesh, &smoothing, error));
     free(smoothing.faces);
     free(smoothing.vertices.memory);
     free(smoothing.fans.parents);

@@ -121,16 +121,41 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
     return ok;
 }
 
+// Stores the crease angle that fits the objects that lack normals, from index `first` on.
+static bool choose_crease(const Scene *scene, size_t first, double *degrees, Error *error)
+{
+    EdgeAngles angles = {0};
+    bool ok = true;
+    for (size_t i = first; ok && i < scene->objects.count; i++)
+        if (!mesh_has_all_normals(&scene->objects.data[i].mesh))
+            ok = edge_angles_add_mesh(&angles, &scene->objects.data[i].mesh, error);
+    *degrees = crease_of_angles(&angles);
+    return ok;
+}
+
+static bool add_normals(MeshObject *object, const MeshLoadOptions *options, double crease,
+                        Error *error)
+{
+    if (!options->is_flat)
+        return crease == NO_CREASE || mesh_compute_normals(&object->mesh, crease, error);
+    mesh_drop_normals(&object->mesh);
+    return true;
+}
+
 bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
                        Error *error)
 {
     Error cause = {0};
-    for (size_t i = first; options->parse == ply_parse && i < scene->objects.count; i++) {
+    double crease = options->crease_degrees;
+    const size_t end = options->parse == ply_parse ? scene->objects.count : first;
+    // A single mesh chooses its crease angle without a second pass over its edges.
+    if (crease == CREASE_BY_SHAPE && end > first + 1 &&
+        !choose_crease(scene, first, &crease, &cause))
+        return error_set(error, "%s: %s", scene->inputs.data[scene->objects.data[first].input],
+                         cause.text);
+    for (size_t i = first; i < end; i++) {
         MeshObject *object = &scene->objects.data[i];
-        if (options->is_flat)
-            mesh_drop_normals(&object->mesh);
-        else if (options->crease_degrees >= 0 &&
-                 !mesh_compute_normals(&object->mesh, options->crease_degrees, &cause))
+        if (!add_normals(object, options, crease, &cause))
             return error_set(error, "%s: %s", scene->inputs.data[object->input], cause.text);
     }
     return true;

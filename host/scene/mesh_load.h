@@ -5,15 +5,16 @@
 #include "base/file.h"
 #include "mesh/mesh.h"
 #include "mesh/ply.h"
-#include "scene/scene.h"
+#include "scene/scn.h"
 
-#define NO_CREASE (-1)
+#define NO_CREASE (-2)
 
 // Options for loading a file.
 typedef struct {
     MeshObject object;        // properties of the file's objects, without meshes
     bool is_flat;             // ignores the file's normals
-    double crease_degrees;    // for computing missing normals; NO_CREASE leaves them missing
+    double crease_degrees;    // for computing missing normals, or CREASE_BY_SHAPE; NO_CREASE leaves
+                              // them missing
     bool takes_own_materials; // the file's materials, if it has any, replace the object's
     bool is_plain_ply;        // PLY only, without transforms
     PlyParse *parse;          // the reader of PLY files
@@ -42,13 +43,9 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size);
 // Fills scene from a PLY file in memory. If ply is NULL, reads the file at path, in another format,
 // with the file's own materials. The viewpoints are three-quarter, front, right, back, left and
 // top. z is up.
-bool mesh_scene_load(Scene *scene, const File *ply, const char *path, PlyParse *parse,
-                     Error *error);
+bool mesh_scene_load(Scene *scene, const File *ply, const char *path,
+                     const SceneLoadOptions *options, Error *error);
 
-// Turns a loaded mesh so that the axis `up` of its file is up, and frames it again. UP_AUTO changes
-// nothing. Fails for scenes from text. Frees the scene on failure.
-bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error);
-
-// Returns UP_Y if the meshes would fall over with z up and stand on a flat base with y up.
-// Otherwise returns UP_Z.
-UpAxis up_axis_of_shape(const Scene *scene);
+// Returns UP_Y or UP_Z. Returns the usual axis unless the meshes would fall over with it up, and
+// stand with the other axis up. With y up instead of z, they must stand on a flat base.
+UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual);

@@ -180,22 +180,23 @@ static bool add_studio(Scene *scene, Error *error)
     return ok;
 }
 
-// The turns for y and -y undo each other, as do the turns for x and -x.
-static UpAxis inverse_of(UpAxis up)
+// The hash records the axis and the choice of normals, because they must be the same for all parts
+// of a picture.
+static void hash_choices(Scene *scene, const SceneLoadOptions *options)
 {
-    return up == UP_AUTO || up == UP_Z || up == UP_MINUS_Z ? up : (up + 2) % UP_MINUS_Z + 1;
+    const char *up = up_axis_names[scene->mesh_up];
+    const double normals[2] = {options->normals, options->crease_degrees};
+    scene_hash_input(scene, up, strlen(up));
+    if (options->normals != NORMALS_AUTO)
+        scene_hash_input(scene, normals, sizeof normals);
 }
 
-// Turns the meshes from their current up axis and adds the studio. The hash records the axis,
-// because all parts of a picture must have the same axis.
+// Turns the meshes upright and adds the studio.
 static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
 {
-    for (size_t object = 0; object < scene->objects.count; object++) {
-        mesh_turn_up(&scene->objects.data[object].mesh, inverse_of(scene->mesh_up));
+    for (size_t object = 0; object < scene->objects.count; object++)
         mesh_turn_up(&scene->objects.data[object].mesh, up);
-    }
     scene->mesh_up = up;
-    scene_hash_input(scene, up_axis_names[up], strlen(up_axis_names[up]));
     return add_studio(scene, error);
 }
 
@@ -212,49 +213,48 @@ static UpAxis up_axis_of_collada(const char *path)
     return is_z ? UP_Z : is_x ? UP_X : UP_Y;
 }
 
-// Returns the up axis of the file or of its format, or UP_AUTO if the format has none. 3MF and AMF
-// define z as up, and glTF defines y. Modeling programs write OBJ with y up, and Assimp turns
-// several other formats to y up. The rest counts as y up.
-static UpAxis up_axis_of_format(const char *path)
+// Returns the up axis by the file, by its format or by the mesh's shape. PLY, STL and OFF define no
+// axis, and z is the usual one. 3MF and AMF define z as up, and glTF defines y. Most modeling
+// programs write OBJ with y up, and Assimp turns several other formats to y up. The rest counts as
+// y up.
+static UpAxis up_axis_of_file(const Scene *scene, const char *path, bool is_ply)
 {
+    if (is_ply || file_has_ending(path, ".stl") || file_has_ending(path, ".off"))
+        return up_axis_of_shape(scene, UP_Z);
+    if (file_has_ending(path, ".obj"))
+        return up_axis_of_shape(scene, UP_Y);
     if (file_has_ending(path, ".dae"))
         return up_axis_of_collada(path);
-    if (file_has_ending(path, ".stl") || file_has_ending(path, ".off"))
-        return UP_AUTO;
     return file_has_ending(path, ".3mf") || file_has_ending(path, ".amf") ? UP_Z : UP_Y;
 }
 
-// Completes a scene of meshes. Frees the scene if ok is false or memory runs out.
-static bool complete(Scene *scene, bool ok, UpAxis up, Error *error)
+static MeshLoadOptions mesh_options_of(const SceneLoadOptions *options)
 {
-    ok = ok && turn_and_frame(scene, up != UP_AUTO ? up : up_axis_of_shape(scene), error);
-    if (!ok)
+    const bool is_chosen = options->normals == NORMALS_SMOOTH;
+    return (MeshLoadOptions){.object = {.material = MESH_CLAY, .two_sided = true},
+                             .is_flat = options->normals == NORMALS_FLAT,
+                             .crease_degrees =
+                                 is_chosen ? options->crease_degrees : CREASE_BY_SHAPE,
+                             .takes_own_materials = true,
+                             .parse = options->is_tolerant ? ply_parse_tolerantly : ply_parse};
+}
+
+bool mesh_scene_load(Scene *scene, const File *ply, const char *path,
+                     const SceneLoadOptions *options, Error *error)
+{
+    const MeshLoadOptions mesh = mesh_options_of(options);
+    const double start = clock_seconds();
+    bool ok = scn_parse(scene, studio, sizeof studio - 1, "", error) &&
+              (ply != NULL ? ply_mesh_add(scene, ply, path, &mesh, error)
+                           : foreign_mesh_add(scene, path, &mesh, error)) &&
+              mesh_load_normals(scene, 0, &mesh, error);
+    scene->mesh_seconds = clock_seconds() - start;
+    const bool is_auto = options->up == UP_AUTO;
+    ok = ok && turn_and_frame(
+                   scene, is_auto ? up_axis_of_file(scene, path, ply != NULL) : options->up, error);
+    if (ok)
+        hash_choices(scene, options);
+    else
         scene_free(scene);
     return ok;
-}
-
-bool mesh_scene_load(Scene *scene, const File *ply, const char *path, PlyParse *parse, Error *error)
-{
-    const MeshLoadOptions options = {.object = {.material = MESH_CLAY, .two_sided = true},
-                                     .crease_degrees = CREASE_DEGREES,
-                                     .takes_own_materials = true,
-                                     .parse = parse};
-    const double start = clock_seconds();
-    const bool ok = scn_parse(scene, studio, sizeof studio - 1, "", error) &&
-                    (ply != NULL ? ply_mesh_add(scene, ply, path, &options, error)
-                                 : foreign_mesh_add(scene, path, &options, error)) &&
-                    mesh_load_normals(scene, 0, &options, error);
-    scene->mesh_seconds = clock_seconds() - start;
-    return complete(scene, ok, ply != NULL ? UP_AUTO : up_axis_of_format(path), error);
-}
-
-bool mesh_scene_turn(Scene *scene, UpAxis up, Error *error)
-{
-    const bool ok =
-        up == UP_AUTO || scene->mesh_up != UP_AUTO ||
-        error_set(
-            error,
-            "%s: only lone mesh files can be turned; in a scene, write 'up %s' after the path",
-            scene->inputs.data[scene->inputs.count - 1], up_axis_names[up]);
-    return up == UP_AUTO || complete(scene, ok, up, error);
 }

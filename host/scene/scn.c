@@ -271,21 +271,38 @@ static bool load_text(Parser *parser, const File *file, const char *path)
     return false;
 }
 
-bool scn_take(Scene *scene, const File *file, const char *name, PlyParse *parse_mesh, Error *error)
+// Rejects the choices that only lone mesh files leave open.
+static bool check_for_text(const SceneLoadOptions *options, const char *name, Error *error)
 {
-    Parser parser = {.scene = scene, .mesh.parse = parse_mesh, .error = error};
-    return mesh_scene_is_mesh(file->bytes, file->size)
-               ? mesh_scene_load(scene, file, name, parse_mesh, error)
-               : load_text(&parser, file, name);
+    if (options->up != UP_AUTO)
+        return error_set(
+            error,
+            "%s: only lone mesh files can be turned; in a scene, write 'up %s' after the path",
+            name, up_axis_names[options->up]);
+    return options->normals == NORMALS_AUTO ||
+           error_set(error,
+                     "%s: --normals is for lone mesh files; in a scene, write 'normals %s' before "
+                     "the mesh",
+                     name, options->normals == NORMALS_FLAT ? "flat" : "smooth");
 }
 
-bool scn_load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error)
+bool scn_take(Scene *scene, const File *file, const char *name, const SceneLoadOptions *options,
+              Error *error)
+{
+    Parser parser = {.scene = scene,
+                     .mesh.parse = options->is_tolerant ? ply_parse_tolerantly : ply_parse,
+                     .error = error};
+    if (mesh_scene_is_mesh(file->bytes, file->size))
+        return mesh_scene_load(scene, file, name, options, error);
+    return check_for_text(options, name, error) && load_text(&parser, file, name);
+}
+
+bool scn_load(Scene *scene, const char *path, const SceneLoadOptions *options, Error *error)
 {
     File file = {0};
     if (foreign_format_is(path))
-        return mesh_scene_load(scene, NULL, path, parse_mesh, error);
-    const bool ok =
-        file_read(&file, path, error) && scn_take(scene, &file, path, parse_mesh, error);
+        return mesh_scene_load(scene, NULL, path, options, error);
+    const bool ok = file_read(&file, path, error) && scn_take(scene, &file, path, options, error);
     file_free(&file);
     return ok;
 }

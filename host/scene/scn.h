@@ -14,12 +14,27 @@
 // name. Returns false at the first error, with "name:line:column: ..." if the text itself is wrong.
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
 
-// Loads a scene file or a lone mesh file (mesh_load.h). parse_mesh reads PLY meshes: ply_parse or
-// ply_parse_tolerantly.
-bool scn_load(Scene *scene, const char *path, PlyParse *parse_mesh, Error *error);
+typedef enum {
+    NORMALS_AUTO,  // as NORMALS_SMOOTH with CREASE_BY_SHAPE
+    NORMALS_FLAT,  // ignore the file's normals
+    NORMALS_SMOOTH // compute the normals that the file lacks
+} Normals;
+
+// The choices of scn_load. {0} suits most callers. Scene text chooses up and normals itself, so
+// scn_load rejects other values than zero for scene text.
+typedef struct {
+    bool is_tolerant;      // reads PLY meshes with ply_parse_tolerantly
+    UpAxis up;             // of a lone mesh file
+    Normals normals;       // of a lone mesh file
+    double crease_degrees; // of NORMALS_SMOOTH, or CREASE_BY_SHAPE
+} SceneLoadOptions;
+
+// Loads a scene file or a lone mesh file (mesh_load.h).
+bool scn_load(Scene *scene, const char *path, const SceneLoadOptions *options, Error *error);
 
 // Loads a file that is in memory. Mesh paths are relative to the folder of a file called name.
-bool scn_take(Scene *scene, const File *file, const char *name, PlyParse *parse_mesh, Error *error);
+bool scn_take(Scene *scene, const File *file, const char *name, const SceneLoadOptions *options,
+              Error *error);
 
 // Writes scene to stream. The text refers to the mesh file of object i as mesh_names[i]. Returns
 // false if the stream has failed or memory runs out.

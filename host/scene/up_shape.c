@@ -55,8 +55,14 @@ static bool stands(const Scene *scene, const Box *body, int up, int least)
     return true;
 }
 
-UpAxis up_axis_of_shape(const Scene *scene)
+// With a wrong axis up, most meshes fall over. For y instead of z, the base must also be flat,
+// because meshes with z up may touch a table with y up by chance.
+UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 {
     const Box body = box_below(scene, 0, INFINITY, 0);
-    return !stands(scene, &body, 2, 1) && stands(scene, &body, 1, 3) ? UP_Y : UP_Z;
+    const bool stands_on_y = stands(scene, &body, 1, usual == UP_Y ? 1 : 3);
+    const bool stands_on_z = stands(scene, &body, 2, 1);
+    if (usual == UP_Y)
+        return stands_on_z && !stands_on_y ? UP_Z : UP_Y;
+    return stands_on_y && !stands_on_z ? UP_Y : UP_Z;
 }

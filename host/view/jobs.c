@@ -213,7 +213,7 @@ void jobs_load(Worker *worker, const Job *job)
     const uint32_t threads = worker->setup.options->threads;
     const bool is_first = worker->model == NULL;
     report_busy(worker, "reading the scene");
-    Model *model = model_load(job->request.path, job->request.up, threads, &scene_failure);
+    Model *model = model_load(job->request.path, &job->request.load, threads, &scene_failure);
     bool ok = model != NULL;
     if (ok && is_first) {
         publish(worker, model, false);

@@ -2,16 +2,13 @@
 // The stages of the pipeline that need no device.
 #include "view/model.h"
 
-#include "scene/mesh_load.h"
-#include "scene/scn.h"
-
 #include <stdlib.h>
 
-static bool load(Model *model, const char *path, UpAxis up, uint32_t threads, Error *error)
+static bool load(Model *model, const SceneLoadOptions *options, uint32_t threads, Error *error)
 {
     Error cause = {0};
-    if (!scn_load(&model->scene, path, ply_parse, error) ||
-        !mesh_scene_turn(&model->scene, up, error))
+    const char *path = model->path;
+    if (!scn_load(&model->scene, path, options, error))
         return false;
     model->normalization = normalization_of(&model->scene);
     if (!normalization_check(&model->normalization, &model->scene, &cause))
@@ -23,14 +20,14 @@ static bool load(Model *model, const char *path, UpAxis up, uint32_t threads, Er
     return ok;
 }
 
-Model *model_load(const char *path, UpAxis up, uint32_t threads, Error *error)
+Model *model_load(const char *path, const SceneLoadOptions *options, uint32_t threads, Error *error)
 {
     Model *model = memory_zeroed(1, sizeof *model, error);
     if (model == NULL)
         return NULL;
     atomic_init(&model->holders, 1);
     model->path = path;
-    if (load(model, path, up, threads, error))
+    if (load(model, options, threads, error))
         return model;
     model_release(model);
     return NULL;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "accel/bvh.h"
+#include "scene/scn.h"
 
 #include <stdatomic.h>
 
@@ -18,8 +19,9 @@ typedef struct {
 } Model;
 
 // Reads the scene or mesh at path and returns a model with one reference, or NULL on failure. The
-// string path must outlive the model. up is the up axis of a mesh without a scene, or UP_AUTO.
-Model *model_load(const char *path, UpAxis up, uint32_t threads, Error *error);
+// string path must outlive the model.
+Model *model_load(const char *path, const SceneLoadOptions *options, uint32_t threads,
+                  Error *error);
 
 // Builds the tree. No other thread may read model->bvh before the function returns.
 bool model_build_tree(Model *model, const BvhSettings *settings, uint32_t threads, Error *error);

@@ -26,7 +26,7 @@ static void run_commands(Viewer *viewer, unsigned commands)
         fflush(stdout);
     }
     if ((commands & COMMAND_UP) && viewer->model->scene.mesh_up != UP_AUTO) {
-        viewer->request.up = viewer->model->scene.mesh_up % UP_MINUS_Z + 1;
+        viewer->request.load.up = viewer->model->scene.mesh_up % UP_MINUS_Z + 1;
         viewer->request.loads++;
     }
     if (commands & COMMAND_SAVE)
@@ -253,7 +253,7 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     viewer->cache = *settings->tracer.cache;
     viewer->settings.tracer.cache = &viewer->cache;
     viewer->request = (WorkerRequest){.path = settings->scene_path,
-                                      .up = settings->up,
+                                      .load = settings->load,
                                       .loads = 1,
                                       .uses_bvh = settings->uses_bvh,
                                       .samples = 1};

@@ -7,7 +7,7 @@
 
 typedef struct {
     const char *scene_path;
-    UpAxis up;              // of a mesh without a scene
+    SceneLoadOptions load;
     uint32_t view;          // number of the viewpoint, from 1
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // along each side of a pixel, with anti-aliasing

@@ -98,7 +98,7 @@ bool viewer_take_drop(Viewer *viewer, Error *error)
         return false;
     viewer->window.dropped = NULL;
     viewer->settings.scene_path = viewer->request.path = path;
-    viewer->request.up = UP_AUTO;
+    viewer->request.load = (SceneLoadOptions){0};
     viewer->request.loads++;
     viewer->notice[0] = '\0';
     viewer->is_dirty = true;

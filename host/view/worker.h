@@ -10,7 +10,7 @@
 // A request from the window to the worker thread.
 typedef struct {
     const char *path; // path of the scene; the string outlives the worker
-    UpAxis up;        // of a mesh without a scene
+    SceneLoadOptions load;
     bool is_traced;   // the ray-traced view is displayed
     uint64_t subject; // from 1; increases with every new scene, camera or size
     Viewpoint camera;

@@ -176,7 +176,7 @@ static void check_file(Sum *sum, const char *path, uint32_t floor)
 {
     Error error = {0};
     FREED_BY(scene_free) Scene scene = {0};
-    require(scn_load(&scene, path, ply_parse, &error), &error);
+    require(scn_load(&scene, path, &(SceneLoadOptions){0}, &error), &error);
     check_views(sum, &scene, strrchr(path, '/') + 1, floor);
 }
 

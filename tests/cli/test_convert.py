@@ -26,7 +26,7 @@ class Convert(Work):
 
     def expect_same_pictures(self, before, after, views):
         for view in range(1, views + 1):
-            self.expect_same(before, after, "--view", str(view), "-q")
+            self.expect_same(before, after, "--view", str(view), "-q", "--aa=1")
 
 
 class Scenes(Convert):

@@ -21,6 +21,7 @@ PICTURE = PLAIN + ["--stats=a.json", "--specialize", "never"]
 FLAT = "flat.ply"
 CHECK = ["check", FLAT]
 MESH = [FLAT, "-s", "24x16", "-o", "a.pfm"]
+CONE = [str(ROOT / "scenes/cone.ply"), "-s", "24x16", "-o", "a.pfm"]
 EXPLAIN = [SCENE, "-s", "24x16", "--explain-pixel"]
 COMPARE = ["compare", "black.pfm", "white.pfm"]
 
@@ -39,6 +40,7 @@ TRIALS = {
     "crop": (PLAIN, PLAIN + ["--crop", "4,4,20,12"]),
     "view": (PLAIN, PLAIN + ["--view", "2"]),
     "up": (MESH, MESH + ["--up", "x"]),
+    "normals": (CONE, CONE + ["--normals", "flat"]),
     "aa": (PLAIN, PLAIN + ["--aa=3"]),
     "aa-adaptive": (PLAIN, PLAIN + ["--aa-adaptive"]),
     "max-level": (PLAIN, PLAIN + ["--max-level", "1"]),

@@ -127,17 +127,27 @@ class Upright(Random):
 
     @unittest.skipUnless(ASSIMP, "this build is without Assimp")
     def test_formats_have_their_axes(self):
-        coarse = models.coarse(KNOT)
+        # An octahedron, which stands on a point with any axis up.
+        points = [(1.0, 0.0, 0.0), (0.0, 2.0, 0.0), (0.0, 0.0, 3.0), (-1.0, 0.0, 0.0), (0.0, -2.0, 0.0), (0.0, 0.0, -3.0)]
+        triangles = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
         files = {
-            "a.obj": (models.obj(coarse, TRIANGLES), "y"),
-            "a.glb": (models.glb(coarse, TRIANGLES), "y"),
-            "a.stl": (models.stl(coarse, TRIANGLES), "z"),
-            "a.off": (models.off(coarse, TRIANGLES), "z"),
+            "a.obj": (models.obj(points, triangles), "y"),
+            "a.glb": (models.glb(points, triangles), "y"),
+            "a.stl": (models.stl(points, triangles), "z"),
+            "a.off": (models.off(points, triangles), "z"),
         }
         for name, (content, up) in files.items():
             (self.work / name).write_bytes(content)
             self.assertEqual(self.mesh_of(name), self.mesh_of(name, "--up", up), name)
             self.assertNotEqual(self.mesh_of(name), self.mesh_of(name, "--up", "x"), name)
+
+    @unittest.skipUnless(ASSIMP, "this build is without Assimp")
+    def test_an_obj_file_that_stands_only_with_z_up_has_z_up(self):
+        points, triangles = tripod()
+        lying = [(x, z, -y) for x, y, z in points]
+        self.write(a_obj=models.obj(points, triangles), b_obj=models.obj(lying, triangles))
+        for name, up in ("a.obj", "z"), ("b.obj", "y"):
+            self.assertEqual(self.mesh_of(name), self.mesh_of(name, "--up", up), name)
 
     @unittest.skipUnless(ASSIMP, "this build is without Assimp")
     def test_the_shape_counts_in_every_format_without_an_axis(self):
@@ -146,6 +156,92 @@ class Upright(Random):
         self.write(a_stl=models.stl(lying, triangles), a_OFF=models.off(lying, triangles))
         for name in "a.stl", "a.OFF":
             self.assertEqual(self.mesh_of(name), self.mesh_of(name, "--up", "y"), name)
+
+
+def rough_ball(rings=40, sides=40):
+    """Returns a ball whose points are moved toward its center. Larger steps are rarer."""
+    source, points = random.Random(5), [(0.0, 0.0, -1.0), (0.0, 0.0, 1.0)]
+    for ring in range(rings):
+        for side in range(sides):
+            tilt, turn = math.pi * (ring + 1) / (rings + 1), 2 * math.pi * side / sides
+            scale = 1 - source.expovariate(150)
+            points.append(tuple(round(64 * 64 * scale * value) / (64 * 64) for value in
+                                (math.sin(tilt) * math.cos(turn), math.sin(tilt) * math.sin(turn), -math.cos(tilt))))
+    place = lambda ring, side: 2 + ring * sides + side % sides
+    triangles = [(0, place(0, side + 1), place(0, side)) for side in range(sides)]
+    triangles += [(1, place(rings - 1, side), place(rings - 1, side + 1)) for side in range(sides)]
+    for ring in range(rings - 1):
+        for side in range(sides):
+            a, b, c, d = place(ring, side), place(ring, side + 1), place(ring + 1, side + 1), place(ring + 1, side)
+            triangles += [(a, b, c), (a, c, d)]
+    return points, triangles
+
+
+class Normals(Work):
+    def mesh_of(self, *words):
+        self.clrt("convert", *words, "out.ply", "-q")
+        return self.bytes_of("out.ply")
+
+    def test_the_shape_chooses_the_crease(self):
+        """A rough ball is round all over. A tripod is too small for statistics."""
+        self.write(a_ply=models.ply(*rough_ball()), b_ply=models.ply(*tripod()))
+        for name, crease in ("a.ply", "70"), ("b.ply", "33"):
+            chosen = self.mesh_of(name)
+            self.assertEqual(chosen, self.mesh_of(name, "--normals", f"smooth={crease}"), name)
+            self.assertEqual(chosen, self.mesh_of(name, "--normals", "smooth"), name)
+        self.assertNotEqual(self.mesh_of("a.ply"), self.mesh_of("a.ply", "--normals", "smooth=33"))
+
+    @unittest.skipUnless(ASSIMP, "this build is without Assimp")
+    def test_all_parts_of_a_file_choose_one_crease(self):
+        points, triangles = rough_ball()
+        cap = [("usemtl red", 0), ("usemtl blue", 300)]  # the first part has too few edges for statistics
+        self.write(a_obj=models.obj(points, triangles, "mtllib a.mtl", cap),
+                   a_mtl="newmtl red\nKd 0.7 0.1 0.3\nnewmtl blue\nKd 0.1 0.1 0.7\n")
+        self.assertEqual(self.mesh_of("a.obj"), self.mesh_of("a.obj", "--normals", "smooth=70"))
+
+    def test_normals_can_be_chosen(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES, NORMALS), b_ply=models.ply(KNOT, TRIANGLES))
+        self.assertEqual(self.mesh_of("a.ply", "--normals", "flat"), self.bytes_of("b.ply"))
+        self.assertEqual(self.mesh_of("a.ply", "--normals=smooth=180"), self.bytes_of("a.ply"))
+        flat = self.picture("b.ply", "--normals", "flat")
+        self.assertEqual(flat, self.picture("a.ply", "--normals=flat"))
+        self.assertNotEqual(flat, self.picture("b.ply", "--normals=smooth=180"))
+
+    def test_parts_with_other_normals_do_not_merge(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES))
+        words = "-s", "32x32", "--tile", "16x16", "-q"
+        self.clrt("a.ply", *words, "--part", "1/2", "--normals", "flat", "-o", "1.exr")
+        self.clrt("a.ply", *words, "--part", "2/2", "-o", "2.exr")
+        self.assertIn("another scene", self.clrt("merge", "1.exr", "2.exr", "-o", "3.exr", code=3))
+
+    def test_wrong_normals_get_one_message(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES), a_scn="mesh a.ply\n")
+        for word in "round", "flat=3":
+            self.refuses(2, f"--normals wants flat or smooth, not '{word}'", "a.ply", "--normals", word, "-o", "a.png")
+        for degrees in "", "181", "-1":
+            self.refuses(2, f"--normals smooth= wants degrees from 0 to 180, not '{degrees}'", "a.ply",
+                         f"--normals=smooth={degrees}", "-o", "a.png")
+        for words, statement in ("flat", "flat"), ("smooth=50", "smooth"):
+            self.refuses(3, f"a.scn: --normals is for lone mesh files; in a scene, write 'normals {statement}' before "
+                         "the mesh", "a.scn", "--normals", words, "-o", "a.png")
+
+
+class Antialiasing(Work):
+    def test_files_of_lone_meshes_get_nine_samples(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES))
+        self.clrt("convert", "a.ply", "b.scn")
+        pixels = 24 * 16
+        for words, samples in ((), 9), (("--aa=1",), 1), (("--aa",), 4), (("--aa=3",), 9):
+            found = self.statistics("a.ply", "-s", "24x16", "-o", "a.pfm", *words)["samples"]["total"]
+            self.assertEqual(found, samples * pixels, words)
+        found = self.statistics("b.scn", "-s", "24x16", "-o", "b.pfm")["samples"]["total"]
+        self.assertEqual(found, pixels)
+
+    def test_adaptive_settings_and_goals_replace_the_default(self):
+        self.write(a_ply=models.ply(KNOT, TRIANGLES))
+        self.clrt("convert", "a.ply", "b.scn")
+        for words in "--aa-adaptive", "--error=2%":
+            self.expect_same("a.ply", "b.scn", words)
 
 
 def unit(v):
@@ -225,7 +321,7 @@ class Studio(Random):
             for view in range(1, 7):
                 size = f"{self.random.randrange(8, 80)}x{self.random.randrange(8, 80)}"
                 for scene in name, "c.scn":
-                    self.clrt(scene, "-s", size, "--view", str(view), "-o", f"{scene}.pfm")
+                    self.clrt(scene, "-s", size, "--view", str(view), "-o", f"{scene}.pfm", "--aa=2")
                 self.assert_same_bytes(f"{name}.pfm", "c.scn.pfm", (self.seed, size, view))
 
     def test_it_stands_on_a_floor_in_three_lights(self):

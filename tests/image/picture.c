@@ -44,7 +44,7 @@ static bool load(Pipeline *pipeline, Error *error)
     const PictureRequest *request = pipeline->request;
     if (request->scene != NULL)
         pipeline->scene = *request->scene;
-    else if (!scn_load(&pipeline->scene, request->scene_path, ply_parse, error))
+    else if (!scn_load(&pipeline->scene, request->scene_path, &(SceneLoadOptions){0}, error))
         return false;
     pipeline->normalization = normalization_of(&pipeline->scene);
     if (request->view < 1 || request->view > pipeline->scene.viewpoints.count)

@@ -21,7 +21,7 @@ Scene rendered_scene(const char *path)
 {
     Scene scene;
     Error error = {0};
-    rendered_require(scn_load(&scene, path, ply_parse, &error), &error);
+    rendered_require(scn_load(&scene, path, &(SceneLoadOptions){0}, &error), &error);
     return scene;
 }
 

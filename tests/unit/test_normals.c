@@ -60,14 +60,19 @@ static Mesh cylinder(uint32_t sides)
     return revolved(rings, 2, sides, 0, 2);
 }
 
-TEST(a_sphere_of_5000_triangles_is_within_half_a_degree)
+static Mesh ball(void)
 {
     double rings[35][2];
     for (int ring = 0; ring < 35; ring++) {
         rings[ring][0] = sin(PI * (ring + 1) / 36);
         rings[ring][1] = -cos(PI * (ring + 1) / 36);
     }
-    FREED_BY(mesh_free) Mesh mesh = revolved((const double(*)[2])rings, 35, 72, -1, 1);
+    return revolved((const double(*)[2])rings, 35, 72, -1, 1);
+}
+
+TEST(a_sphere_of_5000_triangles_is_within_half_a_degree)
+{
+    FREED_BY(mesh_free) Mesh mesh = ball();
     FREED_BY(mesh_free) Mesh soup = soup_of(&mesh);
     assert_int_equal(soup.triangle_count, 5040);
     compute(&soup, CREASE_DEGREES);
@@ -108,6 +113,61 @@ TEST(a_cylinder_is_round_on_its_side_and_sharp_at_its_rims)
             }
         }
     }
+}
+
+// Returns a ball of 5040 triangles whose points are moved along their radius by random amounts.
+// Large amounts are ever rarer.
+static Mesh rough_ball(void)
+{
+    uint64_t random = 7;
+    Mesh mesh = ball();
+    for (uint32_t i = 0; i < mesh.vertex_count; i++) {
+        const double *p = mesh.positions[i];
+        const double scale = 1 + 0.005 * log(1 - random_unit(&random));
+        set_vertex(&mesh, i, scale * p[0], scale * p[1], scale * p[2]);
+    }
+    return mesh;
+}
+
+TEST(a_rough_ball_is_smooth_and_a_cylinder_keeps_its_rims_by_shape)
+{
+    FREED_BY(mesh_free) Mesh rough = rough_ball();
+    FREED_BY(mesh_free) Mesh same = rough_ball();
+    compute(&rough, CREASE_BY_SHAPE);
+    compute(&same, 70);
+    expect_same_normals(&rough, &same);
+    FREED_BY(mesh_free) Mesh coarse = rough_ball();
+    compute(&coarse, CREASE_DEGREES);
+    assert_int_not_equal(coarse.vertex_count, rough.vertex_count);
+    FREED_BY(mesh_free) Mesh solid = cylinder(600);
+    FREED_BY(mesh_free) Mesh sharp = cylinder(600);
+    compute(&solid, CREASE_BY_SHAPE);
+    compute(&sharp, CREASE_DEGREES);
+    expect_same_normals(&solid, &sharp);
+}
+
+// Each row changes one window of a smooth shape's edges.
+TEST(each_condition_on_the_angles_decides_the_crease)
+{
+    static const size_t smooth[ANGLE_WINDOWS] = {500, 300, 200, 150, 100, 60, 40, 30,
+                                                 30,  20,  20,  2,   2,   2,  2};
+    static const struct {
+        int window;
+        size_t count;
+        double crease;
+    } rows[] = {{0, 500, 70}, {3, 400, 33}, {4, 351, 33}, {5, 211, 33}, {7, 49, 70},  {7, 50, 33},
+                {10, 49, 70}, {10, 50, 33}, {13, 50, 33}, {14, 33, 70}, {14, 34, 33}, {0, 0, 70}};
+    for (size_t row = 0; row < sizeof rows / sizeof rows[0]; row++) {
+        EdgeAngles angles = {.edges = 1000};
+        memcpy(angles.windows, smooth, sizeof smooth);
+        angles.windows[rows[row].window] = rows[row].count;
+        if (crease_of_angles(&angles) != rows[row].crease)
+            fail_msg("row %zu: %g", row, crease_of_angles(&angles));
+        angles.edges = 999;
+        assert_true(crease_of_angles(&angles) == CREASE_DEGREES);
+    }
+    const EdgeAngles empty = {.edges = 5000};
+    assert_true(crease_of_angles(&empty) == CREASE_DEGREES);
 }
 
 // The points are integers and lie exactly in a plane, but the triangles' normals are rounded.

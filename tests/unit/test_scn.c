@@ -279,7 +279,8 @@ TEST(a_scene_names_the_files_it_was_read_from)
 {
     FREED_BY(scene_free) Scene scene;
     Error error = {0};
-    assert_true(scn_load(&scene, CLRT_SOURCE_FOLDER "/scenes/simple.scn", ply_parse, &error));
+    assert_true(
+        scn_load(&scene, CLRT_SOURCE_FOLDER "/scenes/simple.scn", &(SceneLoadOptions){0}, &error));
     assert_int_equal(scene.inputs.count, 1 + scene.objects.count);
     assert_string_equal(scene.inputs.data[0], CLRT_SOURCE_FOLDER "/scenes/plateau.ply");
     assert_string_equal(scene.inputs.data[scene.inputs.count - 1],

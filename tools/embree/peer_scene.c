@@ -119,7 +119,7 @@ bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *sett
 {
     Scene scene = {0};
     *peer = (PeerScene){0};
-    bool ok = scn_load(&scene, path, ply_parse, error);
+    bool ok = scn_load(&scene, path, &(SceneLoadOptions){0}, error);
     if (ok && (scene.spheres.count > 0 || scene_triangle_count(&scene) == 0))
         ok = error_set(error, "%s: embree_peer draws only triangles, at least one", path);
     if (ok && !knows_materials(&scene))

@@ -254,6 +254,19 @@ bool set_reference_samples(Options *options, const char *text, Error *error)
     return true;
 }
 
+bool set_normals(Options *options, const char *text, Error *error)
+{
+    double *degrees = &options->load.crease_degrees;
+    const char *value = strncmp(text, "smooth=", 7) == 0 ? text + 7 : NULL;
+    options->load.normals = strcmp(text, "flat") == 0 ? NORMALS_FLAT : NORMALS_SMOOTH;
+    *degrees = CREASE_BY_SHAPE;
+    if (value != NULL)
+        return read_number(value, 0, 180, degrees) ||
+               error_set(error, "--normals smooth= wants degrees from 0 to 180, not '%s'", value);
+    return options->load.normals == NORMALS_FLAT || strcmp(text, "smooth") == 0 ||
+           error_set(error, "--normals wants flat or smooth, not '%s'", text);
+}
+
 bool set_explain_pixel(Options *options, const char *text, Error *error)
 {
     int64_t place[2];

@@ -105,7 +105,7 @@ bool options_check_merge(Options *options, Error *error);
 // Setters of options whose values fit none of the kinds.
 SetOption set_output, set_format, set_exposure, set_aov, set_expect_hash, set_crop, set_max_level,
     set_error, set_time, set_frames, set_part, set_list_devices, set_stats, set_reference,
-    set_reference_samples, set_explain_pixel, set_fail, set_json;
+    set_reference_samples, set_normals, set_explain_pixel, set_fail, set_json;
 
 // The table of all options. The parser, --help, the man page and the completions iterate over it.
 

@@ -8,6 +8,7 @@
 #include "image/image_file.h"
 #include "render/aov.h"
 #include "render/renderer.h"
+#include "scene/scn.h"
 
 #include <jansson.h>
 #include <stdint.h>
@@ -142,17 +143,17 @@ typedef struct {
     const char *scene_path; // the first picture of ACTION_COMPARE; NULL if no scene is named
     char **part_paths;      // part_count file names of ACTION_MERGE
     int part_count;
-    const char *other_path; // the second picture of ACTION_COMPARE; the output of ACTION_CONVERT
-    const char
-        *output_path;       // "-": standard output; NULL without -o, also if only a hash is printed
-    const char *format;     // a result of image_format_named; NULL without an output
-    AovSet aovs;            // channels besides the colors
-    uint32_t samples;       // per pixel and axis
-    double contrast;        // the argument of --aa-adaptive; 0 without it
-    double error_goal;      // largest root mean square error; 0: no goal
-    double time_goal;       // seconds of tracing; 0: no goal
-    uint32_t view;          // from 1
-    UpAxis up;              // of a mesh that replaces a scene
+    const char *other_path;  // the second picture of ACTION_COMPARE; the output of ACTION_CONVERT
+    const char *output_path; // "-": standard output; NULL without -o, also if only a hash
+                             // is printed
+    const char *format;      // a result of image_format_named; NULL without an output
+    AovSet aovs;             // channels besides the colors
+    uint32_t samples;        // per pixel and axis
+    double contrast;         // the argument of --aa-adaptive; 0 without it
+    double error_goal;       // largest root mean square error; 0: no goal
+    double time_goal;        // seconds of tracing; 0: no goal
+    uint32_t view;           // from 1
+    SceneLoadOptions load;
     uint32_t width, height; // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: the whole picture

@@ -44,13 +44,18 @@ const Option option_table[] = {
      "fractions of the sides; an EXR file records the position"},
     {"view", "N", 0, COUNT(view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
      "use the scene's N-th camera (default: 1); a scene without cameras has the course's six"},
-    {"up", "auto|x|y|z|-x|-y|-z", 0, WORD(up), GROUP_PICTURE, CLASS_NONE, FOR_TRACING | FOR_CONVERT,
+    {"up", "auto|x|y|z|-x|-y|-z", 0, WORD(load.up), GROUP_PICTURE, CLASS_NONE,
+     FOR_TRACING | FOR_CONVERT,
      "axis that points up in a mesh file without a scene (default: auto, by format and shape)"},
+    {"normals", "flat|smooth", 0, ODD(set_normals), GROUP_PICTURE, CLASS_NONE,
+     FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN | FOR_CONVERT,
+     "ignore the normals of a mesh file without a scene, or compute those that it lacks (default); "
+     "with smooth=DEGREES, larger angles stay sharp (default: 33 or 70, by shape)"},
 
     {"aa", "[=N]", 0, FIELD(COUNT, samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
-     "take N x N samples per pixel (default: 2); the window does so when the camera rests, unless "
-     "N is 1"},
+     "take N x N samples per pixel (default: 2); without this option, files of scenes get 1 sample "
+     "and files of lone meshes 3 x 3; the window takes N x N when the camera rests, unless N is 1"},
     {"aa-adaptive", "[=T]", 0, FIELD(PART, contrast), 0, "0.02", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_FILE | FOR_WARM,
      "add samples where neighbors differ, until a pixel's contrast is at most T (default: 0.02)"},
