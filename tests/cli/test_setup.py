@@ -121,8 +121,9 @@ class Setup(unittest.TestCase):
 
     def test_each_purpose_adds_its_packages(self):
         for purpose, package in (("window", "libglfw3-dev"), ("meshes", "libassimp-dev"),
-                                 ("images", "libopenimageio-dev"), ("test", "libcmocka-dev"), ("package", "dpkg-dev file"),
-                                 ("farm", "slurmctld")):
+                                 ("images", "libopenimageio-dev"), ("test", "libcmocka-dev"),
+                                 ("package", "dpkg-dev file"), ("farm", "slurmctld"),
+                                 ("emulated", "qemu-user-static")):
             self.assertIn(package, self.run_tool("tools/setup", purpose))
         self.assertIn("libassimp-dev", self.run_tool("tools/setup"))
         self.assertIn("use picture, window", self.run_tool("tools/setup", "pictures", code=1))

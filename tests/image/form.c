@@ -19,6 +19,7 @@ static const struct {
 } forms[] = {{"pair", {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32}},
              {"wide", {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32}},
              {"packet", {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32}},
+             {"packet16", {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}},
              {"packet8", {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32}},
              {"packet4", {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32}},
              {"fp64", {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}}};
