@@ -17,19 +17,19 @@ skip() {
 for program in mmdebstrap git; do
     command -v $program >/dev/null || skip "$program is not installed (tools/setup ci)"
 done
+git -C "$checkout" -c safe.directory='*' ls-files >/dev/null || skip "this is not a git checkout"
 unshare --mount --pid --fork true 2>/dev/null || skip "this machine does not permit namespaces"
 
 commands=$(sed -n '/^## First picture/,/^## First scene/p' "$checkout/README.md" |
     grep -E '^tools/(render .*-o|test)')
 [ "$(wc -l <<<"$commands")" = 2 ] || { echo "README.md has other commands: $commands"; exit 1; }
 
-root=$(mktemp -d)
+root=$(mktemp -d -p "${TMPDIR:-/var/tmp}")
 chmod 755 "$root"
 namespaces=
 # When its first process dies, the kernel kills the namespace's other processes and drops its mounts.
 clean_up() {
-    [ -z "$namespaces" ] || kill -KILL "$namespaces" 2>/dev/null || true
-    wait
+    [ -z "$namespaces" ] || { kill -KILL "$namespaces" && wait; } 2>/dev/null || true
     rm -rf "$root" || { sleep 1 && rm -rf "$root"; }
 }
 trap clean_up EXIT
@@ -37,16 +37,19 @@ trap 'exit 130' INT TERM HUP
 
 # in_namespaces COMMAND...: runs the command with mounts and processes that end with it.
 in_namespaces() {
+    local status=0
     setpriv --pdeathsig KILL unshare --mount --pid --fork --kill-child --mount-proc "$@" </dev/null &
     namespaces=$!
-    wait "$namespaces"
+    wait "$namespaces" || status=$?
+    namespaces=
+    return $status
 }
 
 # The root gets this machine's package sources, proxies and certificates.
 mapfile -t lists < <(. /etc/os-release && apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) main' \
     'Created-By: Packages' 'Origin: Debian' | sort -u | sed "s/\b$VERSION_CODENAME\b/$suite/")
 mapfile -t proxies < <(apt-config dump | grep -E '^Acquire::https?::Proxy')
-in_namespaces mmdebstrap --mode=root --variant=minbase "${proxies[@]/#/--aptopt=}" \
+in_namespaces mmdebstrap --mode=root --variant=minbase --dpkgopt=force-unsafe-io "${proxies[@]/#/--aptopt=}" \
     "$suite" "$root" "${lists[@]}" || skip "mmdebstrap cannot make a bare Debian ($suite)"
 mkdir "$root/root/clrt"
 cp -rT /usr/local/share/ca-certificates "$root/usr/local/share/ca-certificates"
@@ -67,4 +70,4 @@ in_namespaces bash -euc '
         mount --bind -o ro "$course" "$root/root/shared/course"
     fi
     exec setsid --wait env -i "$@" chroot "$root" bash -exc "cd /root/clrt; $commands"
-' bash "$root" "$course" "$commands" "${environment[@]}"
+' bash "$root" "$course" "$commands" "${environment[@]}" || exit 1
