@@ -138,7 +138,7 @@ class Combinations(Work):
 
     def test_a_requested_precision_is_kept(self):
         self.write(a_scn="sphere 0 0 0 1\n")
-        for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"):
+        for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"), (["--lanes", "8"], "fp32"):
             self.run_clrt("a.scn", "-s", "4x4", "-o", "a.pfm", "--stats=a.json", "--error", "0.015%", *words)
             self.expect(self.json_of("a.json"), settings__precision=precision)
 

@@ -213,7 +213,7 @@ static void choose_precision(Options *options)
 {
     KernelRequest *kernel = &options->kernel;
     if (options->error_goal > 0 && options->error_goal < ERROR_OF_FP64 && kernel->family == 0 &&
-        kernel->nodes == 0 && !option_is_given(options, "precision"))
+        kernel->nodes == 0 && kernel->lanes == 0 && !option_is_given(options, "precision"))
         kernel->precision = PRECISION_FP64;
 }
 
