@@ -14,12 +14,14 @@ static const char *mesh_path(const Check *check, size_t object)
     return scene->inputs.data[scene->objects.data[object].input];
 }
 
-static void write_findings(const Check *check, size_t object, FILE *stream)
+// Writes the findings from index *next on that are about this object, and advances *next.
+static void write_findings(const Check *check, size_t object, size_t *next, FILE *stream)
 {
-    for (size_t i = 0; i < check->findings.count; i++) {
-        const Finding *finding = &check->findings.data[i];
-        if (finding->object == object)
-            fprintf(stream, "  %s: %s\n", finding->fails ? "FAULT" : "note", finding->text);
+    for (; *next < check->findings.count; ++*next) {
+        const Finding *finding = &check->findings.data[*next];
+        if (finding->object != object)
+            return;
+        fprintf(stream, "  %s: %s\n", finding->fails ? "FAULT" : "note", finding->text);
     }
 }
 
@@ -36,7 +38,7 @@ static void write_leaks(const Check *check, size_t object, FILE *stream)
             leaks->leaks.count > 0 && !is_closed ? ", because it is not closed" : "");
 }
 
-static void write_mesh(const Check *check, size_t object, FILE *stream)
+static void write_mesh(const Check *check, size_t object, size_t *next, FILE *stream)
 {
     const Mesh *mesh = &check->scene.objects.data[object].mesh;
     const MeshCensus *census = &check->census.meshes[object];
@@ -51,18 +53,19 @@ static void write_mesh(const Check *check, size_t object, FILE *stream)
                 features->height.steps);
     if (mesh->triangle_count > 0 && check->leaks != NULL)
         write_leaks(check, object, stream);
-    write_findings(check, object, stream);
+    write_findings(check, object, next, stream);
 }
 
 void check_report_write_text(const Check *check, FILE *stream)
 {
     const Scene *scene = &check->scene;
+    size_t next = 0; // findings are in the order of the objects
     for (size_t object = 0; object < scene->objects.count; object++)
-        write_mesh(check, object, stream);
+        write_mesh(check, object, &next, stream);
     fprintf(stream, "%s: %zu meshes, %zu triangles, %zu spheres, %zu lights\n", check->scene_path,
             scene->objects.count, scene_triangle_count(scene), scene->spheres.count,
             scene->lights.count);
-    write_findings(check, FINDING_SCENE, stream);
+    write_findings(check, FINDING_SCENE, &next, stream);
     if (check->leaks != NULL)
         fprintf(stream, "  rays were traced on %s\n", check->device.name);
     else if (check->device_fault.text[0] != '\0')

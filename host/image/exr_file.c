@@ -7,6 +7,8 @@
 #include <libdeflate.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #define DEFLATE_RATIO 1032 // no compressed byte becomes more bytes
 
@@ -69,16 +71,48 @@ static void read_texts(ExrFile *file)
             snprintf(file->head.texts[kind], STORED_TEXT_SIZE, "%s", text);
 }
 
-bool exr_file_open(ExrFile *file, const char *path, Error *error)
+static int64_t read_bytes(exr_const_context_t context, void *user, void *bytes, uint64_t size,
+                          uint64_t offset, exr_stream_error_func_ptr_t fail)
+{
+    const ExrFile *file = user;
+    (void)context, (void)fail;
+    return offset > file->most ? -1 : pread(fileno(file->stream), bytes, size, (off_t)offset);
+}
+
+static int64_t query_size(exr_const_context_t context, void *user)
+{
+    const ExrFile *file = user;
+    struct stat status;
+    (void)context;
+    return fstat(fileno(file->stream), &status) == 0 ? (int64_t)status.st_size : -1;
+}
+
+// clrt writes at most 10 KB, and OpenEXRCore takes quadratic time for many attributes.
+#define HEADER_MOST 65536
+
+static exr_result_t start(ExrFile *file, const char *path)
 {
     const exr_context_initializer_t settings = {
         .size = sizeof settings,
         .error_handler_fn = exr_file_ignore,
+        .user_data = file,
+        .read_fn = read_bytes,
+        .size_fn = query_size,
         .flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION, // tiles may be missing
     };
-    *file = (ExrFile){0};
-    errno = 0;
+    file->most = HEADER_MOST;
     const exr_result_t result = exr_start_read(&file->context, path, &settings);
+    file->most = INT64_MAX;
+    return result;
+}
+
+bool exr_file_open(ExrFile *file, const char *path, Error *error)
+{
+    *file = (ExrFile){.stream = fopen(path, "rbe")};
+    if (file->stream == NULL)
+        return error_set(error, "%s: cannot be read: %s", path, strerror(errno));
+    errno = 0;
+    const exr_result_t result = start(file, path);
     if ((result == EXR_ERR_FILE_ACCESS || result == EXR_ERR_READ_IO) && errno != 0)
         return error_set(error, "%s: cannot be read: %s", path, strerror(errno));
     if (result != EXR_ERR_SUCCESS || !read_tiling(file) || !read_size(file) || !read_channels(file))
@@ -91,6 +125,8 @@ bool exr_file_open(ExrFile *file, const char *path, Error *error)
 void exr_file_close(ExrFile *file)
 {
     exr_finish(&file->context);
+    if (file->stream != NULL)
+        fclose(file->stream);
     *file = (ExrFile){0};
 }
 

@@ -14,7 +14,9 @@
 #define EXR_TILE 64
 
 typedef struct {
-    exr_context_t context; // NULL if closed
+    exr_context_t context; // NULL if closed; refers to this ExrFile
+    FILE *stream;          // NULL if closed
+    uint64_t most;         // reads may begin up to this offset
     StoredImage head;      // size, texts, and channels in the file's order; no values
     uint32_t tile_width, tile_height, tile_count;
 } ExrFile;

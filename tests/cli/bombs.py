@@ -45,10 +45,12 @@ def exr(width, height):
         struct.pack("<iI", 16 * i, len(packed)) + packed for i in blocks)
 
 
-def exr_part(settings):
-    """Returns the part of a picture that these settings describe, without its tiles."""
+def exr_part(settings, attributes=0):
+    """Returns the part of a picture that these settings describe, without its tiles but with this
+    number of attributes that clrt does not know."""
     (width, height), tile = (settings["width"], settings["height"]), settings["tile"]
     texts = {"clrt:version": "1", "clrt:complete": "yes", "clrt:settings": json.dumps(settings)}
-    more = [(name, "string", text.encode()) for name, text in texts.items()]
+    more = [(f"a{i}", "string", b"x") for i in range(attributes)]
+    more += [(name, "string", text.encode()) for name, text in texts.items()]
     more.append(("tiles", "tiledesc", struct.pack("<IIB", *tile, 0)))
     return _exr_head(width, height, 2, 0x200, more) + bytes(8 * (-(-width // tile[0]) * -(-height // tile[1])))

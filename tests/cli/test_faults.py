@@ -164,6 +164,22 @@ class Sizes(Faults):
         says = "a.exr: part 1 of 1 cannot be used: it is damaged at pixel 0,0"
         self.within("merge", "a.exr", "-o", "m.png", code=3, says=says)
 
+    def test_a_header_of_many_attributes_is_refused(self):
+        settings = {"width": 8, "height": 8, "part": [1, 1], "tile": [4, 4]}
+        self.write(a_exr=bombs.exr_part(settings, attributes=200000))
+        says = "a.exr: cannot be read: it is not a tiled EXR file written by clrt"
+        self.within("merge", "a.exr", "-o", "m.exr", code=3, says=says)
+
+    def test_check_lists_many_findings(self):
+        mesh = (
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 1\n"
+        )
+        self.write(t_ply=mesh, a_scn="ply_file t.ply\n" * 60000)
+        with open(self.work / "report", "w") as report:
+            self.within("check", "a.scn", code=1, stdout=report)
+        self.assertEqual((self.work / "report").read_text().count("FAULT"), 60000)
+
 
 class Device(Faults):
     TILES = [SCENE, "-s", "64x48", "--tile", "16x16", "-q", "--kernel=ray", "--specialize=never"]
