@@ -205,7 +205,7 @@ static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *ray
     beam->tracer = tracer;
     beam->kind = rays->kind;
     for (uint number = 0; number < beam->count; number++) {
-        packet_prepare(&beam->packets[number], tracer, &rays[number]);
+        packet_prepare(&beam->packets[number], tracer, &rays[number], beam->hits[number].t);
         beam->live[number] = lane_bits(rays[number].active);
         update_packet(beam, number);
     }

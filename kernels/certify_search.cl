@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Finds the certain first hit of a ray cone, and whether anything certainly blocks a point from a
 // light. Boxes grow by the cone's radius at their farthest corner, and by at least 129u of this
-// corner's distance. 18u of these cover the rest of the blur, and 111u a distance error.
-// The axis is then inside a box before any possible hit of a triangle in it, even if rounding puts
-// the hit behind the origin.
+// corner's distance. 18u of these cover the rest of the blur, and 111u a distance error. For new
+// rays, they also grow by behind_of. The axis is then inside a box before any possible hit of a
+// triangle in it, even if rounding puts the hit behind the origin.
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL
 #include "certify_sphere.cl"
@@ -42,7 +42,8 @@ typedef struct {
 static inline Real growth_at(const RayCone *ray, Real far)
 {
     const Real rounding = 140.0f * ray->u + 200.0f * OWN_ROUNDOFF;
-    return 1.01f * ray->around + (1.01f * ray->spread + rounding) * (far + ray->around);
+    return 1.01f * ray->around + (1.01f * ray->spread + rounding) * (far + ray->around) +
+           behind_of(ray);
 }
 
 // Returns 1 / direction. Raises a direction below 2^-60, by less than the rounding.

@@ -17,6 +17,7 @@ typedef struct {
     bool from_behind; // seen from a triangle's back or from inside a sphere
     Corners corners;  // of a triangle
     Real room, edge;  // the point is at least room / edge away from the edges
+    Real area;        // twice the triangle's area, or less
 } UncertainSurface;
 
 // Bounds the turn of a vector of this length whose end moves by `doubt`.
@@ -55,10 +56,10 @@ static inline void face_viewer(UncertainSurface *surface)
 static inline void note_room(UncertainSurface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
-    const Real area = largest_component(cross_product(ab, ac));
     const Real sides = length_of(ab) + length_of(ac);
-    surface->room =
-        min(min(weights.x, weights.y), weights.z) * area - 1.01f * surface->end.slide * sides;
+    surface->area = largest_component(cross_product(ab, ac));
+    surface->room = min(min(weights.x, weights.y), weights.z) * surface->area -
+                    1.01f * surface->end.slide * sides;
     surface->edge = 2.0f * (largest_component(ab) + largest_component(ac));
 }
 
@@ -152,15 +153,22 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 // per axis) and of the corners (14u of their distance), divided by the sine of the ray's angle to
 // the face. The tracer ignores edges farther than 64u / sine. Near an edge, the start may move by
 // 256u / sine along the surface, on each axis.
+//
+// A reflected ray is lifted only if its line misses the triangle from the last start. This start is
+// the triangle's middle or 256u / sine on the way there, which is 500u / (sine * edge) of the way
+// or more. There, each weight is at least a third of this fraction.
 static inline UncertainPoint start_of(const UncertainSurface *surface, Real3 direction, Real doubt,
-                                      Real u)
+                                      Real u, bool *may_be_lifted)
 {
     UncertainPoint start = surface->end;
     const Real sine = fabs(dot_product(direction, surface->face)) - doubt - surface->face_doubt;
     const Real least = min((Real)(71.0f), 24.0f + 11.0f * surface->edge) * u * surface->edge;
+    const Real last_room = 0.33f * surface->area * min(sine, 500.0f * u / surface->edge);
+    *may_be_lifted = false;
     if (!surface->is_sphere && !(surface->room * sine > least)) {
         start.slide += sine > 0.0f ? 450.0f * u / sine : INFINITY;
         start.lift += 4.0f * u;
+        *may_be_lifted = !(last_room > least);
     }
     return start;
 }
@@ -170,7 +178,9 @@ static inline RayCone shadow_cone(const UncertainSurface *surface, Real3 light, 
     const Real3 apart = difference(light, surface->end.point);
     const Real length = length_of(apart), rounding = (u + 8.0f * OWN_ROUNDOFF) * length;
     const Real turn = turn_of(radius_of(&surface->end) + rounding, length) + 8.0f * u;
-    const UncertainPoint start = start_of(surface, unit_vector(apart), turn, u + OWN_ROUNDOFF);
+    bool may_be_lifted; // only reflected rays are
+    const UncertainPoint start =
+        start_of(surface, unit_vector(apart), turn, u + OWN_ROUNDOFF, &may_be_lifted);
     RayCone ray = {.origin = start.point,
                    .around = radius_of(&start),
                    .spread = spread_of(turn_of(radius_of(&start) + rounding, length)),
@@ -234,10 +244,11 @@ static inline RayCone reflected_cone(const UncertainSurface *surface, const RayC
     } else if (!surface->is_sphere && height <= height_doubt) {
         doubt += 4.0f * height_doubt + 12.0f * u;
     }
-    const UncertainPoint start = start_of(surface, direction, doubt, u);
+    bool may_be_lifted;
+    const UncertainPoint start = start_of(surface, direction, doubt, u, &may_be_lifted);
     RayCone ray = {.origin = start.point,
                    .around = radius_of(&start),
-                   .spread = spread_of(1.01f * doubt),
+                   .spread = may_be_lifted ? INFINITY : spread_of(1.01f * doubt),
                    .length = INFINITY,
                    .u = before->u,
                    .own = surface->id,

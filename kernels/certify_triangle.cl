@@ -137,6 +137,16 @@ static inline int side_of(const Corners *corners, const UncertainPoint *uncertai
     return height > 0.0f ? 1 : -1;
 }
 
+// Bounds how far a new ray may start beyond a triangle that stops it, Search::behind. The length of
+// a direction is at most the square root of 3 times its longest component.
+static inline Real behind_of(const RayCone *ray)
+{
+    if (ray->kind == RAY_CAMERA)
+        return 0.0f;
+    const Real far = largest_component(ray->start.point) + radius_of(&ray->start);
+    return 448.0f * (ray->u + OWN_ROUNDOFF) * far;
+}
+
 static inline Candidate candidate_none(void)
 {
     return (Candidate){ANSWER_NO, INFINITY, INFINITY};
@@ -150,7 +160,7 @@ static inline Candidate reflected_candidate(const RayCone *ray, const ProjectedT
     const bool front = projected->edges.determinant > 0.0f;
     const bool before = front ? side > 0 : side < 0; // the ray approaches the plane
     const bool behind = front ? side < 0 : side > 0;
-    if (candidate.high < -margin || (projected->faces && behind))
+    if (candidate.high < -margin - behind_of(ray) || (projected->faces && behind))
         return candidate_none();
     const bool clear = !projected->inner || candidate.low > margin;
     candidate.met = projected->inside && before && clear ? ANSWER_YES : ANSWER_UNKNOWN;

@@ -14,9 +14,9 @@ typedef struct {
     uint axes[3];  // if one_axis is set, the shear's x, y and z axes
 } Packet;
 
-static inline void packet_prepare(Packet *packet, const Tracer *tracer, const Ray *ray)
+static inline void packet_prepare(Packet *packet, const Tracer *tracer, const Ray *ray, Real limit)
 {
-    packet->rays = search_along(tracer, ray);
+    packet->rays = search_along(tracer, ray, limit);
     const ShearAxes axes = packet->rays.axes;
     packet->axes[0] = lane_uint(&axes.x, 0);
     packet->axes[1] = lane_uint(&axes.y, 0);
@@ -51,13 +51,17 @@ typedef struct {
 } PacketTest;
 
 // Returns which rays stop on a triangle that they hit within rounding of their start.
-static NOT_INLINE Mask packet_neighbors(const Corners *corners, const Packet *packet,
+static NOT_INLINE Mask packet_neighbors(const Corners *corners, const Packet *packet, uint index,
                                         Mask from_back)
 {
     const Ray *ray = packet->rays.ray;
     const Mask known = ray->own_index != NOTHING;
     const Corners own = fetch_corners(packet->rays.tracer, known ? ray->own_index : (UInt)(0));
-    return known && hits_neighbor(&own, corners, ray->direction, from_back);
+    Mask cross;
+    const Mask stops = hits_neighbor(&own, corners, ray->direction, from_back, &cross);
+    if (!any_lane(known && cross))
+        return known && stops;
+    return known && (stops || (cross && is_ahead(packet->rays.tracer, ray, (UInt)(index))));
 }
 
 // Returns the distances of the rays that stop on the triangle, INFINITY for the others. Distances
@@ -82,7 +86,8 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
         return ray->kind == RAY_CAMERA ? clear : INFINITY;
     const Real error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const Corners corners = {splat_corner(at, 0), splat_corner(at, 1), splat_corner(at, 2)};
-    const SurfaceRay surface = {ray->origin, front, inner, length_of_ray(ray), blur_of(ray)};
+    const SurfaceRay surface = {ray->origin,        front,       inner, packet->rays.behind,
+                                length_of_ray(ray), blur_of(ray)};
     Mask in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (ray->kind == RAY_CAMERA)
@@ -90,7 +95,7 @@ static inline Real packet_distances(const BlockPlace *at, const Packet *packet,
     in_doubt = in_doubt && near;
     if (!any_lane(in_doubt))
         return near ? distance : INFINITY;
-    const Mask stops = packet_neighbors(&corners, packet, !front);
+    const Mask stops = packet_neighbors(&corners, packet, at->index, !front);
     return near ? (in_doubt && stops ? max(t, (Real)(0.0f)) : distance) : INFINITY;
 }
 
@@ -110,8 +115,13 @@ static ALWAYS_INLINE bool intersect_packet_triangle(const BlockPlace *at, const 
     test.inside = test.inside && packet->rays.ray->own != id;
     if (!any_lane(test.inside))
         return false;
-    const Real t = packet_distances(at, packet, &test, best->t);
-    const Mask precedes = hit_precedes(t, id, best);
+    const Real t = packet_distances(at, packet, &test, best->t + packet->rays.tie);
+    Mask precedes = hit_precedes(t, id, best);
+    const Mask close = is_close(&packet->rays, t, best);
+    if (any_lane(close)) {
+        const Mask nearer = triangle_is_nearer(&packet->rays, id, (UInt)(at->index), best, close);
+        precedes = close ? nearer : precedes;
+    }
     best->t = precedes ? t : best->t;
     best->id = precedes ? id : best->id;
     best->index = precedes ? (UInt)(at->index) : best->index;

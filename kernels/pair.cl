@@ -2,8 +2,7 @@
 // The simplest search, for GPUs and for fp64: one ray traverses the binary tree.
 #ifndef CLRT_PAIR_CL
 #define CLRT_PAIR_CL
-#include "fetch.cl"
-#include "search.cl"
+#include "order.cl"
 
 #if !CLRT_WIDE_NODES
 
@@ -41,18 +40,22 @@ static inline Real3 corner_relative(global const float *corner, const Search *se
 }
 
 // Returns whether the ray stops on a triangle that its line hits within rounding of its start.
-static NOT_INLINE bool stops_on_neighbor(const Tracer *tracer, const Ray *ray,
+static NOT_INLINE bool stops_on_neighbor(const Tracer *tracer, const Ray *ray, uint index,
                                          const Corners *corners, bool from_back)
 {
     if (ray->own_index == NOTHING)
         return false;
     const Corners own = fetch_corners(tracer, ray->own_index);
-    return hits_neighbor(&own, corners, ray->direction, from_back);
+    Mask cross;
+    if (hits_neighbor(&own, corners, ray->direction, from_back, &cross))
+        return true;
+    return cross && is_ahead(tracer, ray, index);
 }
 
 // Returns the distance t at which the ray hits the triangle, INFINITY if it misses.
-static inline Real triangle_distance(global const TriangleData *triangle, const Search *search)
+static inline Real triangle_distance(const Search *search, uint index)
 {
+    global const TriangleData *triangle = &search->tracer->triangles[index];
     const Ray *ray = search->ray;
     const Corners relative = {corner_relative(triangle->a, search),
                               corner_relative(triangle->b, search),
@@ -71,10 +74,12 @@ static inline Real triangle_distance(global const TriangleData *triangle, const 
         return t > 0.0f ? t : INFINITY;
     const Real error = triangle_depth_error(&sheared) * fabs(search->shear.inverse_z);
     const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
-    const SurfaceRay surface = {ray->origin, front, inner, length_of_ray(ray), blur_of(ray)};
+    const SurfaceRay surface = {ray->origin,        front,       inner, search->behind,
+                                length_of_ray(ray), blur_of(ray)};
     Mask in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
-    if (in_doubt && stops_on_neighbor(search->tracer, ray, &corners, !front))
+    if (in_doubt && (t > 0.0f || triangle_is_at_origin(t, &search->shear)) &&
+        stops_on_neighbor(search->tracer, ray, index, &corners, !front))
         return max(t, (Real)(0.0f));
     return distance;
 }
@@ -84,8 +89,11 @@ static inline void intersect_range(const Search *search, uint2 range, Hit *best)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
         global const TriangleData *triangle = &search->tracer->triangles[index];
-        const Real t = triangle_distance(triangle, search);
-        if (hit_precedes(t, triangle->id, best)) {
+        const Real t = triangle_distance(search, index);
+        const bool precedes = is_close(search, t, best)
+                                  ? triangle_is_nearer(search, triangle->id, index, best, 1)
+                                  : hit_precedes(t, triangle->id, best);
+        if (precedes) {
             *best = (Hit){t, triangle->id, index};
             if (search->ray->kind == RAY_SHADOW)
                 return;
@@ -153,7 +161,7 @@ static inline void traverse_pairs(const Search *search, Hit *best)
 
 static void search_pairs(const Tracer *tracer, const Ray *ray, Hit *best)
 {
-    const Search search = search_along(tracer, ray);
+    const Search search = search_along(tracer, ray, best->t);
     if (CLRT_BVH && tracer->frame->uses_bvh) {
         traverse_pairs(&search, best);
         return;

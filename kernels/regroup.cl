@@ -293,7 +293,7 @@ static NOT_INLINE void search_beams(const Tracer *tracer, const Ray *rays, const
     const bool has_tree = CLRT_BVH && tracer->frame->uses_bvh;
     if (!CLRT_PACKET && has_tree) {
         for (uint i = 0; i < count; i++) {
-            const Search search = search_along(tracer, &rays[i]);
+            const Search search = search_along(tracer, &rays[i], hits[i].t);
             intersect_lanes(&search, wanted[i], 0, &hits[i]);
         }
         return;

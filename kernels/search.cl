@@ -76,9 +76,13 @@ typedef struct {
     Shear shear;
     Real3 origin; // in the order of the axes
     Slabs slabs;
+    Real limit;  // distance of the nearest sphere, or the end of a shadow ray
+    Real tie;    // rounding may exchange two triangles whose distances differ by this or less
+    Real behind; // rounding may put the start of a ray that leaves a triangle this far ahead
 } Search;
 
-static inline Search search_along(const Tracer *tracer, const Ray *ray)
+// `limit` is the distance of the nearest hit so far, which is no triangle.
+static inline Search search_along(const Tracer *tracer, const Ray *ray, Real limit)
 {
     Search search;
     search.tracer = tracer;
@@ -87,6 +91,12 @@ static inline Search search_along(const Tracer *tracer, const Ray *ray)
     search.axes = shear_axes(ray->direction);
     search.shear = shear_along(ray->direction, &search.axes);
     search.origin = axes_ordered(ray->origin, &search.axes);
+    search.limit = limit;
+    // The coordinates of corners are at most 1, so triangle_depth_error is at most 54 (far + 1).
+    const Real unit = UNIT_ROUNDOFF * fabs(search.shear.inverse_z);
+    const Real far = largest_component(ray->origin);
+    search.tie = 128.0f * unit * (far + 1.0f);
+    search.behind = 256.0f * unit * far;
     return search;
 }
 

@@ -67,7 +67,7 @@ static inline LightSample sample_light(const Tracer *tracer, uint index, const S
 static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
                                const LightSample *light)
 {
-    const Heading heading = {light->position, true};
+    Heading heading = {light->position, true};
     const Real sine = fabs(dot_product(surface->face, light->toward));
     const Real3 point = point_left(tracer, surface, &heading, sine, light->faces);
     return (Ray){point,       difference(light->position, point),

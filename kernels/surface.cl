@@ -200,33 +200,75 @@ static inline Real3 direction_from(Real3 point, const Heading *heading)
     return heading->is_place ? difference(heading->to, point) : heading->to;
 }
 
+// The plane in which a ray starts, and the side to which it leaves.
+typedef struct {
+    Corners corners;
+    Mask to_front;
+} Leaving;
+
+static inline Leaving leaving_from(const Tracer *tracer, const Surface *surface, Mask known)
+{
+    Leaving leaving;
+    const Corners corners = fetch_corners(tracer, known ? surface->index : (UInt)(0));
+    const Real3 ab = difference(corners.b, corners.a), ac = difference(corners.c, corners.a);
+    leaving.corners = corners;
+    leaving.to_front = dot_product(cross_product(ab, ac), surface->face) > 0.0f;
+    return leaving;
+}
+
+// Returns whether the ray's line passes through the triangle, to the side to which the ray leaves.
+static inline Mask passes(const Leaving *leaving, Real3 point, Real3 direction)
+{
+    const View view = view_of(&leaving->corners, point, direction);
+    const Mask from_front = edges_face(&view.edges, &view.shear);
+    return edges_contain(&view.edges) && (leaving->to_front ? !from_front : from_front);
+}
+
+// A ray that almost lies in its triangle's plane can miss the triangle from every start. It is
+// lifted toward the face's normal, by 2^-8, 2^-4 and 1 of its length.
+static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 direction,
+                                     Real3 face, Mask misses)
+{
+    Real3 lifted = direction;
+    for (float lift = 0x1p-8f; lift <= 1.0f && any_lane(misses); lift *= 16.0f) {
+        lifted = choose3(misses, sum3(direction, scaled3(lift, face)), lifted);
+        misses = misses && !passes(leaving, point, lifted);
+    }
+    return lifted;
+}
+
 // Returns the start of a ray near an edge. Rounding may have put the surface point outside its
 // triangle, beyond the neighbor that should stop the ray. While the ray's line misses the triangle,
 // the start moves toward the triangle's middle. Its distances from the surface point are
-// UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256.
-static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface,
-                                     const Heading *heading, Real sine, Mask near_edge)
+// UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, and end at the middle. A reflected ray that
+// still misses its triangle is lifted.
+static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
+                                     Real sine, Mask near_edge)
 {
-    const Corners corners = fetch_corners(tracer, near_edge ? surface->index : (UInt)(0));
+    const Leaving leaving = leaving_from(tracer, surface, near_edge);
     const Real third = RATIO(1.0f, 3.0f);
-    const Real3 middle = weighted(real3_of(third, third, third), &corners);
+    const Real3 middle = weighted(real3_of(third, third, third), &leaving.corners);
     const Real3 inward = difference(middle, surface->point);
     const Real unit = UNIT_ROUNDOFF / (sine * largest_component(inward));
     Real3 point = surface->point;
-    Mask outside = near_edge;
-    for (uint step = 1; step <= 256 && any_lane(outside); step *= 2) {
-        const View view = view_of(&corners, point, direction_from(point, heading));
-        outside = outside && !edges_contain(&view.edges);
+    Mask misses = near_edge;
+    for (uint step = 1; step <= 256 && any_lane(misses); step *= 2) {
+        misses = misses && !passes(&leaving, point, direction_from(point, heading));
         const Real part = min(step * unit, (Real)(1.0f));
-        point = choose3(outside, sum3(surface->point, scaled3(part, inward)), point);
+        point = choose3(misses, sum3(surface->point, scaled3(part, inward)), point);
+    }
+    if (!heading->is_place && any_lane(misses)) {
+        misses = misses && !passes(&leaving, point, heading->to);
+        heading->to = lifted_direction(&leaving, point, heading->to, surface->face, misses);
     }
     return point;
 }
 
-// Returns the start of a ray that leaves the surface. The ray's line should pass through the
-// surface's triangle, which rounding can prevent only near edges. A point with coordinates up to 1
-// is off by some units of rounding. Along the plane, the line is off by this error over the sine.
-static inline Real3 point_left(const Tracer *tracer, const Surface *surface, const Heading *heading,
+// Returns the start of a ray that leaves the surface, and may lift its direction. The ray's line
+// should pass through the surface's triangle, which rounding can prevent only near edges. A point
+// with coordinates up to 1 is off by some units of rounding. Along the plane, the line is off by
+// this error over the sine.
+static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Heading *heading,
                                Real sine, Mask active)
 {
     const Real least = 8.0f * POINT_BLUR * UNIT_ROUNDOFF * surface->edge;
@@ -246,10 +288,10 @@ static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Ma
     const Real height = dot_product(direction, surface->face);
     const Real3 outward = difference(direction, scaled3(2.0f * height, surface->face));
     const Real3 turned = choose3(height < 0.0f, outward, direction);
-    const Heading heading = {turned, false};
+    Heading heading = {turned, false};
     const Real sine = fabs(dot_product(surface->face, turned));
     const Real3 point = point_left(tracer, surface, &heading, sine, active);
-    return (Ray){point, turned, surface->id, surface->index, RAY_REFLECTED, active};
+    return (Ray){point, heading.to, surface->id, surface->index, RAY_REFLECTED, active};
 }
 
 #endif

@@ -127,23 +127,26 @@ static inline Sides OVERLOAD sides_exchanged(Mask exchange, Sides sides)
     return (Sides){exchange ? sides.back : sides.front, exchange ? sides.front : sides.back};
 }
 
-// Returns whether a ray that leaves its own triangle stops on another that its line hits within
-// rounding of the ray's start. The relative position of the triangles decides, seen from both:
+// Returns whether a ray that leaves its own triangle certainly stops on another that its line hits
+// within rounding of the ray's start. The relative position of the triangles decides, seen from
+// both:
 //  - The other triangle is ahead if it is on the side of the own plane to which the ray leaves. It
 //    is not ahead if it is on the opposite side.
 //  - The ray starts on the own triangle. The other is ahead if the own triangle is on the side of
 //    the other's plane that the ray comes from. It is not ahead if the own is on the opposite side.
-// A ray does not hit coplanar neighbors. If the triangles cross, only rounding could decide; a ray
-// that stops then does not leave a closed shape.
+// A ray does not hit coplanar neighbors. `cross` receives the lanes in which the triangles lie on
+// both sides of each other's planes. There the order along the ray decides (order.cl).
 static inline Mask OVERLOAD hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
-                                          Mask from_back)
+                                          Mask from_back, Mask *cross)
 {
     const Real3 ab = difference(own->b, own->a), ac = difference(own->c, own->a);
     const Mask downward = dot_product(cross_product(ab, ac), direction) < 0.0f;
     const Sides neighbor = sides_exchanged(downward, sides_of(own, other));
     const Sides start = sides_exchanged(from_back, sides_of(other, own));
     const Mask behind = (neighbor.back && !neighbor.front) || (start.back && !start.front);
-    return (neighbor.front || start.front) && !behind;
+    const Mask ahead = (neighbor.front && !neighbor.back) || (start.front && !start.back);
+    *cross = (neighbor.front || start.front) && !ahead && !behind;
+    return ahead && !behind;
 }
 
 // The state of a ray that leaves a surface, beside its direction.
@@ -151,6 +154,7 @@ typedef struct {
     Real3 point;  // of the surface
     Mask front;   // it comes from the triangle's stored front
     Mask inner;   // it comes from the back of the mesh's triangle
+    Real behind;  // how far the start may be beyond a triangle that stops the ray
     float length; // as a distance t: 1 up to a light, else INFINITY
     float blur;   // error of the point, as in height_over: 0 for the eye, which is stored
 } SurfaceRay;
@@ -161,7 +165,8 @@ typedef struct {
 // is certainly on the side that the ray comes from. On the inner side, which only two-sided
 // triangles show, this is also true of convex neighbors. There t must be certain, too, except for
 // the eye, which is on no surface. A triangle on which the light lies, within the error of t, does
-// not shadow the ray. in_doubt receives the lanes whose rays may pass only because of rounding.
+// not shadow the ray. in_doubt receives the lanes whose rays may pass only because of rounding. In
+// a valley, rounding can also put the start beyond the neighbor that stops the ray.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Mask *in_doubt)
 {
@@ -170,6 +175,7 @@ static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const S
     const Real above = height_over(corners, ray->point, ray->blur);
     const Real height = ray->front ? above : -above; // on the ray's side
     const Mask beyond = height > 0.0f && (clear || !ray->inner);
-    *in_doubt = ahead && !beyond && height >= 0.0f;
+    const Mask may_stop = t > -error - ray->behind && t < ray->length - error;
+    *in_doubt = may_stop && !(ahead && beyond) && height >= 0.0f;
     return ahead && beyond ? max(t, (Real)(0.0f)) : INFINITY;
 }

@@ -5,8 +5,7 @@
 // triangle.inc.cl accepts hits, so both searches find the same hits.
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
-#include "fetch.cl"
-#include "search.cl"
+#include "order.cl"
 #include "wide_stack.cl"
 
 #if CLRT_WIDE_NODES
@@ -129,21 +128,29 @@ static inline Wide3 splat3(const Real3 *v, uint lane)
 // Returns which triangles of the block stop the lane's ray, among the triangles that its line hits
 // within rounding of its start.
 static NOT_INLINE int8 block_neighbors(const WideCorners *corners, const Search *search, uint lane,
-                                       int8 from_back)
+                                       uint first, int8 from_back)
 {
     const Ray *ray = search->ray;
     if (lane_uint(&ray->own_index, lane) == NOTHING)
         return 0;
     const Corners owns = fetch_corners(search->tracer, (UInt)(lane_uint(&ray->own_index, lane)));
     const WideCorners own = {splat3(&owns.a, 0), splat3(&owns.b, 0), splat3(&owns.c, 0)};
-    return hits_neighbor(&own, corners, splat3(&ray->direction, lane), from_back);
+    int8 cross;
+    int8 stops = hits_neighbor(&own, corners, splat3(&ray->direction, lane), from_back, &cross);
+    for (uint bits = lane_bits(cross); bits != 0; bits &= bits - 1) {
+        const uint place = lowest_bit(bits);
+        const Mask ahead = is_ahead(search->tracer, ray, (UInt)(first + place));
+        ((int *)&stops)[place] = (lane_bits(ahead) >> lane & 1) != 0 ? -1 : 0;
+    }
+    return stops;
 }
 
 // Returns the distances of the triangles that stop the ray, INFINITY for the others. Distances of
 // camera rays may be beyond `reach`.
-static inline float8 block_distances(global const TriangleBlock *block, const Search *search,
-                                     uint lane, const BlockTest *test, float reach)
+static inline float8 block_distances(const BlockPlace *start, const Search *search, uint lane,
+                                     const BlockTest *test, float reach)
 {
+    global const TriangleBlock *block = start->block;
     const Ray *ray = search->ray;
     const WideShear *shear = &test->shear;
     const uint8 id = vload8(0, block->id);
@@ -167,8 +174,9 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     const float8 error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
     const WideCorners corners = {block_corner(block, 0), block_corner(block, 1),
                                  block_corner(block, 2)};
-    const WideSurfaceRay surface = {splat3(&ray->origin, lane), front, inner, length_of_ray(ray),
-                                    blur_of(ray)};
+    const WideSurfaceRay surface = {
+        splat3(&ray->origin, lane), front,       inner, lane_real(&search->behind, lane),
+        length_of_ray(ray),         blur_of(ray)};
     int8 in_doubt;
     const float8 distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
     if (ray->kind == RAY_CAMERA)
@@ -176,23 +184,36 @@ static inline float8 block_distances(global const TriangleBlock *block, const Se
     in_doubt = in_doubt && near;
     if (lane_bits(in_doubt) == 0)
         return near ? distance : INFINITY;
-    const int8 stops = block_neighbors(&corners, search, lane, !front);
+    const int8 stops = block_neighbors(&corners, search, lane, start->index, !front);
     return near ? (in_doubt && stops ? max(t, 0.0f) : distance) : INFINITY;
 }
 
-// Records the nearest distance if it precedes the lane's hit, and returns whether it does.
-static inline bool update_lane_hit(const float8 *distances, const BlockPlace *start, uint lane,
-                                   Hit *hits)
+// triangle_is_nearer for one lane.
+static NOT_INLINE bool lane_triangle_is_nearer(const Search *search, uint lane, uint id, uint index,
+                                               const Hit *hits)
 {
+    const Mask lanes = lanes_of(1u << lane);
+    const Mask nearer = triangle_is_nearer(search, (UInt)(id), (UInt)(index), hits, lanes);
+    return (lane_bits(nearer) >> lane & 1) != 0;
+}
+
+// Records the nearest distance if it precedes the lane's hit, and returns whether it does.
+static inline bool update_lane_hit(const float8 *distances, const BlockPlace *start,
+                                   const Search *search, uint lane, Hit *hits)
+{
+    const float tie = lane_real(&search->tie, lane), limit = lane_real(&search->limit, lane);
     float *best_t = (float *)&hits->t + lane;
     uint *best_id = (uint *)&hits->id + lane, *best_index = (uint *)&hits->index + lane;
-    uint candidates = lane_bits(*distances <= *best_t && *distances < INFINITY);
+    uint candidates = lane_bits(*distances <= *best_t + tie && *distances < INFINITY);
     bool changed = false;
     for (; candidates != 0; candidates &= candidates - 1) {
         const uint place = lowest_bit(candidates);
         const float t = ((const float *)distances)[place];
         const uint id = start->block->id[place] & ~TRIANGLE_MARKS;
-        if (t < *best_t || (t == *best_t && id < *best_id)) {
+        bool precedes = t < *best_t || (t == *best_t && id < *best_id);
+        if (fabs(t - *best_t) <= tie && t < limit && *best_t < limit)
+            precedes = lane_triangle_is_nearer(search, lane, id, start->index + place, hits);
+        if (precedes) {
             *best_t = t;
             *best_id = id;
             *best_index = start->index + place;
@@ -218,9 +239,9 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     test.inside = edges_contain(&test.edges);
     if (lane_bits(test.inside) == 0)
         return false;
-    const float reach = lane_real(&hits->t, lane);
-    const float8 distances = block_distances(block, search, lane, &test, reach);
-    return update_lane_hit(&distances, start, lane, hits);
+    const float reach = lane_real(&hits->t, lane) + lane_real(&search->tie, lane);
+    const float8 distances = block_distances(start, search, lane, &test, reach);
+    return update_lane_hit(&distances, start, search, lane, hits);
 }
 
 // Returns whether the scene probably exceeds the caches. Prefetching makes other scenes 7 % slower.

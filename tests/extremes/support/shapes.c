@@ -4,6 +4,9 @@
 
 #include "base/vec.h"
 #include "check.h"
+#include "mesh/edges.h"
+
+#include <string.h>
 
 Mesh shape_unfilled(size_t vertices, size_t triangles)
 {
@@ -195,6 +198,66 @@ Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c)
     shape_set_vertex(&mesh, 2, c);
     put_triangle(&mesh, 0, 0, 1, 2);
     return mesh;
+}
+
+// Numbers the fans of the mesh in fans.parents, and returns their count.
+static uint32_t find_fans(Fans *fans, const Mesh *mesh, Weld *weld)
+{
+    Edges edges;
+    Edge edge = {0};
+    Error error = {0};
+    require(weld_make(weld, mesh, &error) && edges_make(&edges, mesh, weld, &error) &&
+                fans_make(fans, mesh, weld, &error),
+            &error);
+    while (edges_next(&edges, &edge)) {
+        assert_int_equal(edge.count, 2);
+        fans_join(fans, edge.low, edge.sides[0].triangle, edge.sides[1].triangle);
+        fans_join(fans, edge.sides->high, edge.sides[0].triangle, edge.sides[1].triangle);
+    }
+    edges_free(&edges);
+    return fans_number(fans);
+}
+
+// Returns the mean of the points around a fan.
+static Vec3 middle_of_fan(const Mesh *mesh, uint32_t fan)
+{
+    Vec3 sum = {0};
+    double count = 0;
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
+        for (size_t other = 1; mesh->triangles[i / 3][i % 3] == fan && other < 3; other++) {
+            sum = vec3_add(sum, shape_vertex(mesh, mesh->triangles[i / 3][(i + other) % 3]));
+            count++;
+        }
+    return vec3_scale(sum, 1 / count);
+}
+
+Mesh shape_apart(const Mesh *mesh)
+{
+    Fans fans;
+    Weld weld;
+    const uint32_t count = find_fans(&fans, mesh, &weld);
+    Mesh apart = shape_unfilled(count, mesh->triangle_count);
+    uint32_t *first = require_memory(mesh->vertex_count, sizeof *first); // fan at each point
+    memset(first, 0xff, mesh->vertex_count * sizeof *first);
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+        const uint32_t vertex = mesh->triangles[i / 3][i % 3];
+        apart.triangles[i / 3][i % 3] = fans.parents[i];
+        shape_set_vertex(&apart, fans.parents[i], shape_vertex(mesh, vertex));
+    }
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
+        uint32_t *const known = &first[weld.points[mesh->triangles[i / 3][i % 3]]];
+        const uint32_t fan = fans.parents[i];
+        *known = *known == WELD_UNUSED ? fan : *known;
+        const Vec3 here = shape_vertex(&apart, fan), there = shape_vertex(&apart, *known);
+        if (fan != *known && vec3_extent(vec3_sub(here, there)) == 0)
+            shape_set_vertex(
+                &apart, fan,
+                vec3_add(vec3_scale(here, 0.95), vec3_scale(middle_of_fan(&apart, fan), 0.05)));
+    }
+    free(first);
+    free(fans.parents);
+    weld_free(&weld);
+    return apart;
 }
 
 void shape_add(Scene *scene, Mesh mesh, uint32_t material)

@@ -62,6 +62,11 @@ Mesh shape_soup(Random *random, uint32_t count, double size);
 
 Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c);
 
+// Returns a closed mesh without points in which it touches itself. All but one of the parts that
+// meet in such a point are moved toward their middles by a twentieth of their size. The result has
+// no normals.
+Mesh shape_apart(const Mesh *mesh);
+
 // Adds mesh as a two-sided object. The scene then owns the mesh.
 void shape_add(Scene *scene, Mesh mesh, uint32_t material);
 

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Orders triangles that a ray hits at almost equal distances. The edge tests decide exactly about
+// the sheared corners (triangle.inc.cl). Neighbors share these corners, so the triangles that a ray
+// hits form one surface, which differs from the stored one by the corners' rounding. A Nearness is
+// the distance to this surface with twice the bits of t. It depends only on the ray and on the
+// triangle's corners. docs/numerics.md proves that rays then stay inside closed surfaces.
+#ifndef CLRT_ORDER_CL
+#define CLRT_ORDER_CL
+#include "fetch.cl"
+#include "search.cl"
+
+// Where the ray hits an edge or a corner exactly, all triangles there have the same t. The ray then
+// hits the triangle that is the nearest a little beside the ray.
+typedef struct {
+    TwoFloat t;
+    Real lowest; // at a corner: the least slope of t away from the ray in the triangle; else 0
+    Real slope;  // of t across the edge, into the triangle; 0 if the ray hits no edge exactly
+} Nearness;
+
+static inline TwoFloat two_product(Real a, Real b)
+{
+    const Real product = a * b;
+    return (TwoFloat){product, fma(a, b, -product)};
+}
+
+static inline TwoFloat two_difference_of_products(Real a, Real b, Real c, Real d)
+{
+    return two_add(two_product(a, b), two_negate(two_product(c, d)));
+}
+
+static inline TwoFloat two_quotient(TwoFloat a, TwoFloat b)
+{
+    const Real high = a.high / b.high;
+    const TwoFloat rest = two_add(a, two_negate(two_scale(b, high)));
+    return two_sum_ordered(high, rest.high / b.high);
+}
+
+// Returns the depth at which the axis hits the edge. It depends only on the edge's ends, which the
+// host sorts, so all triangles at this edge get the same bits.
+static inline TwoFloat edge_depth(Real3 first, Real3 second)
+{
+    const Mask by_x = fabs(second.x - first.x) >= fabs(second.y - first.y);
+    const Real f = by_x ? first.x : first.y, s = by_x ? second.x : second.y;
+    return two_quotient(two_difference_of_products(second.z, f, first.z, s), two_sum(f, -s));
+}
+
+static inline TwoFloat inner_depth(const Corners *s)
+{
+    const TwoFloat u = two_difference_of_products(s->c.x, s->b.y, s->c.y, s->b.x);
+    const TwoFloat v = two_difference_of_products(s->a.x, s->c.y, s->a.y, s->c.x);
+    const TwoFloat w = two_difference_of_products(s->b.x, s->a.y, s->b.y, s->a.x);
+    const TwoFloat depths =
+        two_add(two_add(two_scale(u, s->a.z), two_scale(v, s->b.z)), two_scale(w, s->c.z));
+    return two_quotient(depths, two_add(two_add(u, v), w));
+}
+
+// Returns how fast the depth grows from the edge toward the third corner, across the edge.
+static inline Real slope_across(Real3 first, Real3 second, Real3 third)
+{
+    const Real x = second.x - first.x, y = second.y - first.y, squared = fma(x, x, y * y);
+    const Real to_x = third.x - first.x, to_y = third.y - first.y;
+    const Real along = fma(to_x, x, to_y * y) / squared;
+    const Real rise = (third.z - first.z) - along * (second.z - first.z);
+    return rise * sqrt(squared) / fabs(difference_of_products(to_x, y, to_y, x));
+}
+
+static inline Real slope_along(Real3 first, Real3 second)
+{
+    const Real x = second.x - first.x, y = second.y - first.y;
+    return (second.z - first.z) / sqrt(fma(x, x, y * y));
+}
+
+// Returns the least slope from the corner `first` into the triangle: of an edge or, if it lies
+// between the edges, of the steepest way down.
+static inline Real slope_around(Real3 first, Real3 second, Real3 third)
+{
+    const Real3 p = difference(second, first), q = difference(third, first);
+    const Real area = difference_of_products(p.x, q.y, p.y, q.x);
+    const Real x = difference_of_products(q.z, p.y, p.z, q.y) / area;
+    const Real y = difference_of_products(p.z, q.x, q.z, p.x) / area;
+    const Mask between = (p.x * y - p.y * x) * area > 0.0f && (x * q.y - y * q.x) * area > 0.0f;
+    const Real least = min(slope_along(first, second), slope_along(first, third));
+    return between ? -sqrt(fma(x, x, y * y)) : least;
+}
+
+static inline Corners corners_chosen(Mask first, const Corners *a, const Corners *b)
+{
+    return (Corners){choose3(first, a->a, b->a), choose3(first, a->b, b->b),
+                     choose3(first, a->c, b->c)};
+}
+
+// Returns the corners in another order. A ray that hits an edge exactly hits the one from a to b,
+// which are in the host's order. A ray that hits a corner exactly hits a.
+static inline Corners corners_from_edge(const Corners *s, const Edges *edges, Mask *at_corner)
+{
+    const Mask on_u = edges->u == 0.0f, on_v = edges->v == 0.0f, on_w = edges->w == 0.0f;
+    const Corners on_bc = {s->b, s->c, s->a}, on_ac = {s->a, s->c, s->b}, at_c = {s->c, s->a, s->b};
+    const Corners on_v_or_w = corners_chosen(on_v, &on_ac, s);
+    const Corners on_any = corners_chosen(on_u, &on_bc, &on_v_or_w);
+    *at_corner = (on_u && (on_v || on_w)) || (on_v && on_w);
+    return corners_chosen(on_u && on_v, &at_c, &on_any);
+}
+
+static inline TwoFloat depth_of_hit(const Corners *s, const Corners *from_edge, Mask on_edge,
+                                    Mask at_corner)
+{
+    const TwoFloat corner = {from_edge->a.z, 0.0f};
+    const TwoFloat edge = edge_depth(from_edge->a, from_edge->b);
+    return two_choose(at_corner, corner, two_choose(on_edge, edge, inner_depth(s)));
+}
+
+static NOT_INLINE Nearness nearness_of(const Tracer *tracer, const Ray *ray, UInt index)
+{
+    const ShearAxes axes = shear_axes(ray->direction);
+    const Shear shear = shear_along(ray->direction, &axes);
+    const Corners corners = fetch_corners(tracer, index);
+    const Corners relative = {axes_ordered(difference(corners.a, ray->origin), &axes),
+                              axes_ordered(difference(corners.b, ray->origin), &axes),
+                              axes_ordered(difference(corners.c, ray->origin), &axes)};
+    const Corners s = corners_sheared(&relative, &shear);
+    const Edges edges = edges_of(&s);
+    const Mask on_edge = edges.u == 0.0f || edges.v == 0.0f || edges.w == 0.0f;
+    Mask at_corner;
+    Corners e = corners_from_edge(&s, &edges, &at_corner);
+    Nearness nearness;
+    nearness.t = two_scale(depth_of_hit(&s, &e, on_edge, at_corner), shear.inverse_z);
+    e.a.z *= shear.inverse_z; // for slopes of t
+    e.b.z *= shear.inverse_z;
+    e.c.z *= shear.inverse_z;
+    const Corners exchanged = {e.a, e.c, e.b};
+    const Mask lower = at_corner && slope_along(e.a, e.c) < slope_along(e.a, e.b);
+    e = corners_chosen(lower, &exchanged, &e);
+    nearness.lowest = at_corner ? slope_around(e.a, e.b, e.c) : 0.0f;
+    nearness.slope = on_edge ? slope_across(e.a, e.b, e.c) : 0.0f;
+    return nearness;
+}
+
+// Returns whether a is nearer than b. `else_nearer` decides between equals.
+static inline Mask is_nearer(const Nearness *a, const Nearness *b, Mask else_nearer)
+{
+    const Mask same_high = a->t.high == b->t.high;
+    const Mask same_t = same_high && a->t.low == b->t.low;
+    const Mask by_slope = a->slope < b->slope || (a->slope == b->slope && else_nearer);
+    const Mask by_lowest = a->lowest < b->lowest || (a->lowest == b->lowest && by_slope);
+    return a->t.high < b->t.high || (same_high && a->t.low < b->t.low) || (same_t && by_lowest);
+}
+
+// Returns whether the ray hits a triangle after it leaves its own.
+static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index)
+{
+    const Mask known = ray->own_index != NOTHING;
+    const Nearness own = nearness_of(tracer, ray, known ? ray->own_index : index);
+    const Nearness other = nearness_of(tracer, ray, index);
+    return is_nearer(&own, &other, 0);
+}
+
+// Returns whether a triangle precedes the best hit, which is a triangle, too.
+static NOT_INLINE Mask triangle_is_nearer(const Search *search, UInt id, UInt index,
+                                          const Hit *best, Mask lanes)
+{
+    const Nearness other = nearness_of(search->tracer, search->ray, index);
+    const Nearness nearest = nearness_of(search->tracer, search->ray, lanes ? best->index : index);
+    return is_nearer(&other, &nearest, id < best->id);
+}
+
+// Returns the lanes in which nearness decides between a triangle at t and the best hit. Only
+// triangles in front of the nearest sphere count.
+static inline Mask is_close(const Search *search, Real t, const Hit *best)
+{
+    return fabs(t - best->t) <= search->tie && t < search->limit && best->t < search->limit;
+}
+
+#endif
