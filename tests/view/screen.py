@@ -171,11 +171,11 @@ class Window:
 
 
 def render(scene, *options, size=(320, 240)):
-    """Returns the picture of -o as bytes of blue, green and red, rounded as in 8-bit files."""
+    """Returns the picture of -o with one sample per pixel as bytes of blue, green and red, rounded as in 8-bit files."""
     with tempfile.TemporaryDirectory() as folder:
         path = f"{folder}/picture.pfm"
         subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", f"{size[0]}x{size[1]}",
-                        "-o", path, *options], check=True)
+                        "--aa=1", "-o", path, *options], check=True)
         pixels = bytes(int(value * 255 + 0.5) for row in read_pfm(path) for value in row)
         return pixels[2::3], pixels[1::3], pixels[0::3]
 
