@@ -102,7 +102,7 @@ class Inputs(Work):
 
     def test_files_that_change_during_the_run_are_read_once(self):
         ended = threading.Event()
-        scenes = [SCENE.format(size, "mesh.ply").encode() for size in (16, 200, 64)]
+        scenes = [SCENE.format(size, "mesh.ply").encode() for size in (48, 200, 64)]
         self.write(mesh_ply=MESHES[0], file_scn=scenes[0])
 
         def change():
