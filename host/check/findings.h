@@ -23,12 +23,12 @@ typedef struct {
     Scene scene;
     Normalization normalization;
     Census census;
-    Device device;      // may be closed if leaks is NULL
-    LeakCount *leaks;   // by object; NULL if no rays were traced; owned
-    Error frame_fault;  // why the scene cannot be drawn; empty if it can
-    Error device_fault; // why rays could not be traced; empty otherwise
+    Device device;           // may be closed if leaks is NULL
+    LeakCount *leaks;        // by object; NULL if no rays were traced; owned
+    Error frame_fault;       // why the scene cannot be drawn; empty if it can
+    Error device_fault;      // why rays could not be traced; empty otherwise
     ARRAY(Finding) findings; // in the order of the objects, then those of the scene
-    bool is_cut; // memory ran out, so findings are missing
+    bool is_cut;             // memory ran out, so findings are missing
     double seconds;
 } Check;
 

@@ -52,7 +52,7 @@ static void live_within_limits(uint64_t bytes)
     confine_add_time(bytes);
     mallopt(M_ARENA_MAX, 1);
     confine_resource(RLIMIT_AS, confine_mapped_memory() + values +
-                                    processors_usable() * MEMORY_PER_THREAD + MEMORY_LEAST);
+                                    processors_present() * MEMORY_PER_THREAD + MEMORY_LEAST);
     dup2(STDOUT_FILENO, STDERR_FILENO); // decoders print warnings
 }
 

@@ -29,6 +29,8 @@ REFUSALS = [
     (3, "inf.pfm: R of pixel 1,0 is not finite", ["compare", "inf.pfm", "a.pfm"]),
     (3, "vast: cannot be read: 65536 x 65536 pixels of 3 channels are too many", ["compare", "vast", "vast"]),
     (3, "hollow: cannot be read: it ends early", ["compare", "hollow", "hollow"]),
+    (3, "wide: cannot be read: 60000 x 5000 pixels of 3 channels are too many for so small a file",
+     ["compare", "wide", "wide"]),
     (5, "none/map.png: cannot be written: No such file or directory", [*BOTH, "-o", "none/map.png"]),
     (5, "/dev/full: cannot be written: No space left on device", [*BOTH, "--json=/dev/full"]),
 ]
@@ -89,7 +91,7 @@ class Rows(SharedWork):
 
     def test_refusals(self):
         os.mkfifo(self.work / "pipe")
-        self.write(vast="PF\n65536 65536\n-1.0\n", hollow="PF\n60000 5000\n-1.0\n")
+        self.write(vast="PF\n65536 65536\n-1.0\n", hollow="PF\n6000 5000\n-1.0\n", wide="PF\n60000 5000\n-1.0\n")
         for code, sentence, words in REFUSALS:
             self.refuses(code, sentence, *words)
 
