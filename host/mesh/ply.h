@@ -14,9 +14,9 @@
 // vertex x y z nx ny nz and the list vertex_indices (or vertex_index) of face and tristrips, and
 // skips all other elements and properties. Polygons become fans of triangles. Triangles with two
 // equal corners are dropped and counted. Returns false on truncated, inconsistent, non-finite or
-// out-of-range data, and if a file without triangles has elements that the parser skips. The message
-// gives the line or, in a binary body, the byte offset. The parser allocates elements only if the
-// file is long enough for them.
+// out-of-range data, and if a file without triangles has elements that the parser skips. The
+// message gives the line or, in a binary body, the byte offset. The parser allocates elements only
+// if the file is long enough for them.
 typedef bool PlyParse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error);
 PlyParse ply_parse;
 
