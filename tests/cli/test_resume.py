@@ -316,7 +316,7 @@ class Refusals(Resume):
              "--resume does not go with --aa-adaptive, --error and --time, which refine the picture as a "
              "whole: give --aa"),
         ):
-            self.refuses(2, sentence, *SMALL, "--resume", *words)
+            self.refuses(2, sentence, SCENE, "-s", "61x43", "--resume", *words)
         os.mkfifo(self.work / "pipe.pfm")
         self.refuses(3, "pipe.pfm: cannot be resumed: not a regular file", *SMALL, "--resume", "-o", "pipe.pfm")
 
