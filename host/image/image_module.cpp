@@ -32,13 +32,26 @@ void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
         spec.attribute("ImageDescription", lines);
 }
 
-// Writes an animation of 20 frames per second, as subimages.
+// OpenImageIO 2.5 applies the rate of the writer's previous file.
+void set_frame_rate(OIIO::ImageOutput &output, OIIO::ImageSpec &spec)
+{
+    spec.attribute("FramesPerSecond", 20.0f);
+    OIIO::ImageSpec previous(1, 1, 3, OIIO::TypeDesc::UINT8);
+    previous.extra_attribs = spec.extra_attribs;
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    if (output.supports("ioproxy") && output.set_ioproxy(&memory)) {
+        output.open("unused", previous);
+        output.close();
+    }
+}
+
+// Writes an animation as subimages.
 bool write_frames(OIIO::ImageOutput &output, const OIIO::ImageSpec &whole,
                   const ImageModulePicture &picture)
 {
     OIIO::ImageSpec spec = whole;
     spec.height = spec.full_height = picture.height / picture.frames;
-    spec.attribute("FramesPerSecond", 20.0f);
     const char *pixels = static_cast<const char *>(picture.pixels);
     const std::vector<OIIO::ImageSpec> specs(static_cast<size_t>(picture.frames), spec);
     bool ok = output.open(picture.path, picture.frames, specs.data());
@@ -92,6 +105,8 @@ bool write_picture(const ImageModulePicture &picture, std::string &message)
     spec.attribute("DateTime", "");
     spec.attribute("CompressionQuality", 95);
     describe_origin(spec, picture);
+    if (picture.frames > 0)
+        set_frame_rate(*output, spec);
     errno = 0;
     const bool ok = write_through_memory(*output, spec, picture);
     if (!ok)

@@ -26,6 +26,11 @@ static bool fail(const char *failure, Error *error)
 
 bool window_connect(Error *error)
 {
+#ifdef GLFW_PLATFORM
+    // libwayland would print a message of its own.
+    if (getenv("WAYLAND_DISPLAY") == NULL)
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
     return glfwInit() || fail("no window", error);
 }
 

@@ -122,8 +122,26 @@ static Usage measure(void)
                    count_entries("/proc/self/task")};
 }
 
+// Returns the number of bytes that GLFW and Mesa keep for each connection to the display. Mesa 25
+// never frees the connection's 480 configurations.
+static double bytes_kept_by_drivers(void)
+{
+    const int connections = 5;
+    Usage before = {0};
+    for (int i = 0; i <= connections; i++) {
+        assert_true(glfwInit());
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        assert_non_null(glfwCreateWindow(64, 64, "drivers", NULL, NULL));
+        glfwTerminate();
+        if (i == 0)
+            before = measure();
+    }
+    return ((double)measure().bytes - (double)before.bytes) / connections;
+}
+
 TEST(many_windows_leave_nothing_behind)
 {
+    const double kept_by_drivers = bytes_kept_by_drivers();
     Usage before = {0};
     for (int cycle = 0; cycle < CYCLES; cycle++) {
         show_once(cycle % 2 == 0 ? "" : "rB");
@@ -131,12 +149,12 @@ TEST(many_windows_leave_nothing_behind)
             before = measure();
     }
     const Usage after = measure();
-    const double growth = (double)after.bytes - (double)before.bytes;
-    print_message("%.0f bytes a cycle, %d files, %d threads\n", growth / (CYCLES - 1 - WARMING_UP),
-                  after.files, after.threads);
+    const double growth = ((double)after.bytes - (double)before.bytes) / (CYCLES - 1 - WARMING_UP);
+    print_message("%.0f bytes a cycle, %.0f of them kept by drivers, %d files, %d threads\n",
+                  growth, kept_by_drivers, after.files, after.threads);
     assert_int_equal(after.files, before.files);
     assert_int_equal(after.threads, before.threads);
-    assert_true(growth / (CYCLES - 1 - WARMING_UP) < BYTES_A_CYCLE);
+    assert_true(growth - kept_by_drivers < BYTES_A_CYCLE);
 }
 
 SET_UP(open_cache)
