@@ -8,7 +8,7 @@
 
 typedef struct {
     Program program;
-    cl_kernel handle; // NULL if the ReadyKernel is empty
+    cl_kernel handle;                   // NULL if the ReadyKernel is empty
     uint32_t group_width, group_height; // work-group size of the first run
     double seconds;                     // time spent on making the kernel
     bool was_compiled;                  // by an earlier process, according to the cache
