@@ -15,7 +15,7 @@ BELOW = {
     "compare": ["base", "image"],
     "mesh": ["base"],
     "scene": ["base", "mesh"],
-    "foreign": ["base", "mesh", "scene"],
+    "foreign": ["base", "image", "mesh"],
     "accel": ["base", "mesh", "scene"],
     "device": ["base", "mesh", "scene", "accel"],
     "render": ["base", "mesh", "scene", "accel", "device", "image"],

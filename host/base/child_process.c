@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Starts programs, collects their output, sends and receives messages, and limits this process.
 #include "base/child_process.h"
 
 #include "base/array.h"
@@ -12,14 +11,11 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
-
-#define BYTES_PER_SECOND 2000000 // of a file; slower readers run out of processor time
 
 // Returns the environment with which this process was started, or none without /proc. Reading
 // environ would be unsafe, because OpenCL drivers call setenv in other threads. The strings are in
@@ -62,17 +58,17 @@ static int spawn(pid_t *id, char *const words[], char *const environment[], int 
     return fault;
 }
 
-bool child_spawn(ChildProcess *child, const char *program, const char *argument, Error *cause)
+bool child_spawn(ChildProcess *child, const char *const words[], Error *cause)
 {
     int ends[2]; // the parent's and the child's
     pid_t id = 0;
     File bytes;
-    char *const words[] = {(char *)program, (char *)argument, NULL};
     *child = (ChildProcess){0};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         return error_set(cause, "%s", strerror(errno));
     char **environment = environment_at_start(&bytes, cause);
-    const int fault = environment == NULL ? ENOMEM : spawn(&id, words, environment, ends[1]);
+    const int fault =
+        environment == NULL ? ENOMEM : spawn(&id, (char *const *)words, environment, ends[1]);
     free(environment);
     file_free(&bytes);
     close(ends[1]);
@@ -94,38 +90,6 @@ int child_end(ChildProcess *child)
     close(child->socket);
     *child = (ChildProcess){0};
     return status;
-}
-
-// Signals interrupt transfers, and recv returns the bytes that have arrived. child_send and
-// child_receive therefore loop until all bytes are transferred.
-bool child_send(int socket, const void *bytes, size_t size)
-{
-    const char *next = bytes;
-    while (size > 0) {
-        const ssize_t sent = send(socket, next, size, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR)
-            continue;
-        if (sent <= 0)
-            return false;
-        next += sent;
-        size -= (size_t)sent;
-    }
-    return true;
-}
-
-bool child_receive(int socket, void *bytes, size_t size)
-{
-    char *next = bytes;
-    while (size > 0) {
-        const ssize_t received = recv(socket, next, size, 0);
-        if (received < 0 && errno == EINTR)
-            continue;
-        if (received <= 0)
-            return false;
-        next += received;
-        size -= (size_t)received;
-    }
-    return true;
 }
 
 // Waits for data or for the end of the data (CHILD_DONE), or until the deadline (CHILD_LATE).
@@ -180,46 +144,4 @@ ChildFate child_collect(ChildProcess *child, const ChildLimits *limits, File *ou
     if (*signal != 0)
         return CHILD_CRASHED;
     return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? CHILD_DONE : CHILD_FAILED;
-}
-
-// Ignores failures, because setting a limit only fails if the hard limit is already lower.
-void confine_resource(int resource, rlim_t most)
-{
-    const struct rlimit both = {most, most};
-    setrlimit((__rlimit_resource_t)resource, &both);
-}
-
-const TimeLimits reader_limits = {.processor_seconds = 8, .seconds = 120};
-
-void confine_process(TimeLimits limits)
-{
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    // At the soft limit, the signal is SIGXCPU; at the hard limit, SIGKILL.
-    const struct rlimit time = {limits.processor_seconds, limits.seconds + 1};
-    setrlimit(RLIMIT_CPU, &time);
-    confine_resource(RLIMIT_FSIZE, 0);
-    confine_resource(RLIMIT_CORE, 0);
-    alarm(limits.seconds);
-}
-
-void confine_add_time(uint64_t bytes)
-{
-    struct rlimit time;
-    if (getrlimit(RLIMIT_CPU, &time) != 0 || time.rlim_cur >= time.rlim_max)
-        return;
-    const uint64_t left = time.rlim_max - 1 - time.rlim_cur, more = bytes / BYTES_PER_SECOND;
-    time.rlim_cur += more < left ? more : left;
-    setrlimit(RLIMIT_CPU, &time);
-}
-
-rlim_t confine_mapped_memory(void)
-{
-    unsigned long pages = 0;
-    FILE *stream = fopen("/proc/self/statm", "r");
-    if (stream == NULL || fscanf(stream, "%lu", &pages) != 1)
-        pages = 0;
-    if (stream != NULL)
-        fclose(stream);
-    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Each file is read once and kept in memory, because Assimp opens the model several times to guess
 // its format. Assimp cannot read outside the model's folder, regardless of the paths in a model.
-#include "foreign/model.h"
+#include "foreign/files.h"
 
-#include "base/child_process.h"
+#include "foreign/limits.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -70,8 +70,7 @@ static bool read_regular(File *file, const char *path, Error *error)
     // Rejects pipes and devices, because they may never end.
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return error_set(error, "cannot be read: it is not a file");
-    limits_allow_file((size_t)status.st_size);
-    confine_add_time((uint64_t)status.st_size);
+    limits_allow_file((uint64_t)status.st_size);
     Error cause = {0};
     if (file_read(file, path, &cause))
         return true;

@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: MIT
-// The soft memory limit rises with each file read, up to a hard limit. With the hard limit alone, a
-// short file whose nodes share children could use that much memory.
-#include "foreign/model.h"
+// Memory for models has a soft limit, which rises with each file read, up to a hard limit. With the
+// hard limit alone, a short file whose nodes share children could use that much memory.
+#include "foreign/limits.h"
 
-#include "base/child_process.h"
+#include "base/processors.h"
+#include "image/stored_image.h"
 
+#include <malloc.h>
+#include <signal.h>
+#include <stdio.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
-#define MEMORY_MOST   ((rlim_t)12 << 30)  // bytes beyond the memory already mapped
-#define MEMORY_LEAST  ((rlim_t)256 << 20) // bytes that even the shortest file may use
-#define MEMORY_FACTOR 128                 // bytes of memory per byte of a file
-#define STACK_LIMIT   ((rlim_t)8 << 20)   // bytes; too deep a tree of nodes crashes this process
-#define FILE_LIMIT    32                  // open files
+#define MEMORY_MOST       ((rlim_t)12 << 30)  // bytes beyond the memory already mapped
+#define MEMORY_LEAST      ((rlim_t)256 << 20) // bytes that even the shortest file may use
+#define MEMORY_FACTOR     128                 // bytes of memory per byte of a file
+#define MEMORY_PER_THREAD ((rlim_t)16 << 20)  // bytes; mostly stack
+#define STACK_LIMIT       ((rlim_t)8 << 20) // bytes; too deep a tree of nodes crashes this process
+#define FILE_LIMIT        32                // open files
+#define PROCESSOR_SECONDS 8
+#define SECONDS           120     // of elapsed time
+#define BYTES_PER_SECOND  2000000 // of a file; slower readers run out of processor time
 
 // AddressSanitizer maps more memory than any limit could allow. gcc defines a macro for it; clang
 // has __has_feature.
@@ -19,46 +29,81 @@
 #define __has_feature(name) 0
 #endif
 #if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)
-static void limit_memory(void)
+#define LIMITS_MEMORY false
+#else
+#define LIMITS_MEMORY true
+#endif
+
+// Ignores failures, because setting a limit only fails if the hard limit is already lower.
+static void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard)
 {
+    const struct rlimit both = {soft, hard};
+    if (resource != RLIMIT_AS || LIMITS_MEMORY)
+        setrlimit(resource, &both);
 }
 
-void limits_allow_file(size_t bytes)
+// Raises the soft limit, to less than the hard limit.
+static void raise_limit(__rlimit_resource_t resource, uint64_t more)
 {
-    (void)bytes;
+    struct rlimit now;
+    if (getrlimit(resource, &now) != 0 || now.rlim_cur >= now.rlim_max)
+        return;
+    const rlim_t left = now.rlim_max - 1 - now.rlim_cur;
+    limit(resource, now.rlim_cur + (more < left ? more : left), now.rlim_max);
 }
-#else
+
+void limits_take(void)
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    close_range(STDERR_FILENO + 1, ~0U, 0);
+    // At the soft limit, the signal is SIGXCPU; at the hard limit, SIGKILL.
+    limit(RLIMIT_CPU, PROCESSOR_SECONDS, SECONDS + 1);
+    limit(RLIMIT_FSIZE, 0, 0);
+    limit(RLIMIT_CORE, 0, 0);
+    limit(RLIMIT_NOFILE, FILE_LIMIT, FILE_LIMIT);
+    limit(RLIMIT_STACK, STACK_LIMIT, STACK_LIMIT);
+    alarm(SECONDS);
+}
+
+// Returns the bytes mapped into this process so far, or 0 if the system does not report them.
+static rlim_t mapped_memory(void)
+{
+    unsigned long pages = 0;
+    FILE *stream = fopen("/proc/self/statm", "r");
+    if (stream == NULL || fscanf(stream, "%lu", &pages) != 1)
+        pages = 0;
+    if (stream != NULL)
+        fclose(stream);
+    return (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE);
+}
+
 static rlim_t smaller(rlim_t a, rlim_t b)
 {
     return a < b ? a : b;
 }
 
 // Limits memory to at most 3/4 of the machine's, because other processes need some.
-static void limit_memory(void)
+void limits_take_model(void)
 {
     const rlim_t machine = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE);
-    const rlim_t most = smaller(machine / 4 * 3, MEMORY_MOST), mapped = confine_mapped_memory();
-    const struct rlimit now = {mapped + smaller(MEMORY_LEAST, most), mapped + most};
-    setrlimit(RLIMIT_AS, &now);
+    const rlim_t most = smaller(machine / 4 * 3, MEMORY_MOST), mapped = mapped_memory();
+    limit(RLIMIT_NPROC, 0, 0);
+    limit(RLIMIT_AS, mapped + smaller(MEMORY_LEAST, most), mapped + most);
 }
 
-void limits_allow_file(size_t bytes)
+void limits_allow_file(uint64_t bytes)
 {
-    struct rlimit now;
-    if (getrlimit(RLIMIT_AS, &now) != 0)
-        return;
-    const rlim_t left = now.rlim_max - now.rlim_cur;
-    now.rlim_cur += bytes < left / MEMORY_FACTOR ? bytes * MEMORY_FACTOR : left;
-    setrlimit(RLIMIT_AS, &now);
+    raise_limit(RLIMIT_CPU, bytes / BYTES_PER_SECOND);
+    raise_limit(RLIMIT_AS, bytes < MEMORY_MOST ? bytes * MEMORY_FACTOR : MEMORY_MOST);
 }
-#endif
 
-void limits_take(void)
+// Decoders need memory for the values and about as much for themselves. Each thread reserves some.
+void limits_take_picture(uint64_t bytes)
 {
-    close_range(STDERR_FILENO + 1, ~0U, 0);
-    confine_process(reader_limits);
-    confine_resource(RLIMIT_NPROC, 0);
-    confine_resource(RLIMIT_NOFILE, FILE_LIMIT);
-    confine_resource(RLIMIT_STACK, STACK_LIMIT);
-    limit_memory();
+    const rlim_t most = mapped_memory() + 2 * sizeof(float) * stored_values_most(bytes) +
+                        processors_present() * MEMORY_PER_THREAD + MEMORY_LEAST;
+    mallopt(M_ARENA_MAX, 1);
+    raise_limit(RLIMIT_CPU, bytes / BYTES_PER_SECOND);
+    limit(RLIMIT_AS, most, most);
 }

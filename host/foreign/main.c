@@ -1,11 +1,37 @@
 // SPDX-License-Identifier: MIT
-// clrt-foreign PATH: reads one model with Assimp and writes it to standard output in the format of
-// mesh/foreign_stream.h. Only clrt and its library run this program.
-#include "foreign/model.h"
+// clrt-foreign MODEL: reads a model with Assimp. clrt-foreign PICTURE FORMAT MODULE: reads a
+// picture with OpenImageIO. Both write records (base/foreign.h) to standard output. Only clrt and
+// its library run this program.
+#include "foreign/limits.h"
+#include "foreign/picture.h"
+#include "foreign/send.h"
 
 #include <fcntl.h>
 #include <stdlib.h>
 #include <unistd.h>
+
+#ifdef CLRT_WITH_ASSIMP
+#include "foreign/model.h"
+
+// The path always includes a folder, so that Assimp searches that folder for companion files.
+static bool send_model(FILE *stream, const char *name, Error *error)
+{
+    Files files;
+    char *path = file_path_beside("./", name, error);
+    if (path == NULL)
+        return false;
+    limits_take_model();
+    files_init(&files, path);
+    return model_send(stream, &files, error);
+}
+#else
+static bool send_model(FILE *stream, const char *name, Error *error)
+{
+    (void)stream, (void)name;
+    return error_set(error, "this build reads only PLY meshes, because it lacks Assimp; add it: "
+                            "tools/setup meshes && tools/render SCENE");
+}
+#endif
 
 // Redirects standard output to /dev/null, because importers print to it. Returns a stream for the
 // original standard output.
@@ -19,20 +45,13 @@ static FILE *take_output(void)
 
 int main(int count, char **arguments)
 {
-    Files files;
     Error error = {0};
-    if (count != 2)
-        return EXIT_FAILURE;
     limits_take();
     FILE *stream = take_output();
-    if (stream == NULL)
+    if (stream == NULL || (count != 2 && count != 4))
         return EXIT_FAILURE;
-    // The path always includes a folder, so that Assimp searches that folder for companion files.
-    char *path = file_path_beside("./", arguments[1], &error);
-    if (path == NULL)
-        return EXIT_FAILURE;
-    files_init(&files, path);
-    if (!model_send(stream, &files, &error))
+    if (count == 2 ? !send_model(stream, arguments[1], &error)
+                   : !picture_send(stream, arguments + 1, &error))
         send_text(stream, FOREIGN_FAILURE, "%s", error.text);
     // The end of the process closes the stream.
     _exit(fflush(stream) == 0 ? EXIT_SUCCESS : EXIT_FAILURE);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Copies material values from Assimp without checks. The receiver clamps them.
-#include "foreign/model.h"
+#include "foreign/materials.h"
 
 #include <stdio.h>
 #include <string.h>

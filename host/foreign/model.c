@@ -2,6 +2,9 @@
 // Reads the model with Assimp, and sends its files, its parts and a note about omitted parts.
 #include "foreign/model.h"
 
+#include "foreign/parts.h"
+#include "foreign/send.h"
+
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Walks the tree of nodes and multiplies their matrices in fp64. An identity leaves coordinates
 // unchanged. A mirroring matrix reverses the corner order, so that fronts stay fronts.
-#include "foreign/model.h"
+#include "foreign/parts.h"
 
 #include "base/limits.h"
+#include "foreign/materials.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes records, each a head and data.
-#include "foreign/model.h"
+#include "foreign/send.h"
 
 #include "mesh/ply.h"
 
@@ -8,7 +7,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-static void send_head(FILE *stream, ForeignKind kind, uint32_t number, size_t size)
+void send_head(FILE *stream, ForeignKind kind, uint32_t number, size_t size)
 {
     const ForeignHead head = {.kind = kind, .number = number, .size = size};
     fwrite(&head, sizeof head, 1, stream);

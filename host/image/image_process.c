@@ -1,40 +1,25 @@
 // SPDX-License-Identifier: MIT
-// A child process with limited resources reads the file and sends a header and the values, or a
-// header with a message. The parent validates every field of the header.
+// clrt-foreign reads the file and sends a picture or a message. The parent validates both.
 #include "image/image_process.h"
 
-#include "base/child_process.h"
-#include "base/processors.h"
+#include "base/foreign.h"
 
 #include <dlfcn.h>
-#include <malloc.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#define MEMORY_LEAST      ((rlim_t)256 << 20) // bytes beyond the memory already mapped
-#define MEMORY_PER_THREAD ((rlim_t)16 << 20)  // bytes; mostly stack
-
-// The header that the child sends, followed by the values if ok.
-typedef struct {
-    int ok;
-    char message[512];
-    ImageModuleContent content; // its pointers are valid only in the child
-} Head;
-
-_Static_assert(STORED_CHANNELS_MAX == IMAGE_MODULE_CHANNELS &&
-                   STORED_NAME_SIZE == IMAGE_MODULE_NAME_SIZE &&
-                   STORED_TEXTS == IMAGE_MODULE_TEXTS && STORED_TEXT_SIZE == IMAGE_MODULE_TEXT_SIZE,
-               "names and texts are copied whole");
+static bool find_module(char path[COMPANION_PATH_SIZE], Error *cause)
+{
+    return file_companion(path, CLRT_IMAGE_MODULE, CLRT_IMAGE_MODULE_FOLDER) ||
+           error_set(cause,
+                     "the picture module cannot be found: /proc does not show where clrt is");
+}
 
 ModuleFunction *open_module(const char *name, Error *cause)
 {
     char path[COMPANION_PATH_SIZE];
-    if (!file_companion(path, CLRT_IMAGE_MODULE, CLRT_IMAGE_MODULE_FOLDER)) {
-        error_set(cause, "the picture module cannot be found: /proc does not show where clrt is");
+    if (!find_module(path, cause))
         return NULL;
-    }
     void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     ModuleFunction *function = NULL;
     if (module != NULL)
@@ -44,92 +29,66 @@ ModuleFunction *open_module(const char *name, Error *cause)
     return function;
 }
 
-// Decoders need memory for the values and about as much for themselves. Each thread reserves some.
-static void live_within_limits(uint64_t bytes)
+static bool take_failure(File *stream, const ForeignHead *head, Error *cause)
 {
-    const rlim_t values = 2 * sizeof(float) * stored_values_most(bytes);
-    confine_process(reader_limits);
-    confine_add_time(bytes);
-    mallopt(M_ARENA_MAX, 1);
-    confine_resource(RLIMIT_AS, confine_mapped_memory() + values +
-                                    processors_present() * MEMORY_PER_THREAD + MEMORY_LEAST);
-    dup2(STDOUT_FILENO, STDERR_FILENO); // decoders print warnings
+    char *text = stream->bytes + sizeof *head;
+    foreign_make_printable(text, head->size, '?');
+    return error_set(cause, "%.*s", (int)head->size, text);
 }
 
-static void serve(int socket, const void *context)
+static bool take_head(StoredImage *image, const File *stream, uint64_t most, Error *cause)
 {
-    const ImageRequest *request = context;
-    Error failure = {0};
-    Head head = {.content = {.values_max = stored_values_most(request->bytes),
-                             .text_names = stored_text_names}};
-    const ImageModuleContent *content = &head.content;
-    live_within_limits(request->bytes);
-    ImageModuleRead *read = (ImageModuleRead *)open_module(IMAGE_MODULE_READ, &failure);
-    snprintf(head.message, sizeof head.message, "%.500s", failure.text);
-    head.ok = read != NULL && read(request->path, request->format, &head.content, head.message,
-                                   sizeof head.message);
-    if (child_send(socket, &head, sizeof head) && head.ok)
-        child_send(socket, content->values,
-                   (size_t)content->width * content->height * content->channel_count *
-                       (content->is_8_bit ? 1 : sizeof(float)));
-}
-
-// Messages may quote a hostile file, so control characters become spaces.
-static bool take_message(const Head *head, Error *cause)
-{
-    char message[sizeof head->message];
-    snprintf(message, sizeof message, "%.*s", (int)sizeof message - 1, head->message);
-    for (char *c = message; *c != '\0'; c++)
-        if ((unsigned char)*c < ' ' || *c == 127)
-            *c = ' ';
-    return error_set(cause, "%s", message[0] != '\0' ? message : "it is damaged");
-}
-
-static bool take_head(StoredImage *image, const Head *head, uint64_t most, Error *cause)
-{
-    const ImageModuleContent *content = &head->content;
-    if (!head->ok)
-        return take_message(head, cause);
-    *image = (StoredImage){.width = content->width,
-                           .height = content->height,
-                           .channel_count = content->channel_count};
-    memcpy(image->names, content->names, sizeof image->names);
-    memcpy(image->texts, content->texts, sizeof image->texts);
+    memcpy(image, stream->bytes + sizeof(ForeignHead), sizeof *image);
+    image->values = NULL;
     for (uint32_t i = 0; i < STORED_CHANNELS_MAX; i++)
         image->names[i][STORED_NAME_SIZE - 1] = '\0';
     for (int i = 0; i < STORED_TEXTS; i++)
         image->texts[i][STORED_TEXT_SIZE - 1] = '\0';
-    return stored_image_check_size(image, most, cause) && stored_image_allocate(image, cause);
+    return stored_image_check_size(image, most, cause);
 }
 
-static bool take_values(StoredImage *image, int socket, bool is_8_bit, Error *cause)
+// The stream's memory becomes the values' memory.
+static void take_values(StoredImage *image, File *stream, size_t size)
 {
-    const size_t count = (size_t)image->width * image->height * image->channel_count;
-    const size_t size = count * (is_8_bit ? 1 : sizeof(float));
-    // Bytes fill the end of the array, so that no byte is overwritten before it is converted.
-    unsigned char *bytes = (unsigned char *)(image->values + count) - size;
-    if (!child_receive(socket, bytes, size))
-        return error_set(cause, "the process that reads it ended too early");
-    if (is_8_bit)
-        stored_image_values(bytes, count, image->values);
-    return true;
+    memmove(stream->bytes, stream->bytes + stream->size - size, size);
+    void *values = realloc(stream->bytes, size);
+    image->values = values != NULL ? values : (void *)stream->bytes;
+    *stream = (File){0};
 }
 
-static bool receive_image(StoredImage *image, int socket, uint64_t most, Error *cause)
+static bool take_picture(StoredImage *image, File *stream, uint64_t most, Error *cause)
 {
-    Head head;
-    if (!child_receive(socket, &head, sizeof head))
-        return error_set(cause, "the process that reads it ended too early");
-    return take_head(image, &head, most, cause) &&
-           take_values(image, socket, head.content.is_8_bit != 0, cause);
+    ForeignHead head = {0};
+    if (stream->size >= sizeof head)
+        memcpy(&head, stream->bytes, sizeof head);
+    const bool is_whole = head.size == stream->size - sizeof head;
+    if (is_whole && head.kind == FOREIGN_FAILURE && head.size < sizeof cause->text)
+        return take_failure(stream, &head, cause);
+    if (is_whole && head.kind == FOREIGN_PICTURE && head.size > sizeof *image) {
+        if (!take_head(image, stream, most, cause))
+            return false;
+        const size_t size =
+            (size_t)image->width * image->height * image->channel_count * sizeof(float);
+        if (size == head.size - sizeof *image) {
+            take_values(image, stream, size);
+            return true;
+        }
+    }
+    return error_set(cause, "the output of clrt-foreign, which reads it, is damaged");
 }
 
 bool image_process_read(StoredImage *image, const ImageRequest *request, Error *cause)
 {
-    ChildProcess child;
-    if (!child_fork(&child, serve, request, cause))
-        return false;
-    const bool ok = receive_image(image, child.socket, stored_values_most(request->bytes), cause);
-    child_end(&child);
+    char module[COMPANION_PATH_SIZE];
+    const char *const words[FOREIGN_WORDS] = {request->path, request->format, module};
+    const uint64_t most = stored_values_most(request->bytes);
+    const size_t heads = sizeof(ForeignHead) + sizeof(StoredImage);
+    const ForeignReader reader = {
+        .library = "OpenImageIO",
+        .limits = {.seconds = 125, .bytes = heads + most * sizeof(float)}};
+    File stream = {0};
+    const bool ok = find_module(module, cause) && foreign_run(&stream, &reader, words, cause) &&
+                    take_picture(image, &stream, most, cause);
+    file_free(&stream);
     return ok;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens the module that contains OpenImageIO. Reads picture files with the module in a child
-// process that has limited memory and time and cannot write, because the files may be hostile.
+// Opens the module that contains OpenImageIO. Reads picture files with the module in clrt-foreign,
+// because the files may be hostile.
 #pragma once
 
 #include "image/image_module.h"

@@ -64,5 +64,5 @@ void stored_image_values(const unsigned char *bytes, size_t count, float *values
 // Reads a picture file. libpng reads PNG, and pfm.c reads PFM. In a child process that may crash
 // without harm, OpenImageIO reads the other formats that clrt writes, except GIF. The first bytes,
 // not the file name, determine the format. On failure returns false with a message that names the
-// file. The caller frees the image. Only main may call image_read, before other threads start.
+// file. The caller frees the image.
 bool image_read(StoredImage *image, const char *path, Error *error);

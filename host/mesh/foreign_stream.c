@@ -8,8 +8,34 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define LONGEST_TEXT PATH_MAX // bytes of a message or a path
+
+// Assimp 5's file extensions. The list omits .ply, which clrt reads itself, .scn, which is clrt's
+// own, and plain .xml, which identifies no format.
+static const char *const endings[] = {
+    "3d",      "3ds", "3mf",   "ac",   "ac3d",     "acc", "amf",    "ase",     "ask",
+    "assbin",  "b3d", "blend", "bsp",  "bvh",      "cob", "csm",    "dae",     "dxf",
+    "enff",    "fbx", "glb",   "gltf", "hmp",      "ifc", "ifczip", "iqm",     "irr",
+    "irrmesh", "lwo", "lws",   "lxo",  "m3d",      "md2", "md3",    "md5anim", "md5camera",
+    "md5mesh", "mdc", "mdl",   "mesh", "mesh.xml", "mot", "ms3d",   "ndo",     "nff",
+    "obj",     "off", "ogex",  "pk3",  "pmx",      "prj", "q3o",    "q3s",     "raw",
+    "sib",     "smd", "step",  "stl",  "stp",      "ter", "uc",     "vrm",     "vta",
+    "x",       "x3d", "x3db",  "xgl",  "zae",      "zgl",
+};
+
+bool foreign_format_is(const char *path)
+{
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        const size_t ending = strlen(endings[i]);
+        if (length > ending && path[length - ending - 1] == '.' &&
+            strcasecmp(path + length - ending, endings[i]) == 0)
+            return true;
+    }
+    return false;
+}
 
 typedef struct {
     ForeignModel *model;
@@ -24,14 +50,6 @@ static bool fail_damaged(const Parser *parser)
 {
     return error_set(parser->error, "%s: the output of clrt-foreign, which reads it, is damaged",
                      parser->name);
-}
-
-// Replaces all but printable ASCII, because a terminal could interpret other characters.
-static void make_printable(char *text, size_t size, char substitute)
-{
-    for (size_t i = 0; i < size; i++)
-        if (text[i] < ' ' || text[i] > '~')
-            text[i] = substitute;
 }
 
 // Returns a zero-terminated copy of a record's text, or NULL on failure.
@@ -73,7 +91,7 @@ static float within(float value, float most)
 // Replaces all but printable ASCII, and the characters that have a meaning in scene text.
 static void make_word(char *name)
 {
-    make_printable(name, strlen(name), '_');
+    foreign_make_printable(name, strlen(name), '_');
     for (char *c = name; *c != '\0'; c++)
         if (strchr(" \"#/", *c) != NULL)
             *c = '_';
@@ -118,7 +136,7 @@ static bool take_note(Parser *parser)
     parser->model->note = copy_text(parser, parser->next, (size_t)parser->head.size);
     if (parser->model->note == NULL)
         return false;
-    make_printable(parser->model->note, strlen(parser->model->note), '?');
+    foreign_make_printable(parser->model->note, strlen(parser->model->note), '?');
     return true;
 }
 
@@ -127,7 +145,7 @@ static bool take_failure(Parser *parser)
     char *reason = copy_text(parser, parser->next, (size_t)parser->head.size);
     if (reason == NULL)
         return false;
-    make_printable(reason, strlen(reason), '?');
+    foreign_make_printable(reason, strlen(reason), '?');
     error_set(parser->error, "%s: %s", parser->name, reason);
     free(reason);
     return false;
@@ -172,13 +190,13 @@ static bool read_records(Parser *parser)
     return false;
 }
 
-bool foreign_stream_parse(ForeignModel *model, ForeignStream stream, const char *name,
+bool foreign_stream_parse(ForeignModel *model, const File *stream, const char *name,
                           PlyParse *parse, Error *error)
 {
     *model = (ForeignModel){0};
     Parser parser = {.model = model,
-                     .next = stream.bytes,
-                     .end = stream.size == 0 ? stream.bytes : stream.bytes + stream.size,
+                     .next = stream->bytes,
+                     .end = stream->size == 0 ? stream->bytes : stream->bytes + stream->size,
                      .name = name,
                      .parse = parse,
                      .error = error};

@@ -3,7 +3,6 @@
 // materials rarely have the same name.
 #include "scene/mesh_load.h"
 
-#include "mesh/foreign_process.h"
 #include "mesh/foreign_stream.h"
 
 #include <stdio.h>
@@ -95,12 +94,17 @@ static bool add_model(Scene *scene, ForeignModel *model, const char *path,
 
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error)
 {
+    // The time exceeds clrt-foreign's own limit, so that clrt-foreign's alarm normally ends it
+    // first.
+    static const ForeignReader assimp = {.library = "Assimp",
+                                         .limits = {.seconds = 125, .bytes = (size_t)8 << 30}};
+    const char *const words[FOREIGN_WORDS] = {path};
     File stream;
     ForeignModel model = {0};
-    if (!foreign_process_run(&stream, &foreign_reader, path, error))
-        return false;
-    const ForeignStream bytes = {stream.bytes, stream.size};
-    const bool parsed = foreign_stream_parse(&model, bytes, path, options->parse, error);
+    Error cause = {0};
+    const bool parsed = foreign_run(&stream, &assimp, words, &cause)
+                            ? foreign_stream_parse(&model, &stream, path, options->parse, error)
+                            : error_set(error, "%s: %s", path, cause.text);
     file_free(&stream);
     const bool ok = parsed && add_model(scene, &model, path, options, error);
     foreign_model_free(&model);

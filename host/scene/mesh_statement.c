@@ -3,7 +3,7 @@
 #include "scene/statements.h"
 
 #include "base/clock.h"
-#include "mesh/foreign_process.h"
+#include "mesh/foreign_stream.h"
 #include "mesh/mesh.h"
 
 #include <stdlib.h>

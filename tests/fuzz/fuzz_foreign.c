@@ -37,8 +37,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     ForeignModel model;
     Error error = {0};
-    const ForeignStream stream = {(const char *)data, size};
-    if (foreign_stream_parse(&model, stream, "fuzz.obj", ply_parse, &error)) {
+    const File stream = {(char *)(uintptr_t)data, size};
+    if (foreign_stream_parse(&model, &stream, "fuzz.obj", ply_parse, &error)) {
         demand(model.files.count == model.hashes.count);
         for (size_t i = 0; i < model.materials.count; i++)
             check_material(&model.materials.data[i]);

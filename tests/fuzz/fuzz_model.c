@@ -35,7 +35,7 @@ static void close_files(Files *files)
     free(files->opened.memory);
 }
 
-static void read_back(ForeignStream stream)
+static void read_back(const File *stream)
 {
     ForeignModel model;
     Error error = {0};
@@ -59,7 +59,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const bool ok = model_send(stream, &files, &error);
     demand(fclose(stream) == 0 && ok == (error.text[0] == '\0'));
     if (ok)
-        read_back((ForeignStream){bytes, sent});
+        read_back(&(File){bytes, sent});
     free(bytes);
     close_files(&files);
     return 0;

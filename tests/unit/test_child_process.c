@@ -1,130 +1,46 @@
 // SPDX-License-Identifier: MIT
-// Tests that a child process answers and has no terminal, that its end does not end other
-// processes, and that it ends with its parent.
+// Tests a child process's streams, environment and limits, and that it ends with its parent.
 #include "base/child_process.h"
 
+#include "foreign/limits.h"
 #include "unit/cmocka_all.h"
 
-#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/time.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-static void start(ChildProcess *child, ChildWork *work, const void *context)
+static ChildFate collect(const char *script, File *output, int *signal)
 {
+    const char *const words[] = {"/bin/sh", "-c", script, NULL};
+    const ChildLimits limits = {.seconds = 60, .bytes = 20000000};
+    ChildProcess child;
     Error error = {0};
-    assert_true(child_fork(child, work, context, &error));
+    assert_true(child_spawn(&child, words, &error));
+    return child_collect(&child, &limits, output, signal, &error);
 }
 
-static void double_numbers(int socket, const void *context)
+TEST(a_long_output_arrives_whole)
 {
-    int number;
-    (void)context;
-    while (child_receive(socket, &number, sizeof number)) {
-        number *= 2;
-        child_send(socket, &number, sizeof number);
-    }
-}
-
-TEST(a_child_answers_until_it_is_ended)
-{
-    ChildProcess child;
-    start(&child, double_numbers, NULL);
-    for (int number = 1; number < 1000; number++) {
-        int answer = 0;
-        assert_true(child_send(child.socket, &number, sizeof number));
-        assert_true(child_receive(child.socket, &answer, sizeof answer));
-        assert_int_equal(answer, 2 * number);
-    }
-    const int status = child_end(&child);
-    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
-}
-
-static void send_much(int socket, const void *context)
-{
-    static char bytes[10000000];
-    memset(bytes, 7, sizeof bytes);
-    (void)context;
-    child_send(socket, bytes, sizeof bytes);
-}
-
-static void take_signal(int number)
-{
-    (void)number;
-}
-
-static void send_among_signals(int socket, const void *context)
-{
-    const struct sigaction action = {.sa_handler = take_signal};
-    const struct itimerval often = {{0, 1000}, {0, 1000}};
-    sigaction(SIGALRM, &action, NULL);
-    setitimer(ITIMER_REAL, &often, NULL);
-    send_much(socket, context);
-}
-
-// While the parent sleeps, the child waits for room in the socket's buffer, and signals arrive.
-TEST(signals_do_not_cut_a_message)
-{
-    static char bytes[10000000];
-    ChildProcess child;
-    start(&child, send_among_signals, NULL);
-    usleep(50000);
-    assert_true(child_receive(child.socket, bytes, sizeof bytes));
-    assert_int_equal(bytes[sizeof bytes - 1], 7);
-    child_end(&child);
-}
-
-TEST(a_long_message_arrives_whole)
-{
-    static char bytes[10000000];
-    ChildProcess child;
-    start(&child, send_much, NULL);
-    assert_true(child_receive(child.socket, bytes, sizeof bytes));
-    for (size_t i = 0; i < sizeof bytes; i++)
-        assert_int_equal(bytes[i], 7);
-    assert_false(child_receive(child.socket, bytes, 1));
-    child_end(&child);
-}
-
-static void report_streams(int socket, const void *context)
-{
-    char letter;
-    (void)context;
-    const int empty = read(STDIN_FILENO, &letter, 1) == 0 && !isatty(STDOUT_FILENO);
-    child_send(socket, &empty, sizeof empty);
+    FREED_BY(file_free) File output;
+    int signal;
+    collect("yes | head -c 10000000", &output, &signal);
+    assert_int_equal(output.size, 10000000);
+    for (size_t i = 0; i < output.size; i += 2)
+        assert_memory_equal(output.bytes + i, "y\n", 2);
 }
 
 TEST(a_child_has_empty_streams)
 {
-    ChildProcess child;
-    int empty = 0;
-    start(&child, report_streams, NULL);
-    assert_true(child_receive(child.socket, &empty, sizeof empty));
-    child_end(&child);
-    assert_true(empty);
-}
-
-static void die(int socket, const void *context)
-{
-    (void)socket, (void)context;
-    raise(SIGKILL);
-}
-
-// Sending must not raise SIGPIPE, which would end this process.
-TEST(messages_to_a_dead_child_fail)
-{
-    ChildProcess child;
-    char bytes[100] = "";
-    start(&child, die, NULL);
-    assert_false(child_receive(child.socket, bytes, sizeof bytes));
-    assert_false(child_send(child.socket, bytes, sizeof bytes));
-    child_end(&child);
+    FREED_BY(file_free) File output;
+    int signal;
+    collect("wc -c; test -t 1 || echo none; echo lost >&2", &output, &signal);
+    assert_int_equal(output.size, strlen("0\nnone\n"));
 }
 
 TEST(ending_no_child_is_harmless)
@@ -133,108 +49,89 @@ TEST(ending_no_child_is_harmless)
     assert_int_equal(child_end(&none), 0);
 }
 
-static void sleep_long(int socket, const void *context)
+// Runs work in a fork, which reports through `end`. Returns the fork's status after it and its
+// children have ended.
+static int status_of(void (*work)(int end), void *report, size_t size)
 {
-    (void)context;
-    child_send(socket, "", 1);
+    int ends[2], status;
+    assert_int_equal(pipe2(ends, 0), 0);
+    const pid_t id = fork();
+    if (id == 0) {
+        dup2(ends[1], STDOUT_FILENO); // limits_take closes the others
+        work(STDOUT_FILENO);
+        _exit(0);
+    }
+    close(ends[1]);
+    assert_int_equal(read(ends[0], report, size), size);
+    assert_int_equal(read(ends[0], report, 1), 0);
+    close(ends[0]);
+    assert_int_equal(waitpid(id, &status, 0), id);
+    return status;
+}
+
+static void leave_a_child(int end)
+{
+    const pid_t parent = getpid();
+    if (fork() != 0)
+        for (;;)
+            pause();
+    limits_take();
+    if (write(end, "", 1) == 1)
+        kill(parent, SIGKILL);
     sleep(60);
 }
 
-// The pipe's writing end stays open until the forked process and its child have ended.
-TEST(a_child_ends_with_its_parent)
+TEST(a_limited_child_ends_with_its_parent)
 {
-    int ends[2];
-    assert_int_equal(pipe(ends), 0);
-    const pid_t parent = fork();
-    if (parent == 0) {
-        ChildProcess child;
-        Error error = {0};
-        char started;
-        _exit(child_fork(&child, sleep_long, NULL, &error) &&
-              child_receive(child.socket, &started, 1));
-    }
-    close(ends[1]);
-    struct pollfd end = {.fd = ends[0], .events = POLLIN};
-    assert_int_equal(poll(&end, 1, 20000), 1);
-    assert_int_not_equal(end.revents & POLLHUP, 0);
-    int status;
-    assert_int_equal(waitpid(parent, &status, 0), parent);
-    assert_int_equal(WEXITSTATUS(status), 1);
-    close(ends[0]);
+    char started;
+    const double start = (double)time(NULL);
+    const int status = status_of(leave_a_child, &started, 1);
+    assert_true(WIFSIGNALED(status) && (double)time(NULL) - start < 20);
 }
 
-static void sleep_confined(int socket, const void *context)
-{
-    confine_process((TimeLimits){1, 1});
-    sleep_long(socket, context);
-}
-
-static void *burn(void *context)
-{
-    for (;;)
-        (void)*(volatile char *)context;
-    return NULL;
-}
-
-// Two threads reach the limit of processor time before the equal limit of elapsed time.
-static void burn_confined(int socket, const void *context)
-{
-    char byte = 0;
-    pthread_t thread;
-    (void)socket, (void)context;
-    confine_process((TimeLimits){1, 1});
-    pthread_create(&thread, NULL, burn, &byte);
-    burn(&byte);
-}
-
-// Sends its limits of processor time: at first, after a file of 10 MB and after one of 1 TB.
-static void send_limits(int socket, const void *context)
+// Reports the limits of processor time at first, after a file of 10 MB and after one of 1 TB, and
+// of elapsed time.
+static void report_limits(int end)
 {
     static const uint64_t sizes[3] = {0, 10000000, 1000000000000};
-    struct rlimit limits[3];
-    (void)context;
-    confine_process(reader_limits);
+    unsigned seconds[4];
+    struct rlimit limit;
+    limits_take();
+    limits_take_model();
     for (int i = 0; i < 3; i++) {
-        confine_add_time(sizes[i]);
-        getrlimit(RLIMIT_CPU, &limits[i]);
+        limits_allow_file(sizes[i]);
+        getrlimit(RLIMIT_CPU, &limit);
+        seconds[i] = (unsigned)limit.rlim_cur;
     }
-    child_send(socket, limits, sizeof limits);
+    seconds[3] = alarm(0);
+    if (write(end, seconds, sizeof seconds) != sizeof seconds)
+        abort();
 }
 
 TEST(processor_time_grows_with_the_files_read_up_to_a_limit)
 {
-    ChildProcess child;
-    struct rlimit limits[3];
-    start(&child, send_limits, NULL);
-    assert_true(child_receive(child.socket, limits, sizeof limits));
-    assert_int_equal(limits[0].rlim_cur, 8);
-    assert_int_equal(limits[1].rlim_cur, 13);
-    assert_int_equal(limits[2].rlim_cur, 120);
-    child_end(&child);
+    unsigned seconds[4];
+    status_of(report_limits, seconds, sizeof seconds);
+    assert_int_equal(seconds[0], 8);
+    assert_int_equal(seconds[1], 13);
+    assert_int_equal(seconds[2], 120);
+    assert_in_range(seconds[3], 100, 120);
 }
 
-// Returns the signal that ends the child.
-static int expect_late(ChildWork *work)
+static void burn(int end)
 {
-    ChildProcess child;
-    const ChildLimits limits = {.seconds = 60, .bytes = 10};
-    FREED_BY(file_free) File output;
-    Error error = {0};
-    int signal;
-    start(&child, work, NULL);
-    assert_int_equal(child_collect(&child, &limits, &output, &signal, &error), CHILD_LATE);
-    return signal;
+    limits_take();
+    if (write(end, "", 1) == 1)
+        for (;;)
+            getppid();
 }
 
-// On a loaded machine, the time of day may end the child first.
-TEST(a_confined_child_ends_after_its_processor_time)
+// On a loaded machine, the limit of elapsed time may end the child first.
+TEST(a_limited_child_ends_after_its_processor_time)
 {
-    expect_late(burn_confined);
-}
-
-TEST(a_confined_child_ends_after_its_time)
-{
-    assert_int_equal(expect_late(sleep_confined), SIGALRM);
+    char started;
+    const int status = status_of(burn, &started, 1);
+    assert_true(WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM);
 }
 
 static atomic_bool has_spawned;
@@ -258,7 +155,7 @@ TEST(children_start_while_another_thread_changes_the_environment)
     for (int i = 0; i < 300; i++) {
         ChildProcess child;
         Error error = {0};
-        const bool is_spawned = child_spawn(&child, "/bin/true", "", &error);
+        const bool is_spawned = child_spawn(&child, (const char *[]){"/bin/true", NULL}, &error);
         assert_string_equal(error.text, "");
         assert_true(is_spawned);
         child_end(&child);
@@ -275,7 +172,7 @@ TEST(a_spawned_child_has_the_environment_of_the_start)
     int signal;
     const ChildLimits limits = {.seconds = 60, .bytes = 1000000};
     setenv("CLRT_TEST_LATE", "1", 1);
-    assert_true(child_spawn(&child, "/usr/bin/env", "-0", &error));
+    assert_true(child_spawn(&child, (const char *[]){"/usr/bin/env", "-0", NULL}, &error));
     // env closes its output before it ends, so child_collect may kill it in between.
     const ChildFate fate = child_collect(&child, &limits, &output, &signal, &error);
     assert_true(fate == CHILD_DONE || signal == SIGKILL);

@@ -46,7 +46,7 @@ def a_changed_mesh_is_shown(screen, folder):
 
 
 def a_changed_material_library_is_shown(screen, folder):
-    if not (pathlib.Path(os.environ["CLRT"]).parent / "clrt-foreign").exists():
+    if b"lacks Assimp" in (pathlib.Path(os.environ["CLRT"]).parent / "clrt-foreign").read_bytes():
         print("skipped: this build has no Assimp, so a model's materials are not tested")
         return
     (folder / "mesh.obj").write_text(

@@ -2,7 +2,7 @@
 // If clrt-foreign crashes, hangs, writes endlessly or is missing, clrt reports one message. Shell
 // scripts replace clrt-foreign here.
 #undef _FORTIFY_SOURCE // with it, the system's headers define readlink
-#include "mesh/foreign_process.h"
+#include "base/foreign.h"
 
 #include "base/clock.h"
 #include "unit/cmocka_all.h"
@@ -17,6 +17,8 @@
 #include <unistd.h>
 
 static char script[] = "/tmp/clrt_reader_XXXXXX";
+
+static const char *const words[FOREIGN_WORDS] = {"m.obj"};
 
 static bool is_without_proc;
 
@@ -41,20 +43,19 @@ static void write_script(const char *text)
 
 static bool run(const char *text, File *stream, Error *error)
 {
-    const ForeignReader reader = {.program = script, .limits = {.seconds = 1, .bytes = 100000}};
+    const ForeignReader reader = {"Assimp", script, {.seconds = 1, .bytes = 100000}};
     write_script(text);
     *error = (Error){0};
-    return foreign_process_run(stream, &reader, "m.obj", error);
+    return foreign_run(stream, &reader, words, error);
 }
 
 static void expect_failure(const char *text, const char *sentence)
 {
-    File stream;
+    FREED_BY(file_free) File stream;
     Error error;
     const double start = clock_seconds();
     assert_false(run(text, &stream, &error));
     assert_string_equal(error.text, sentence);
-    assert_null(stream.bytes);
     assert_true(clock_seconds() - start < 10);
 }
 
@@ -69,31 +70,32 @@ TEST(the_stream_is_the_output_of_the_program)
 
 TEST(a_program_that_crashes_stays_or_gives_up_is_one_sentence)
 {
-    const char *late = "m.obj: Assimp took too long to read it and was stopped";
+    const char *late = "Assimp took too long to read it and was stopped";
     expect_failure("echo part of it; kill -SEGV $$",
-                   "m.obj: Assimp crashed while reading it (signal 11)");
+                   "Assimp crashed while reading it (signal 11)");
     expect_failure("kill -XCPU $$", late);
     expect_failure("kill -ALRM $$", late);
     expect_failure("exec sleep 60", late);
     expect_failure("while :; do echo; sleep 0.05; done", late);
-    expect_failure("exec yes", "m.obj: Assimp exceeded the limit of its output and was stopped");
-    expect_failure("exec sleep 60 >/dev/null", "m.obj: Assimp crashed while reading it (signal 9)");
-    expect_failure("exit 1", "m.obj: clrt-foreign, which reads it, ended too early");
+    expect_failure("exec yes", "Assimp exceeded the limit of its output and was stopped");
+    expect_failure("exec sleep 60 >/dev/null", "Assimp crashed while reading it (signal 9)");
+    expect_failure("exit 1", "clrt-foreign, which reads it, ended too early");
 }
 
 TEST(a_missing_program_is_reported)
 {
-    const ForeignReader reader = {.program = "/nonexistent", .limits = {.seconds = 1, .bytes = 1}};
+    const ForeignReader reader = {"Assimp", "/nonexistent", {.seconds = 1, .bytes = 1}};
     File stream;
     Error error = {0};
-    assert_false(foreign_process_run(&stream, &reader, "m.obj", &error));
-    assert_string_equal(error.text, "m.obj: /nonexistent, which reads it, cannot be started: No "
-                                    "such file or directory");
+    assert_false(foreign_run(&stream, &reader, words, &error));
+    assert_string_equal(error.text, "/nonexistent, which reads it, cannot be started: No such "
+                                    "file or directory");
 }
 
 // The program in the current folder may belong to anybody.
 TEST(a_program_of_that_name_in_the_current_folder_is_not_started)
 {
+    const ForeignReader reader = {"Assimp", NULL, {.seconds = 1, .bytes = 1}};
     char folder[] = "/tmp/clrt_folder_XXXXXX";
     File stream;
     Error error = {0};
@@ -102,7 +104,7 @@ TEST(a_program_of_that_name_in_the_current_folder_is_not_started)
     write_script("echo > started");
     assert_int_equal(rename(script, "clrt-foreign"), 0);
     is_without_proc = true;
-    assert_false(foreign_process_run(&stream, &foreign_reader, "m.obj", &error));
+    assert_false(foreign_run(&stream, &reader, words, &error));
     is_without_proc = false;
     assert_int_not_equal(access("started", F_OK), 0);
     assert_int_equal(rename("clrt-foreign", script), 0);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The limits of this process. They make hostile files fail early, but they confine nothing: a file
+// that takes over a library can do what this user can. Only root can raise the limits again.
+#pragma once
+
+#include <stdint.h>
+
+// Ends this process when the thread that started it ends, and at the limits of processor time and
+// of elapsed time. Limits its stack and open files. From now on, the process gains no privileges,
+// writes no file and dumps no core.
+void limits_take(void);
+
+// Limits memory, and forbids threads. limits_allow_file raises the limit for each file.
+void limits_take_model(void);
+
+// Adds memory and processor time for a file of a model with this size, up to the overall limits.
+void limits_allow_file(uint64_t bytes);
+
+// Adds processor time for a picture file of this size, and limits memory to what decoders need.
+void limits_take_picture(uint64_t bytes);

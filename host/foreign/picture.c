@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// OpenImageIO's module -> a StoredImage and its values, all as floats.
+#include "foreign/picture.h"
+
+#include "foreign/limits.h"
+#include "foreign/send.h"
+#include "image/image_module.h"
+#include "image/stored_image.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+_Static_assert(STORED_CHANNELS_MAX == IMAGE_MODULE_CHANNELS &&
+                   STORED_NAME_SIZE == IMAGE_MODULE_NAME_SIZE &&
+                   STORED_TEXTS == IMAGE_MODULE_TEXTS && STORED_TEXT_SIZE == IMAGE_MODULE_TEXT_SIZE,
+               "names and texts are copied whole");
+
+static void send_values(FILE *stream, const ImageModuleContent *content)
+{
+    const size_t row = (size_t)content->width * content->channel_count;
+    float *floats = content->is_8_bit ? malloc(row * sizeof *floats) : content->values;
+    for (size_t y = 0; floats != NULL && y < content->height; y++) {
+        if (content->is_8_bit)
+            stored_image_values((const unsigned char *)content->values + y * row, row, floats);
+        fwrite(content->is_8_bit ? floats : floats + y * row, sizeof *floats, row, stream);
+    }
+}
+
+static void send_content(FILE *stream, const ImageModuleContent *content)
+{
+    StoredImage image = {.width = content->width,
+                         .height = content->height,
+                         .channel_count = content->channel_count};
+    memcpy(image.names, content->names, sizeof image.names);
+    memcpy(image.texts, content->texts, sizeof image.texts);
+    send_head(stream, FOREIGN_PICTURE, 0,
+              sizeof image +
+                  (size_t)image.width * image.height * image.channel_count * sizeof(float));
+    fwrite(&image, sizeof image, 1, stream);
+    send_values(stream, content);
+}
+
+bool picture_send(FILE *stream, char *const words[3], Error *error)
+{
+    struct stat status;
+    char message[512] = "";
+    if (stat(words[0], &status) != 0)
+        return error_set(error, "%s", strerror(errno));
+    limits_take_picture((uint64_t)status.st_size);
+    void *module = dlopen(words[2], RTLD_NOW | RTLD_LOCAL);
+    ImageModuleRead *read = NULL;
+    if (module != NULL)
+        *(void **)&read = dlsym(module, IMAGE_MODULE_READ);
+    if (read == NULL)
+        return error_set(error, "the picture module cannot be opened: %s", dlerror());
+    ImageModuleContent content = {.values_max = stored_values_most((uint64_t)status.st_size),
+                                  .text_names = stored_text_names};
+    if (!read(words[0], words[1], &content, message, sizeof message))
+        return error_set(error, "%s", message[0] != '\0' ? message : "it is damaged");
+    send_content(stream, &content);
+    return true;
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Writes records, each a head and data. Only the stream's error state shows failures.
+#pragma once
+
+#include "mesh/foreign_stream.h"
+
+#include <stdio.h>
+
+// Starts a record of `size` bytes, which the caller writes.
+void send_head(FILE *stream, ForeignKind kind, uint32_t number, size_t size);
+
+void send_bytes(FILE *stream, ForeignKind kind, const void *bytes, size_t size);
+
+// Sends a record of this kind with a text, shortened if too long.
+__attribute__((format(printf, 3, 4))) void send_text(FILE *stream, ForeignKind kind,
+                                                     const char *format, ...);
+
+// Sends the hash of a file's `size` bytes, and its path.
+void send_file(FILE *stream, const char *path, const void *bytes, size_t size);
+
+void send_part(FILE *stream, const ForeignPart *part);
