@@ -48,14 +48,15 @@ static void make_key(const Provenance *own, const RenderSettings *settings, uint
 }
 
 static bool is_same_picture(const StoredImage *stored, const Provenance *own,
-                            const RenderSettings *settings, uint64_t *tiles)
+                            const RenderSettings *settings)
 {
     static const StoredText kinds[] = {STORED_VERSION, STORED_SCENE_HASH, STORED_MESH_HASH};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (strcmp(stored->texts[kinds[i]], own->texts[kinds[i]]) != 0)
             return false;
     return stored->width == settings->width && stored->height == settings->height &&
-           stored_tiles_done(stored, own->texts[STORED_SETTINGS], settings, tiles);
+           stored_tiles_has_colors(stored) &&
+           stored_tiles_are_of(stored, own->texts[STORED_SETTINGS], settings->parts > 0);
 }
 
 static bool take_stored(const Resume *resume, const Provenance *own, RenderSettings *settings,
@@ -66,8 +67,7 @@ static bool take_stored(const Resume *resume, const Provenance *own, RenderSetti
     RenderSettings stored = *settings;
     if (settings->parts == 0)
         stored.tile_width = stored.tile_height = EXR_TILE;
-    if (!is_same_picture(&file->head, own, settings, &settings->ready_tiles) ||
-        !stored_tiles_has_colors(&file->head) || file->tile_width != stored.tile_width ||
+    if (!is_same_picture(&file->head, own, settings) || file->tile_width != stored.tile_width ||
         file->tile_height != stored.tile_height)
         return error_set(error,
                          "%s: has another scene, other settings or another version of clrt: "
@@ -75,8 +75,8 @@ static bool take_stored(const Resume *resume, const Provenance *own, RenderSetti
                          resume->stored_path);
     Error cause = {0};
     const TileTarget target = {.framebuffer = framebuffer, .layers = &none};
-    const uint64_t count = settings->parts > 0 ? settings->ready_tiles : tile_count(&stored);
-    return stored_tiles_copy(&stored, count, file, &target, &cause) ||
+    settings->ready_tiles = tile_count(settings);
+    return stored_tiles_copy(&stored, tile_count(&stored), file, &target, &cause) ||
            error_set(error, "%s: cannot be resumed: %s", resume->stored_path, cause.text);
 }
 
@@ -108,15 +108,16 @@ static void read_journal(Resume *resume, RenderSettings *settings, const Framebu
     }
 }
 
-// Copies the tiles of an earlier EXR file into framebuffer. Requires the journal's lock: without
-// it, another run may be about to write the file.
+// Copies the tiles of a finished EXR file into framebuffer. Requires the journal's lock: without
+// it, another run may be about to write the file. An unfinished EXR file is drawn again.
 static bool restore_stored(Resume *resume, const Provenance *own, RenderSettings *settings,
                            Framebuffer *framebuffer, Error *error)
 {
     if (resume->stored_path == NULL || access(resume->stored_path, F_OK) != 0)
         return true;
-    const bool ok = exr_file_open(&resume->stored, resume->stored_path, error) &&
-                    take_stored(resume, own, settings, framebuffer, error);
+    bool ok = exr_file_open(&resume->stored, resume->stored_path, error);
+    if (ok && strcmp(resume->stored.head.texts[STORED_COMPLETE], "no") != 0)
+        ok = take_stored(resume, own, settings, framebuffer, error);
     exr_file_close(&resume->stored);
     return ok;
 }
@@ -129,15 +130,12 @@ static bool restore_tiles(Resume *resume, const Provenance *own, RenderSettings 
     if (!journal_open(&resume->journal, resume->path, key, error))
         return false;
     read_journal(resume, settings, framebuffer);
-    const uint64_t journaled = settings->ready_tiles;
-    if (journaled == 0 && !restore_stored(resume, own, settings, framebuffer, error)) {
+    if (settings->ready_tiles == 0 && !restore_stored(resume, own, settings, framebuffer, error)) {
         journal_close(&resume->journal, true); // it has no tiles
         return false;
     }
-    bool ok = journal_claim(&resume->journal, error);
+    const bool ok = journal_claim(&resume->journal, error);
     resume->is_broken = !ok && !resume->journal.is_busy;
-    for (uint64_t number = journaled; ok && number < settings->ready_tiles; number++)
-        ok = resume_keep(resume, settings, framebuffer, number, error);
     return ok;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --resume: the journal FILE.part or an incomplete EXR file -> the tiles that an earlier run
-// finished. This run appends its tiles to the journal.
+// --resume: the journal FILE.part -> the tiles that an earlier run finished. This run appends its
+// tiles to the journal. All tiles of a complete EXR file are finished.
 #pragma once
 
 #include "cli/options/options.h"
@@ -23,8 +23,8 @@ char *resume_journal_name(const char *output_path, Error *error);
 // Prepares resuming. Fails if the output exists and is not a regular file.
 bool resume_prepare(Resume *resume, const Options *options, Error *error);
 
-// Opens the journal and copies the finished tiles into framebuffer. If the journal has no tiles, an
-// earlier EXR file provides them. Stores the number of finished tiles in settings->ready_tiles.
+// Opens the journal and copies the finished tiles into framebuffer. If the journal has no tiles, a
+// complete EXR file provides them. Stores the number of finished tiles in settings->ready_tiles.
 // Fails if the earlier run had another scene, other settings or another version of clrt.
 bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,
                  Framebuffer *framebuffer, Error *error);

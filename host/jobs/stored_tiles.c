@@ -71,46 +71,17 @@ bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image)
     return true;
 }
 
-static void remove_tile_entries(json_t *json)
-{
-    json_object_del(json, "tile");
-    json_object_del(json, "tiles_done");
-}
-
-// Stores the number of finished tiles. The tile sizes must match unless the stored picture is
-// complete and not a part.
-static bool count_done(const StoredImage *image, json_t *json, const RenderSettings *settings,
-                       uint64_t *tiles)
-{
-    const bool is_whole = strcmp(image->texts[STORED_COMPLETE], "yes") == 0;
-    int tile[2] = {(int)settings->tile_width, (int)settings->tile_height};
-    json_int_t done = (json_int_t)tile_count(settings);
-    *tiles = tile_count(settings);
-    if ((!is_whole || settings->parts > 0) &&
-        json_unpack(json, "{s:[ii]}", "tile", &tile[0], &tile[1]) != 0)
-        return false;
-    if (!is_whole && json_unpack(json, "{s:I}", "tiles_done", &done) != 0)
-        return false;
-    if (done < 0 || (uint64_t)done > *tiles)
-        return false;
-    *tiles = (uint64_t)done;
-    return tile[0] == (int)settings->tile_width && tile[1] == (int)settings->tile_height;
-}
-
-bool stored_tiles_done(const StoredImage *image, const char *settings_text,
-                       const RenderSettings *settings, uint64_t *tiles)
+bool stored_tiles_are_of(const StoredImage *image, const char *settings_text, bool is_part)
 {
     json_t *stored = json_loads(image->texts[STORED_SETTINGS], 0, NULL);
     json_t *own = json_loads(settings_text, 0, NULL);
-    bool ok = stored != NULL && own != NULL && count_done(image, stored, settings, tiles);
-    if (ok) {
-        remove_tile_entries(stored);
-        remove_tile_entries(own);
-        ok = json_equal(stored, own) != 0;
-    }
+    json_object_del(own, "tiles_done");
+    if (!is_part)
+        json_object_del(own, "tile");
+    const bool are = stored != NULL && json_equal(stored, own) != 0;
     json_decref(stored);
     json_decref(own);
-    return ok;
+    return are;
 }
 
 void stored_tiles_free(StoredTiles *tiles)

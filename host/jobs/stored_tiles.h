@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The file of a part or of an unfinished picture -> its settings, and the number and pixel values
-// of its finished tiles.
+// The file of a part or of a picture -> its settings and the pixel values of its tiles.
 #pragma once
 
 #include "image/exr_file.h"
@@ -22,10 +21,8 @@ typedef struct {
 bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image);
 void stored_tiles_free(StoredTiles *tiles);
 
-// Returns whether the image has these settings, apart from its finished tiles. Stores the number of
-// finished tiles in *tiles.
-bool stored_tiles_done(const StoredImage *image, const char *settings_text,
-                       const RenderSettings *settings, uint64_t *tiles);
+// Returns whether the image is complete and has these settings. Only a part's tile size counts.
+bool stored_tiles_are_of(const StoredImage *image, const char *settings_text, bool is_part);
 
 // Appends to layers the image's channels other than its colors. Returns false if the image lacks
 // colors or has a channel unknown to --aov.

@@ -101,8 +101,8 @@ const Option option_table[] = {
      "draw only the I-th of N parts, an N-th of the tiles; clrt merge joins the N parts; auto/N "
      "takes I from the task number of Slurm, AWS Batch, Kubernetes or MPI"},
     {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
-     "keep finished tiles in FILE.part until the picture is whole, and resume from them or from an "
-     "incomplete EXR file; for many pictures, skip those whose files exist"},
+     "keep finished tiles in FILE.part until the picture is whole, and resume from them; for many "
+     "pictures, skip those whose files exist"},
 
     {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
