@@ -23,14 +23,20 @@ BELOW = {
 TRACING = [*BELOW["render"], "render"]
 BELOW |= {
     "refine": TRACING,
-    "check": TRACING,
-    "library": [*TRACING, "check"],
-    "explain": TRACING,
-    "view": [*TRACING, "explain"],
-    "cli/options": [*TRACING, "compare"],
+    "session": [*TRACING, "refine"],
 }
-BELOW["jobs"] = [*TRACING, "compare", "cli/options"]
-BELOW["cli"] = [floor for floor in BELOW if floor not in ("foreign", "library")]
+
+# The clients of the session. None of them includes a layer that the session assembles.
+CLIENT = ["base", "image", "mesh", "scene", "session"]
+BELOW |= {
+    "check": CLIENT,
+    "explain": CLIENT,
+    "library": CLIENT,
+    "view": [*CLIENT, "explain"],
+    "cli/options": [*CLIENT, "compare"],
+    "jobs": [*CLIENT, "render", "compare", "cli/options"],
+    "cli": [*CLIENT, "check", "compare", "explain", "jobs", "view", "cli/options"],
+}
 
 # The core runs under sanitizers and fuzzers, so it includes no driver and no other large library.
 CORE = ["base", "mesh", "scene", "accel"]

@@ -4,14 +4,8 @@
 // positions around the mesh. Aims without a ray, or hidden from their eye, get a ray from nearby.
 #pragma once
 
-#include "accel/triangles.h"
 #include "mesh/edges.h"
-
-// A ray in the device's layout. The fourth components are zero.
-typedef struct {
-    float origin[4];
-    float direction[4]; // reaches the aim at t = 1
-} AimRay;
+#include "session/geometry.h"
 
 typedef enum {
     AIM_UNTRIED, // no ray: the angles are too sharp or the triangles too small
@@ -51,10 +45,10 @@ typedef struct {
 bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error);
 void aims_free(Aims *aims);
 
-// Store rays, and in targets the index of each ray's aim. Return the number of rays, at most
-// aims->count.
-size_t aims_shoot_from_afar(Aims *aims, AimRay *rays, uint32_t *targets);
-size_t aims_shoot_from_close(Aims *aims, AimRay *rays, uint32_t *targets);
+// Store rays that reach their aims at t = 1, and in targets the index of each ray's aim. Return the
+// number of rays, at most aims->count.
+size_t aims_shoot_from_afar(Aims *aims, CastRay *rays, uint32_t *targets);
+size_t aims_shoot_from_close(Aims *aims, CastRay *rays, uint32_t *targets);
 
 // Sets the state of each target from its ray's hit distance t, which is INFINITY for a miss.
 void aims_judge(Aims *aims, const uint32_t *targets, const float *distances, size_t count);

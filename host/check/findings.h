@@ -23,7 +23,7 @@ typedef struct {
     Scene scene;
     Normalization normalization;
     Census census;
-    Device device;           // may be closed if leaks is NULL
+    const char *device;      // its name; NULL if no rays were traced
     LeakCount *leaks;        // by object; NULL if no rays were traced; owned
     Error frame_fault;       // why the scene cannot be drawn; empty if it can
     Error device_fault;      // why rays could not be traced; empty otherwise

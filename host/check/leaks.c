@@ -30,7 +30,7 @@ static bool make_aims(StagedMesh *staged, const Mesh *mesh, const LeakSetting *s
 }
 
 typedef struct {
-    AimRay *rays;
+    CastRay *rays;
     uint32_t *targets;
     float *distances;
 } RayBatch;
@@ -45,8 +45,8 @@ static bool make_batch(RayBatch *batch, size_t count, Error *error)
 
 static bool trace_aims(Aims *aims, LeakCount *count, const RayCaster *caster, Error *error)
 {
-    size_t (*const make_rays[2])(Aims *, AimRay *, uint32_t *) = {aims_shoot_from_afar,
-                                                                  aims_shoot_from_close};
+    size_t (*const make_rays[2])(Aims *, CastRay *, uint32_t *) = {aims_shoot_from_afar,
+                                                                   aims_shoot_from_close};
     RayBatch batch;
     bool ok = make_batch(&batch, aims->count, error);
     for (int from = 0; ok && from < 2; from++) {
@@ -81,7 +81,7 @@ bool leaks_count(LeakCount *count, RayCaster *caster, const MeshObject *given,
     MeshObject object = {.mesh = given->mesh, .two_sided = true};
     const CompileSource source = {.scene = &staged.scene,
                                   .normalization = setting->normalization,
-                                  .layout = caster->nodes,
+                                  .layout = caster->kernel->choice.nodes,
                                   .builder = setting->builder,
                                   .has_tree = setting->uses_bvh,
                                   .pool = setting->pool};

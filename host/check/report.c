@@ -67,7 +67,7 @@ void check_report_write_text(const Check *check, FILE *stream)
             scene->lights.count);
     write_findings(check, FINDING_SCENE, &next, stream);
     if (check->leaks != NULL)
-        fprintf(stream, "  rays were traced on %s\n", check->device.name);
+        fprintf(stream, "  rays were traced on %s\n", check->device);
     else if (check->device_fault.text[0] != '\0')
         fprintf(stream, "  leaks were not tested: %s\n", check->device_fault.text);
     const size_t failing = check_count_failing(check), all = check->findings.count;
@@ -173,7 +173,7 @@ static json_t *scene_json(const Check *check)
 
 bool check_report_write_json(const Check *check, const char *path, Error *error)
 {
-    json_t *device = check->leaks != NULL ? json_file_path(check->device.name) : json_null();
+    json_t *device = check->device != NULL ? json_file_path(check->device) : json_null();
     json_t *root =
         json_pack("{s:i, s:s, s:b, s:o, s:o, s:o, s:o, s:f}", "schema", SCHEMA_VERSION, "version",
                   CLRT_VERSION, "fine", check_count_failing(check) == 0, "device", device, "scene",

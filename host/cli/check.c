@@ -7,7 +7,6 @@
 #include "check/census.h"
 #include "check/findings.h"
 #include "cli/run.h"
-#include "device/device.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,17 +31,11 @@ static bool count_leaks(Check *check, const Options *options, RayCaster *caster,
     return ok;
 }
 
-static bool trace_leaks(Check *check, const Run *run, Error *error)
+static bool trace_leaks(Check *check, Run *run, Error *error)
 {
-    const KernelChoice choice = kernel_choose(&run->options->kernel, &check->device);
-    const RendererSetup setup = {
-        .device = &check->device,
-        .cache = &run->cache,
-        .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = choice}};
     RayCaster caster;
     check->leaks = memory_zeroed(check->scene.objects.count, sizeof *check->leaks, error);
-    if (check->leaks == NULL || !kernel_check_device(&choice, &check->device, error) ||
-        !ray_caster_open(&caster, &setup, error))
+    if (check->leaks == NULL || !ray_caster_open(&caster, &run->session, error))
         return false;
     const bool ok = count_leaks(check, run->options, &caster, error);
     ray_caster_close(&caster);
@@ -51,19 +44,22 @@ static bool trace_leaks(Check *check, const Run *run, Error *error)
 
 // A missing device is an error only if the options name a device or fp64. Otherwise the report
 // contains the other checks.
-static bool find_leaks(Check *check, const Run *run, Error *error)
+static bool find_leaks(Check *check, Run *run, Error *error)
 {
     const Options *options = run->options;
+    Error cause = {0};
     if (scene_triangle_count(&check->scene) == 0)
         return true;
-    Error cause = {0};
-    if (device_open(&check->device, options->device, &cause) && trace_leaks(check, run, &cause))
-        return true;
-    if (options->device != NULL || options->kernel.precision == PRECISION_FP64)
+    run_begin(run);
+    if (session_await(&run->session, NULL, &cause) && trace_leaks(check, run, &cause))
+        check->device = run->session.device.name;
+    else if (options->device != NULL || options->kernel.precision == PRECISION_FP64)
         return error_set(error, "%s", cause.text);
-    free(check->leaks);
-    check->leaks = NULL;
-    check->device_fault = cause;
+    else {
+        free(check->leaks);
+        check->leaks = NULL;
+        check->device_fault = cause;
+    }
     return true;
 }
 
@@ -84,7 +80,7 @@ static void print_notes(const Options *options, const Scene *scene)
         fprintf(stderr, "clrt: %s\n", scene->notes.data[note]);
 }
 
-static ExitCode perform(Check *check, const Run *run, Error *error)
+static ExitCode perform(Check *check, Run *run, Error *error)
 {
     const Options *options = run->options;
     const double start = clock_seconds();
@@ -109,7 +105,6 @@ ExitCode check_scene(Run *run, Error *error)
     const ExitCode outcome = perform(&check, run, error);
     free(check.findings.data);
     free(check.leaks);
-    device_close(&check.device);
     census_free(&check.census);
     scene_free(&check.scene);
     return outcome;

@@ -2,9 +2,8 @@
 // Lists the OpenCL devices.
 #include "cli/commands.h"
 
-#include "device/cache.h"
-#include "device/device.h"
 #include "image/json_file.h"
+#include "session/session.h"
 
 #include <stdio.h>
 

@@ -2,9 +2,8 @@
 // --explain-pixel: text is printed sample by sample, and JSON after the last sample.
 #include "cli/commands.h"
 
-#include "explain/explainer.h"
+#include "explain/report.h"
 #include "image/json_file.h"
-#include "scene/camera.h"
 
 static bool has_pixel(const Run *run, Error *error)
 {
@@ -26,41 +25,28 @@ static ExitCode explain(const ExplainReport *report, Explainer *explainer, const
     return json_file_write(json, options->json_path, error) ? EXIT_DONE : EXIT_OUTPUT;
 }
 
-static ExitCode explain_with(Run *run, const ExplainerSource *source, Error *error)
+ExitCode explain_pixel(Run *run, Error *error)
 {
     Explainer explainer;
     const Options *options = run->options;
+    ExitCode code = run_start(run, error);
+    if (code != EXIT_DONE)
+        return code;
+    if (!has_pixel(run, error))
+        return EXIT_USAGE;
+    code = run_prepare(run, error);
+    if (code != EXIT_DONE)
+        return code;
+    const Viewpoint *viewpoint = &run->scene.viewpoints.data[options->view - 1];
     const ExplainReport report = {.scene_path = options->scene_path,
                                   .scene = &run->scene,
                                   .settings = &run->settings,
                                   .view = options->view,
                                   .pixel = {options->pixel[0], options->pixel[1]},
                                   .encoding = options->encoding};
-    if (!explainer_open(&explainer, source, error))
+    if (!explainer_open(&explainer, &run->session, &run->settings, viewpoint, error))
         return EXIT_DEVICE;
-    const ExitCode outcome = explain(&report, &explainer, options, error);
+    code = explain(&report, &explainer, options, error);
     explainer_close(&explainer);
-    return outcome;
-}
-
-ExitCode explain_pixel(Run *run, Error *error)
-{
-    ExitCode code = run_start(run, error);
-    if (code != EXIT_DONE)
-        return code;
-    if (!has_pixel(run, error))
-        return EXIT_USAGE;
-    run->settings.specialization = SPECIALIZE_NEVER; // too few rays to repay compiling
-    code = run_prepare(run, error);
-    if (code != EXIT_DONE)
-        return code;
-    const Viewpoint *viewpoint = &run->scene.viewpoints.data[run->options->view - 1];
-    const ExplainerSource source = {.setup = &run->async_device.setup,
-                                    .renderer = &run->renderer,
-                                    .scene = &run->scene,
-                                    .normalization = &run->normalization,
-                                    .camera = camera_make(viewpoint, &run->normalization,
-                                                          run->settings.width, run->settings.height,
-                                                          run->settings.samples)};
-    return explain_with(run, &source, error);
+    return code;
 }

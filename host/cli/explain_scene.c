@@ -29,13 +29,19 @@ __attribute__((format(printf, 3, 4))) static ScenePart part(const char *name, bo
     return made;
 }
 
+static const FlatScene *flat_of(const Run *run)
+{
+    const NodeLayout layout = run->session.choice.nodes;
+    return &run->session.scene.forms[layout][run->report.tree.node_count > 0].flat;
+}
+
 static ScenePart tree_part(const Run *run, bool is_needed)
 {
-    const uint32_t triangles = run->flat.triangle_count, stored = run->flat.node_count;
+    const uint32_t triangles = flat_of(run)->triangle_count, stored = flat_of(run)->node_count;
     if (is_needed)
         return part("tree", true, "%u node%s over the triangles, uploaded as %u %s node%s",
-                    run->report.bvh_nodes, run->report.bvh_nodes == 1 ? "" : "s", stored,
-                    kernel_nodes_name(run->flat.layout), stored == 1 ? "" : "s");
+                    run->report.tree.node_count, run->report.tree.node_count == 1 ? "" : "s",
+                    stored, kernel_nodes_name(run->session.choice.nodes), stored == 1 ? "" : "s");
     if (triangles == 0)
         return part("tree", false, "there are no triangles to find");
     if (run->options->no_bvh)
@@ -45,7 +51,7 @@ static ScenePart tree_part(const Run *run, bool is_needed)
 
 static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
 {
-    const FlatScene *flat = &run->flat;
+    const FlatScene *flat = flat_of(run);
     const SceneTraits needed = traits_of(flat, run->options->statistics);
     const ScenePart list[SCENE_PARTS] = {
         needed.spheres ? part("spheres", true, "%u of them", flat->sphere_count)
@@ -64,7 +70,7 @@ static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
     // General programs contain all features, except that statistics require --stats.
     for (int i = 0; i < SCENE_PARTS; i++)
         parts[i].is_compiled =
-            parts[i].is_needed || (!run->renderer.is_special && i < SCENE_PARTS - 1);
+            parts[i].is_needed || (!run->report.drawn.is_special && i < SCENE_PARTS - 1);
 }
 
 static const char *scene_family_reason(const Run *run)
@@ -76,17 +82,16 @@ static const char *scene_family_reason(const Run *run)
         return "--kernel requests it";
     if (request->nodes == 1 + NODES_PAIR)
         return "--nodes pair has no packets";
-    if (run->async_device.is_quick)
+    if (run->session.is_quick)
         return "packets are not compiled yet, and compiling takes longer than they would save";
-    if (kernel_suits_packets(&run->async_device.device))
+    if (kernel_suits_packets(&run->session.device))
         return "it suits CPUs";
-    return run->async_device.device.is_cpu ? "it suits this OpenCL implementation"
-                                           : "it suits GPUs";
+    return run->session.device.is_cpu ? "it suits this OpenCL implementation" : "it suits GPUs";
 }
 
 static const char *scene_program_reason(const Run *run)
 {
-    const bool is_special = run->renderer.is_special;
+    const bool is_special = run->report.drawn.is_special;
     if (run->options->specialization != SPECIALIZE_AUTO)
         return is_special ? "--specialize always" : "--specialize never";
     return is_special
@@ -98,12 +103,12 @@ static const char *scene_program_reason(const Run *run)
 
 static void write_kernels(const Run *run)
 {
-    const KernelChoice *choice = &run->async_device.setup.source.choice;
-    printf("%s on %s\n", run->options->scene_path, run->async_device.device.name);
+    const KernelChoice *choice = &run->session.choice;
+    printf("%s on %s\n", run->options->scene_path, run->session.device.name);
     printf("  %-11s %s over %s nodes in %s: %s\n", "kernels", kernel_family_name(choice->family),
            kernel_nodes_name(choice->nodes), kernel_precision_name(choice->precision),
            scene_family_reason(run));
-    printf("  %-11s %s: %s\n", "program", run->renderer.is_special ? "special" : "general",
+    printf("  %-11s %s: %s\n", "program", run->report.drawn.is_special ? "special" : "general",
            scene_program_reason(run));
 }
 
@@ -123,8 +128,8 @@ static void write_arrays(const Run *run)
 {
     FlatArray arrays[FLAT_ARRAYS];
     int missing = 0;
-    flat_arrays(&run->flat, arrays);
-    printf("uploaded, %zu bytes\n", run->renderer.upload_size);
+    flat_arrays(flat_of(run), arrays);
+    printf("uploaded, %zu bytes\n", run->report.drawn.upload_size);
     for (int i = 0; i < FLAT_ARRAYS; i++)
         if (arrays[i].bytes > 0)
             printf("  %-11s %zu bytes\n", arrays[i].name, arrays[i].bytes);
@@ -162,7 +167,7 @@ static json_t *arrays_json(const Run *run)
 {
     FlatArray arrays[FLAT_ARRAYS];
     json_t *object = json_object();
-    flat_arrays(&run->flat, arrays);
+    flat_arrays(flat_of(run), arrays);
     for (int i = 0; i < FLAT_ARRAYS; i++)
         json_object_set_new(object, arrays[i].name, json_integer((json_int_t)arrays[i].bytes));
     return object;
@@ -170,14 +175,14 @@ static json_t *arrays_json(const Run *run)
 
 static json_t *whole_json(const Run *run)
 {
-    const KernelChoice *choice = &run->async_device.setup.source.choice;
+    const KernelChoice *choice = &run->session.choice;
     return json_pack(
         "{s:i, s:s, s:o, s:s, s:{s:s, s:s, s:s, s:s}, s:{s:b, s:s}, s:o, s:o}", "schema",
         SCHEMA_VERSION, "version", CLRT_VERSION, "scene", json_file_path(run->options->scene_path),
-        "device", run->async_device.device.name, "kernels", "family",
-        kernel_family_name(choice->family), "nodes", kernel_nodes_name(choice->nodes), "precision",
+        "device", run->session.device.name, "kernels", "family", kernel_family_name(choice->family),
+        "nodes", kernel_nodes_name(choice->nodes), "precision",
         kernel_precision_name(choice->precision), "reason", scene_family_reason(run), "program",
-        "special", run->renderer.is_special, "reason", scene_program_reason(run), "parts",
+        "special", run->report.drawn.is_special, "reason", scene_program_reason(run), "parts",
         parts_json(run), "uploaded_bytes", arrays_json(run));
 }
 
@@ -189,6 +194,9 @@ ExitCode explain_scene(Run *run, Error *error)
         code = run_prepare(run, error);
     if (code != EXIT_DONE)
         return code;
+    const SessionPicture request = {.settings = run->settings, .counts = options->statistics};
+    if (!session_prepare(&run->session, &request, &run->report.drawn, error))
+        return EXIT_DEVICE;
     if (options->json_path != NULL)
         return json_file_write(whole_json(run), options->json_path, error) ? EXIT_DONE
                                                                            : EXIT_OUTPUT;

@@ -28,13 +28,13 @@ static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run 
                             Error *error)
 {
     Run run = {.options = options};
-    cache_open(&run.cache);
+    cache_open(&run.session.cache);
     if (progress_on_terminal() && !options->quiet)
-        run.cache.announce = progress_show_compiling;
+        run.session.cache.announce = progress_show_compiling;
     limit_threads(options->threads);
     const ExitCode code = perform_stages(&run, error);
     run_free(&run);
-    cache_close(&run.cache);
+    cache_close(&run.session.cache);
     return code;
 }
 

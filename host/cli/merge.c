@@ -9,7 +9,6 @@
 #include "cli/picture.h"
 #include "jobs/exr_join.h"
 #include "jobs/stored_tiles.h"
-#include "render/renderer.h"
 
 #include <errno.h>
 #include <stdlib.h>

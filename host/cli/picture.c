@@ -8,9 +8,6 @@
 #include "cli/process.h"
 #include "image/image_file.h"
 #include "jobs/stored_tiles.h"
-#include "refine/refine_tree.h"
-#include "render/aov_pass.h"
-#include "render/renderer.h"
 #include "scene/camera.h"
 
 #include <stdio.h>
@@ -34,16 +31,25 @@ static bool tile_done(void *context, const RenderProgress *render)
            progress_tile_done(&watch->progress, render);
 }
 
-static bool draw_frame(Picture *picture, const CameraData *camera, Error *error)
+SessionPicture picture_request(const Picture *picture)
+{
+    const Run *run = picture->run;
+    return (SessionPicture){.settings = run->settings,
+                            .viewpoint = picture->viewpoint,
+                            .goal = run_goal(run),
+                            .counts = run->options->statistics,
+                            .keeps_samples = run->options->aovs != 0};
+}
+
+static bool draw_frame(Picture *picture, Error *error)
 {
     Run *run = picture->run;
     double moment = clock_seconds();
     Watch watch = {picture, progress_begin(run->options->quiet), error};
     const RenderObserver observer = {tile_done, &watch};
-    const bool ok =
-        options_are_adaptive(run->options)
-            ? refined_picture_draw(picture, camera, &observer, error)
-            : renderer_draw(&run->renderer, camera, &observer, &picture->framebuffer, error);
+    const SessionPicture request = picture_request(picture);
+    const bool ok = session_draw(&run->session, &request, &observer, &picture->framebuffer,
+                                 &run->report.drawn, error);
     picture->stopped_by = progress_end(&watch.progress);
     const double seconds = run_lap(&moment);
     if (run->options->verbose && ok)
@@ -52,59 +58,27 @@ static bool draw_frame(Picture *picture, const CameraData *camera, Error *error)
     return ok && !picture->resume.is_broken;
 }
 
-static CameraData camera_of(const Picture *picture, uint32_t samples)
-{
-    const Run *run = picture->run;
-    return camera_make(&picture->viewpoint, &run->normalization, render_whole_width(&run->settings),
-                       render_whole_height(&run->settings), samples);
-}
-
-// Returns the number of sample positions along a pixel's side.
-static uint32_t samples_across(const Run *run)
-{
-    if (run->options->contrast > 0)
-        return REFINE_GRID;
-    return options_are_adaptive(run->options) ? LADDER_GRID : run->settings.samples;
-}
-
-// Stores the number of pixels, and the number of samples unless refining has already counted them.
-static void count_samples(Run *run)
-{
-    Report *report = &run->report;
-    const RenderSettings *settings = &run->settings;
-    if (options_are_adaptive(run->options)) {
-        report->pixels = (uint64_t)settings->width * settings->height;
-        return;
-    }
-    report->pixels = 0;
-    const uint64_t tiles_done = run->renderer.progress.tiles_done;
-    for (uint64_t number = settings->ready_tiles; number < tiles_done; number++) {
-        const Tile tile = tile_at(settings, number);
-        report->pixels += (uint64_t)tile.width * tile.height;
-    }
-    report->samples = report->pixels * settings->samples * settings->samples;
-}
-
 static bool draw(Picture *picture, Error *error)
 {
     Run *run = picture->run;
-    const CameraData camera = camera_of(picture, samples_across(run));
     bool ok = true;
     for (uint32_t frame = 0; ok && picture->stopped_by == 0 && frame < run->options->repeat;
          frame++)
-        ok = draw_frame(picture, &camera, error);
-    const RenderProgress *done = &run->renderer.progress;
-    run->report.complete = ok && done->tiles_done == done->tiles;
-    count_samples(run);
+        ok = draw_frame(picture, error);
+    run->report.complete = ok && run->report.drawn.is_complete;
     return ok;
 }
 
-static bool trace_layers(Picture *picture, const AovPass *pass, Error *error)
+static bool trace_layers(Picture *picture, Error *error)
 {
     Run *run = picture->run;
+    const ChannelRequest channels = {run->options->aovs, run->report.drawn.pixel_samples,
+                                     picture->certainty.marks != NULL ? &picture->certainty : NULL};
+    const SessionPicture request = picture_request(picture);
     Progress progress = progress_begin(run->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok = aov_pass_draw(pass, &observer, &picture->layers, error);
+    const bool ok = session_draw_channels(&run->session, &request, &channels, &observer,
+                                          &picture->layers, error);
     picture->stopped_by = progress_end(&progress);
     run->report.complete = run->report.complete && picture->stopped_by == 0;
     return ok;
@@ -112,39 +86,19 @@ static bool trace_layers(Picture *picture, const AovPass *pass, Error *error)
 
 static bool certify(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
-    const CameraData camera = camera_of(picture, run->settings.samples);
-    return !aov_needs(run->options->aovs, AOV_NEEDS_CERTAINTY) ||
-           certain_picture_make(picture, &camera, error);
+    return !aov_needs(picture->run->options->aovs, AOV_NEEDS_CERTAINTY) ||
+           certain_picture_make(picture, error);
 }
 
 // Computes the channels besides the colors. If the picture was stopped, all their values are zero.
 static bool draw_layers(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
-    AovPass pass;
-    const AovSet aovs = run->options->aovs;
-    const RenderSettings *settings = &run->settings;
-    const AovSource source = {.setup = &run->async_device.setup,
-                              .renderer = &run->renderer,
-                              .camera = camera_of(picture, settings->samples),
-                              .center = camera_of(picture, 1),
-                              .samples = picture->samples,
-                              .scene = {&run->normalization, run->flat.light_count},
-                              .certainty =
-                                  picture->certainty.marks != NULL ? &picture->certainty : NULL};
-    aov_name_layers(aovs, &picture->layers);
-    reference_name_layer(run->options, &picture->layers);
+    const Options *options = picture->run->options;
     const Framebuffer *frame = &picture->framebuffer;
-    if (!layers_make(&picture->layers, frame->width, frame->height, error))
-        return false;
-    if (aovs == 0 || picture->stopped_by != 0)
-        return true;
-    if (!aov_pass_open(&pass, aovs, &source, error))
-        return false;
-    const bool ok = trace_layers(picture, &pass, error);
-    aov_pass_close(&pass);
-    return ok;
+    aov_name_layers(options->aovs, &picture->layers);
+    reference_name_layer(options, &picture->layers);
+    return layers_make(&picture->layers, frame->width, frame->height, error) &&
+           (options->aovs == 0 || picture->stopped_by != 0 || trace_layers(picture, error));
 }
 
 static bool measure_error(Picture *picture, Error *error)
@@ -218,7 +172,7 @@ static bool write_picture(Picture *picture, Error *error)
         settings.part = &part;
         if (!stored_tiles_list(&run->settings, &part, error))
             return false;
-        part.tile_count = run->renderer.progress.tiles_done;
+        part.tile_count = run->report.drawn.progress.tiles_done;
     }
     const bool ok = image_write(is_film ? &picture->film : &picture->framebuffer, picture->path,
                                 &settings, error);
@@ -277,9 +231,13 @@ static ExitCode prepare(Run *run, Error *error)
     if (!check_sizes(run, error))
         return EXIT_OUTPUT;
     const ExitCode prepared = run_prepare(run, error);
-    if (prepared == EXIT_DONE)
-        picture_print_setup(run);
-    return prepared;
+    if (prepared != EXIT_DONE)
+        return prepared;
+    const SessionPicture request = picture_request(&(Picture){.run = run});
+    if (!session_prepare(&run->session, &request, &run->report.drawn, error))
+        return EXIT_DEVICE;
+    picture_print_setup(run);
+    return EXIT_DONE;
 }
 
 static void clear(Picture *picture)
@@ -289,8 +247,8 @@ static void clear(Picture *picture)
     framebuffer_free(&picture->reference);
     layers_free(&picture->layers);
     certainty_map_free(&picture->certainty);
-    free(picture->samples);
-    picture->samples = NULL;
+    free(run->report.drawn.pixel_samples);
+    run->report.drawn.pixel_samples = NULL;
     run->report.frame_count = 0;
 }
 
@@ -314,10 +272,8 @@ static bool begin_picture(Picture *picture, Error *error)
     uint32_t width, height;
     report_fill_provenance(&own, run);
     tile_frame_size(settings, &width, &height);
-    const bool ok = framebuffer_make(&picture->framebuffer, width, height, error) &&
-                    resume_open(&picture->resume, &own, settings, &picture->framebuffer, error);
-    run->renderer.settings.ready_tiles = settings->ready_tiles;
-    return ok;
+    return framebuffer_make(&picture->framebuffer, width, height, error) &&
+           resume_open(&picture->resume, &own, settings, &picture->framebuffer, error);
 }
 
 static ExitCode finish(Picture *picture, double start, Error *error)
@@ -335,7 +291,7 @@ static ExitCode finish(Picture *picture, double start, Error *error)
         return picture_fail_stopped(picture, error);
     if (!report_print_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
-    return run->report.goal_missed ? picture_fail_goal(run, error) : EXIT_DONE;
+    return run->report.drawn.goal_missed ? picture_fail_goal(run, error) : EXIT_DONE;
 }
 
 static ExitCode make_frame(Picture *picture, uint32_t number, double start, Error *error)
@@ -397,8 +353,6 @@ ExitCode picture_make(Run *run, Error *error)
                    : make_frame(&picture, options->view, start, error);
     clear(&picture);
     framebuffer_free(&picture.film);
-    if (CLRT_TIDY_EXIT)
-        reference_close(&picture.reference_renderers);
     resume_close(&picture.resume, false);
     return code;
 }

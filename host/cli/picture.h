@@ -6,25 +6,17 @@
 #include "cli/run.h"
 #include "image/provenance.h"
 #include "jobs/resume.h"
-#include "render/certifier.h"
-
-// The renderers of a reference's passes, in fp32 and in fp64. All frames of a run share them.
-typedef struct {
-    Renderer fast, exact;
-    bool is_open;
-} ReferenceRenderers;
+#include "session/channels.h"
 
 // A picture in progress. The frames of a run use one Picture in succession.
 typedef struct {
-    Run *run;         // the scene, the renderer and the report
+    Run *run;         // the scene, the session and the report
     const char *path; // of the output file
     Viewpoint viewpoint;
     Framebuffer framebuffer;
-    Framebuffer film;      // the frames of an animated file, below each other; empty without one
-    Framebuffer reference; // empty without --reference
-    ReferenceRenderers reference_renderers;
+    Framebuffer film;       // the frames of an animated file, below each other; empty without one
+    Framebuffer reference;  // empty without --reference
     Layers layers;          // the channels besides the colors
-    uint32_t *samples;      // per pixel; NULL without --aov or without refinement
     CertaintyMap certainty; // empty without --aov certainty
     Resume resume;          // empty without --resume
     int stopped_by;         // the signal that stopped the picture, or 0
@@ -60,19 +52,15 @@ void reference_name_layer(const Options *options, Layers *layers);
 // the reference.
 bool reference_measure(Picture *picture, Error *error);
 
-void reference_close(ReferenceRenderers *renderers);
-
 // Writes the reference in the format of the path's ending.
 bool reference_write(const Picture *picture, const char *path, Error *error);
 
-// Renders the picture with --aa-adaptive, --error or --time, and stores the number of samples in
-// the report.
-bool refined_picture_draw(Picture *picture, const CameraData *camera,
-                          const RenderObserver *observer, Error *error);
-
 // Computes the certainty of each pixel of a finished picture, repairs pixels in fp64, and stores
 // the counts in the report. If the picture was stopped earlier, it stays unchanged and uncertified.
-bool certain_picture_make(Picture *picture, const CameraData *camera, Error *error);
+bool certain_picture_make(Picture *picture, Error *error);
+
+// Returns the request for the picture's view.
+SessionPicture picture_request(const Picture *picture);
 
 // Reports of a run's costs and results, as text and as JSON.
 

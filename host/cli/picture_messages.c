@@ -3,7 +3,6 @@
 #include "cli/picture.h"
 
 #include "cli/process.h"
-#include "render/renderer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,16 +43,17 @@ void picture_print_setup(const Run *run)
             scene_triangle_count(&run->scene), run->scene.spheres.count, run->scene.lights.count,
             scene_dropped_count(&run->scene));
     fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
-            report->bvh_nodes, report->bvh_leaves, report->bvh_largest_leaf, report->bvh_depth);
-    const Device *device = &run->async_device.device;
+            report->tree.node_count, report->tree.leaf_count, report->tree.largest_leaf,
+            report->tree.depth);
+    const Device *device = &run->session.device;
     fprintf(stderr, "device: %s, driver %s, %u compute units\n", device->name, device->version,
             device->compute_units);
-    const KernelChoice *choice = &run->async_device.setup.source.choice;
+    const KernelChoice *choice = &run->session.choice;
     fprintf(stderr, "kernels: %s, %s nodes, %s, %s, ready in %.3f s; uploaded %zu bytes\n",
             kernel_family_name(choice->family), kernel_nodes_name(choice->nodes),
             kernel_precision_name(choice->precision),
-            run->renderer.is_special ? "specialized" : "general", run->renderer.build_seconds,
-            run->renderer.upload_size);
+            report->drawn.is_special ? "specialized" : "general", report->drawn.build_seconds,
+            report->drawn.upload_size);
 }
 
 void picture_print_beginning(const Picture *picture)
@@ -86,14 +86,14 @@ ExitCode picture_fail_goal(const Run *run, Error *error)
                   report->frame_seconds[0]);
     else
         error_set(error, "the error may be %.2g %%, more than --error allows",
-                  100 * fmax(report->bound, report->truncation));
+                  100 * fmax(report->drawn.bound, report->truncation));
     return EXIT_FAULTS;
 }
 
 ExitCode picture_fail_stopped(const Picture *picture, Error *error)
 {
     const Run *run = picture->run;
-    const RenderProgress *progress = &run->renderer.progress;
+    const RenderProgress *progress = &run->report.drawn.progress;
     const char *path = picture->path,
                *name = path == NULL || strcmp(path, "-") == 0 ? "the picture" : path;
     if (run->report.complete)

@@ -26,8 +26,7 @@ static void add_tree(json_t *json, const Run *run)
     if (!aov_needs(run->options->aovs, AOV_NEEDS_TESTS))
         return;
     json_object_set_new(json, "bvh", json_string(report_tree_name(run)));
-    json_object_set_new(
-        json, "nodes", json_string(kernel_nodes_name(run->async_device.setup.source.choice.nodes)));
+    json_object_set_new(json, "nodes", json_string(kernel_nodes_name(run->session.choice.nodes)));
 }
 
 static json_t *settings_json(const Run *run)
@@ -41,7 +40,7 @@ static json_t *settings_json(const Run *run)
                   json_count(render_whole_height(settings)), "samples", samples_json(run),
                   "max_level", json_count(settings->max_level), "encode",
                   options->encoding == ENCODE_SRGB ? "srgb" : "raw", "precision",
-                  kernel_precision_name(run->async_device.setup.source.choice.precision));
+                  kernel_precision_name(run->session.choice.precision));
     add_tree(json, run);
     if (options->exposure != 0)
         json_object_set_new(json, "exposure", json_real(options->exposure));
@@ -60,7 +59,7 @@ static json_t *settings_json(const Run *run)
     if (settings->parts > 0 || is_unfinished)
         json_object_set_new(json, "tile", pair_json(settings->tile_width, settings->tile_height));
     if (is_unfinished)
-        json_object_set_new(json, "tiles_done", json_count(run->renderer.progress.tiles_done));
+        json_object_set_new(json, "tiles_done", json_count(run->report.drawn.progress.tiles_done));
     return json;
 }
 
@@ -76,8 +75,8 @@ void report_fill_provenance(Provenance *provenance, const Run *run)
     scene_hash_name(run->scene.hash, provenance->texts[STORED_SCENE_HASH]);
     scene_hash_name(run->scene.mesh_hash, provenance->texts[STORED_MESH_HASH]);
     provenance_write_settings(provenance->texts[STORED_SETTINGS], settings);
-    set(provenance, STORED_DEVICE, run->async_device.device.name);
-    set(provenance, STORED_DRIVER, run->async_device.device.version);
+    set(provenance, STORED_DEVICE, run->session.device.name);
+    set(provenance, STORED_DRIVER, run->session.device.version);
     set(provenance, STORED_PIXEL_HASH, run->report.pixel_hash);
     set(provenance, STORED_COMPLETE, run->report.complete ? "yes" : "no");
     json_decref(settings);

@@ -2,7 +2,7 @@
 // Prepares the process for signals that stop it, for crashes of drivers, and for small stacks.
 #pragma once
 
-#include "render/renderer.h"
+#include "session/session.h"
 
 // Observes a picture's tracing: prints progress on standard error; a signal stops the tracing.
 typedef struct {

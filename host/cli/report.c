@@ -2,9 +2,7 @@
 // Writes the report as text, and as JSON with Jansson.
 #include "cli/picture.h"
 
-#include "accel/bvh.h"
 #include "image/json_file.h"
-#include "render/renderer.h"
 
 #include <inttypes.h>
 #include <sys/resource.h>
@@ -13,25 +11,26 @@
 
 static uint64_t ray_count(const Run *run)
 {
-    const uint64_t *tallies = run->renderer.progress.tallies;
+    const uint64_t *tallies = run->report.drawn.progress.tallies;
     return tallies[TALLY_CAMERA_RAYS] + tallies[TALLY_SHADOW_RAYS] + tallies[TALLY_REFLECTED_RAYS];
 }
 
 static double per_ray(const Run *run, TallyKind kind)
 {
     const uint64_t rays = ray_count(run);
-    return rays == 0 ? 0 : (double)run->renderer.progress.tallies[kind] / (double)rays;
+    return rays == 0 ? 0 : (double)run->report.drawn.progress.tallies[kind] / (double)rays;
 }
 
 static double samples_per_pixel(const Run *run)
 {
     const Report *report = &run->report;
-    return report->pixels == 0 ? 0 : (double)report->samples / (double)report->pixels;
+    return report->drawn.pixels == 0 ? 0
+                                     : (double)report->drawn.samples / (double)report->drawn.pixels;
 }
 
 const char *report_tree_name(const Run *run)
 {
-    if (run->report.bvh_nodes == 0)
+    if (run->report.tree.node_count == 0)
         return "none";
     return run->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }
@@ -46,7 +45,7 @@ static void write_error(const Run *run, FILE *stream)
 {
     const double truncation = report_counted_truncation(run);
     fprintf(stream, "error: about %.2g %%, at most %.2g %% with 95 %% confidence",
-            100 * run->report.estimate, 100 * run->report.bound);
+            100 * run->report.drawn.estimate, 100 * run->report.drawn.bound);
     if (truncation > 0)
         fprintf(stream, ", including at most %.2g %% because rays end at level %u",
                 100 * truncation, run->settings.max_level);
@@ -55,7 +54,7 @@ static void write_error(const Run *run, FILE *stream)
 
 void report_write_text(const Run *run, FILE *stream)
 {
-    const uint64_t *tallies = run->renderer.progress.tallies;
+    const uint64_t *tallies = run->report.drawn.progress.tallies;
     const Report *report = &run->report;
     if (run->options->resume)
         fprintf(stream,
@@ -63,9 +62,9 @@ void report_write_text(const Run *run, FILE *stream)
                 " tiles were finished before: time and counts cover the others\n",
                 run->settings.ready_tiles, tile_count(&run->settings));
     fprintf(stream, "%.3f seconds\n", report->frame_seconds[0]);
-    fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->samples,
+    fprintf(stream, "%" PRIu64 " samples, %.2f per pixel\n", report->drawn.samples,
             samples_per_pixel(run));
-    if (report->estimate > 0)
+    if (report->drawn.estimate > 0)
         write_error(run, stream);
     fprintf(stream,
             "%" PRIu64 " rays: %" PRIu64 " camera, %" PRIu64 " shadow, %" PRIu64 " reflected\n",
@@ -103,7 +102,7 @@ void report_write_error(const Run *run, FILE *stream)
 
 static json_t *rays_json(const Run *run)
 {
-    const uint64_t *tallies = run->renderer.progress.tallies;
+    const uint64_t *tallies = run->report.drawn.progress.tallies;
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "camera",
                      json_count(tallies[TALLY_CAMERA_RAYS]), "camera_hits",
                      json_count(tallies[TALLY_CAMERA_HITS]), "shadow",
@@ -114,7 +113,7 @@ static json_t *rays_json(const Run *run)
 
 static json_t *tests_json(const Run *run)
 {
-    const uint64_t *tallies = run->renderer.progress.tallies;
+    const uint64_t *tallies = run->report.drawn.progress.tallies;
     return json_pack(
         "{s:o, s:o, s:o, s:f, s:f, s:f}", "triangle", json_count(tallies[TALLY_TRIANGLE_TESTS]),
         "box", json_count(tallies[TALLY_BOX_TESTS]), "sphere",
@@ -128,9 +127,9 @@ static json_t *seconds_json(const Run *run)
     const Report *report = &run->report;
     return json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "parse", report->parse,
                      "load", report->load, "build", report->build, "device",
-                     run->async_device.device_seconds, "upload", run->renderer.upload_seconds,
-                     "kernel_build", run->renderer.build_seconds, "trace", report->frame_seconds[0],
-                     "write", report->write, "total", report->total);
+                     run->session.device_seconds, "upload", run->report.drawn.upload_seconds,
+                     "kernel_build", run->report.drawn.build_seconds, "trace",
+                     report->frame_seconds[0], "write", report->write, "total", report->total);
 }
 
 static json_t *frames_json(const Run *run)
@@ -159,8 +158,8 @@ static json_t *inner_nodes_json(const Run *run)
 {
     const Report *report = &run->report;
     json_t *list = json_array();
-    for (uint32_t depth = 0; depth + 1 < report->bvh_depth; depth++)
-        json_array_append_new(list, json_count(report->bvh_inner[depth]));
+    for (uint32_t depth = 0; depth + 1 < report->tree.depth; depth++)
+        json_array_append_new(list, json_count(report->tree.inner_counts[depth]));
     return list;
 }
 
@@ -168,9 +167,10 @@ static json_t *tree_json(const Run *run)
 {
     const Report *report = &run->report;
     return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "builder", report_tree_name(run), "nodes",
-                     json_count(report->bvh_nodes), "leaves", json_count(report->bvh_leaves),
-                     "depth", json_count(report->bvh_depth), "inner_nodes", inner_nodes_json(run),
-                     "largest_leaf", json_count(report->bvh_largest_leaf));
+                     json_count(report->tree.node_count), "leaves",
+                     json_count(report->tree.leaf_count), "depth", json_count(report->tree.depth),
+                     "inner_nodes", inner_nodes_json(run), "largest_leaf",
+                     json_count(report->tree.largest_leaf));
 }
 
 static json_t *settings_json(const Run *run)
@@ -183,21 +183,21 @@ static json_t *settings_json(const Run *run)
         json_count(render_whole_height(settings)), "crop", crop_json(settings), "samples",
         json_count(settings->samples), "max_level", json_count(settings->max_level),
         "truncation_bound", report->truncation, "tile", json_count(settings->tile_width),
-        json_count(settings->tile_height), "work_group", json_count(settings->group_width),
-        json_count(settings->group_height), "specialized", run->renderer.is_special, "kernel",
-        kernel_family_name(run->async_device.setup.source.choice.family), "nodes",
-        kernel_nodes_name(run->async_device.setup.source.choice.nodes), "lanes",
-        json_count(run->async_device.setup.source.choice.lanes), "precision",
-        kernel_precision_name(run->async_device.setup.source.choice.precision));
+        json_count(settings->tile_height), "work_group", json_count(report->drawn.group[0]),
+        json_count(report->drawn.group[1]), "specialized", run->report.drawn.is_special, "kernel",
+        kernel_family_name(run->session.choice.family), "nodes",
+        kernel_nodes_name(run->session.choice.nodes), "lanes",
+        json_count(run->session.choice.lanes), "precision",
+        kernel_precision_name(run->session.choice.precision));
 }
 
 static json_t *samples_json(const Run *run)
 {
     const Report *report = &run->report;
-    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:b}", "total", json_count(report->samples),
+    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:b}", "total", json_count(report->drawn.samples),
                      "per_pixel", samples_per_pixel(run), "contrast", run->options->contrast,
-                     "error_estimate", report->estimate, "error_bound", report->bound,
-                     "goal_reached", !report->goal_missed);
+                     "error_estimate", report->drawn.estimate, "error_bound", report->drawn.bound,
+                     "goal_reached", !report->drawn.goal_missed);
 }
 
 // Returns null for refined pictures, which are drawn in several passes without tiles.
@@ -208,7 +208,7 @@ static json_t *tiles_json(const Run *run)
         return json_null();
     return json_pack("{s:o, s:o, s:o}", "total", json_count(tile_count(&run->settings)), "found",
                      json_count(found), "drawn",
-                     json_count(run->renderer.progress.tiles_done - found));
+                     json_count(run->report.drawn.progress.tiles_done - found));
 }
 
 static json_t *reference_json(const Run *run)
@@ -256,12 +256,12 @@ static json_t *report_json(const Run *run)
     const Report *report = &run->report;
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
-    json_t *json = json_pack(
-        "{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}}", "schema", SCHEMA_VERSION, "version",
-        CLRT_VERSION, "complete", report->complete, "pixel_hash", report->pixel_hash, "device",
-        "name", run->async_device.device.name, "driver", run->async_device.device.version, "bytes",
-        "uploaded", json_count(run->renderer.upload_size), "peak_memory",
-        json_count((uint64_t)usage.ru_maxrss * 1024));
+    json_t *json = json_pack("{s:i, s:s, s:b, s:s, s:{s:s, s:s}, s:{s:o, s:o}}", "schema",
+                             SCHEMA_VERSION, "version", CLRT_VERSION, "complete", report->complete,
+                             "pixel_hash", report->pixel_hash, "device", "name",
+                             run->session.device.name, "driver", run->session.device.version,
+                             "bytes", "uploaded", json_count(run->report.drawn.upload_size),
+                             "peak_memory", json_count((uint64_t)usage.ru_maxrss * 1024));
     if (json != NULL)
         add_parts(json, run);
     return json;

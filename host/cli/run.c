@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The stages from a scene file to an open renderer.
+// The stages from a scene file to a session that is ready to draw.
 #include "cli/run.h"
 
-#include "accel/flat.h"
 #include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/options/option.h"
+#include "cli/picture.h"
 #include "cli/process.h"
-#include "device/device.h"
 #include "image/image_file.h"
 #include "scene/scene.h"
 #include "scene/scn.h"
 
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
 // The truncation of reflections may use this fraction of the error goal. The fraction is small
 // because more levels cost less than more samples.
@@ -22,9 +21,15 @@
 // The samples per pixel and axis of a lone mesh.
 #define MESH_SAMPLES 3
 
-// Up to this number, testing all triangles is faster than traversing a tree. With 8, 16, 32 and 64
-// triangles, packets take 0.92, 0.91, 0.95 and 1.06 times as long without a tree as with one.
-#define FEW_TRIANGLES 32
+// The choice of quick kernels depends on the work of the run, measured in samples of --aa.
+
+// With --error E, a pixel counts as 1 + ERROR_SAMPLES / E samples, because each sample that it
+// takes costs about as much as four samples of --aa.
+#define ERROR_SAMPLES 0.08
+
+// With --aa-adaptive T, a pixel counts as 1 + CONTRAST_SAMPLES / sqrt(T) samples. CONTRAST_SAMPLES
+// was measured as 0.4 to 0.5 in a small scene, and as 2.2 to 2.6 with a mesh.
+#define CONTRAST_SAMPLES 1
 
 double run_lap(double *moment)
 {
@@ -64,10 +69,6 @@ static RenderSettings settings_of(const Options *options, const Scene *scene)
         .tile_height = small ? OPTIONS_PART_TILE : options->tile_height,
         .part = options->parts > 0 ? options->part - 1 : 0,
         .parts = options->parts,
-        .group_width = options->group_width,
-        .group_height = options->group_height,
-        .statistics = options->statistics,
-        .specialization = options->specialization,
     };
 }
 
@@ -96,46 +97,13 @@ bool run_load_scene(Run *run, Error *error)
     run->report.parse = run_lap(&moment) - run->report.load;
     ok = ok && check_geometry(options, &run->scene, error) &&
          check_missing(options, &run->scene, error);
-    run->normalization = normalization_of(&run->scene);
     Error cause = {0};
-    if (ok && !normalization_check(&run->normalization, &run->scene, &cause))
+    if (!session_take(&run->session, &run->scene, &cause) && ok)
         ok = error_set(error, "%s: %s", options->scene_path, cause.text);
     run->report.build = run_lap(&moment);
     run->settings = settings_of(options, &run->scene);
     ok = ok && crop_apply(&options->crop, &run->settings, error);
     run->report.truncation = truncation_bound(&run->scene, run->settings.max_level);
-    return ok;
-}
-
-// Returns whether a tree saves time. With --bvh, few triangles get a tree too.
-static bool wants_tree(const Options *options, NodeLayout layout, uint64_t triangles)
-{
-    const bool are_few = layout == NODES_WIDE && triangles <= FEW_TRIANGLES;
-    return option_is_given(options, "bvh") || !are_few;
-}
-
-static void count_tree(Report *report, const Bvh *bvh)
-{
-    report->bvh_nodes = bvh->node_count;
-    report->bvh_leaves = bvh->leaf_count;
-    report->bvh_depth = bvh->depth;
-    report->bvh_largest_leaf = bvh->largest_leaf;
-    memcpy(report->bvh_inner, bvh->inner_counts, sizeof report->bvh_inner);
-}
-
-static bool compile(const Run *run, FlatScene *flat, CompileStages *stages,
-                    const CompileSource *form, Error *error)
-{
-    const Options *options = run->options;
-    CompileSource source = *form;
-    source.scene = &run->scene;
-    source.normalization = &run->normalization;
-    source.builder = options->builder;
-    source.has_tree =
-        form->has_tree && wants_tree(options, form->layout, scene_triangle_count(&run->scene));
-    source.pool = thread_pool_open(threads_allowed(options->threads));
-    const bool ok = scene_compile(flat, stages, &source, error);
-    thread_pool_close(source.pool);
     return ok;
 }
 
@@ -145,30 +113,73 @@ static void show_loading(const Options *options, bool begins)
         progress_show_loading(begins);
 }
 
-bool run_build_scene(Run *run, Error *error)
+static TreeUse tree_use(const Options *options)
 {
-    CompileStages stages;
-    double moment = clock_seconds();
-    const CompileSource form = {.layout = run->async_device.setup.source.choice.nodes,
-                                .has_tree = !run->options->no_bvh};
-    show_loading(run->options, true);
-    const bool ok = compile(run, &run->flat, &stages, &form, error);
-    show_loading(run->options, false);
-    run->report.build += run_lap(&moment);
-    if (ok)
-        count_tree(&run->report, &stages.bvh);
-    compile_stages_free(&stages);
-    return ok;
+    if (options->no_bvh)
+        return TREE_NEVER;
+    return option_is_given(options, "bvh") ? TREE_ALWAYS : TREE_AUTO;
 }
 
-const FlatScene *run_compiled_scene(Run *run, NodeLayout layout, Error *error)
+SessionSettings run_session_settings(const Options *options)
 {
-    FlatScene *other = &run->others[layout];
-    const CompileSource form = {.layout = layout, .has_tree = true};
-    if (layout == run->flat.layout && !run->options->no_bvh)
-        return &run->flat;
-    const bool is_compiled = other->lights != NULL;
-    return is_compiled || compile(run, other, NULL, &form, error) ? other : NULL;
+    return (SessionSettings){.device = options->device,
+                             .threads = options->threads,
+                             .kernel_folder = getenv("CLRT_KERNEL_DIR"),
+                             .kernel = options->kernel,
+                             .specialization = options->specialization,
+                             .builder = options->builder,
+                             .tree = tree_use(options),
+                             .group_width = options->group_width,
+                             .group_height = options->group_height};
+}
+
+void run_begin(Run *run)
+{
+    run->session.settings = run_session_settings(run->options);
+    session_begin(&run->session);
+}
+
+PictureGoal run_goal(const Run *run)
+{
+    const Options *options = run->options;
+    return (PictureGoal){options->contrast, options->error_goal, options->time_goal,
+                         report_counted_truncation(run)};
+}
+
+// Returns a pixel's work, in samples of --aa.
+static double samples_per_pixel(const Options *options, const RenderSettings *settings)
+{
+    if (options->error_goal > 0)
+        return 1 + ERROR_SAMPLES / options->error_goal;
+    if (options->contrast > 0)
+        return 1 + CONTRAST_SAMPLES / sqrt(options->contrast);
+    return (double)settings->samples * settings->samples;
+}
+
+bool run_await_device(Run *run, Error *error)
+{
+    const Options *options = run->options;
+    const RenderSettings *settings = &run->settings;
+    const PictureGoal goal = run_goal(run);
+    const double pictures = options->repeat * (double)frames_count(&options->frames);
+    const double pixels = (double)settings->width * settings->height * pictures;
+    const SessionWork work = {.entry = picture_entry(&goal),
+                              .samples = pixels * samples_per_pixel(options, settings),
+                              .seconds = pictures * options->time_goal,
+                              .counts = options->statistics};
+    return session_await(&run->session, options->action == ACTION_RENDER ? &work : NULL, error);
+}
+
+bool run_build_scene(Run *run, Error *error)
+{
+    double moment = clock_seconds();
+    show_loading(run->options, true);
+    const SceneForm *form = session_own_form(&run->session, error);
+    show_loading(run->options, false);
+    run->report.build += run_lap(&moment);
+    if (form != NULL)
+        run->report.tree = form->tree;
+    return form != NULL;
 }
 
 ExitCode run_start(Run *run, Error *error)
@@ -185,21 +196,15 @@ ExitCode run_prepare(Run *run, Error *error)
         return EXIT_DEVICE;
     if (!run_build_scene(run, error))
         return EXIT_SCENE;
-    return renderer_open(&run->renderer, &run->async_device.setup, &run->flat, &run->settings,
-                         error)
-               ? EXIT_DONE
-               : EXIT_DEVICE;
+    return EXIT_DONE;
 }
 
 void run_free(Run *run)
 {
     if (CLRT_TIDY_EXIT)
-        renderer_close(&run->renderer);
-    program_free(&run->renderer.program);
-    run_close_device(run);
-    flat_free(&run->flat);
-    for (int layout = 0; layout < NODE_LAYOUTS; layout++)
-        flat_free(&run->others[layout]);
+        session_close(&run->session);
+    else
+        session_save(&run->session);
     scene_free(&run->scene);
 }
 

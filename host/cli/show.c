@@ -5,12 +5,10 @@
 #ifdef CLRT_WITH_WINDOW
 #include "base/file.h"
 #include "cli/options/option.h"
-#include "device/device.h"
 #include "view/status_text.h"
 #include "view/viewer.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 // Seconds that the process waits for its worker thread after the window has disappeared. The thread
@@ -45,16 +43,9 @@ ExitCode show_scene(Run *run, Error *error)
                                      .uses_bvh = !options->no_bvh,
                                      .encoding = options->encoding,
                                      .exposure = (int)lround(2 * options->exposure),
-                                     .tracer = {.device = options->device,
-                                                .kernel = options->kernel,
-                                                .specialization = options->specialization,
-                                                .builder = options->builder,
-                                                .group_width = options->group_width,
-                                                .group_height = options->group_height,
-                                                .max_level = options->max_level,
-                                                .threads = threads_allowed(options->threads),
-                                                .kernel_folder = getenv("CLRT_KERNEL_DIR"),
-                                                .cache = &run->cache},
+                                     .tracer = {.session = run_session_settings(options),
+                                                .cache = run->session.cache,
+                                                .max_level = options->max_level},
                                      .keys = options->keys,
                                      .quit_after = options->quit_after,
                                      .statistics = options->statistics,

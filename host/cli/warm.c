@@ -7,19 +7,16 @@
 
 static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, Error *error)
 {
-    ReadyKernel ready;
-    const AsyncDevice *async = &run->async_device;
-    const uint32_t group[2] = {run->settings.group_width, run->settings.group_height};
-    const KernelChoice *choice = &async->setup.source.choice;
-    if (!ready_kernel_make(&ready, &async->setup, traits, group, error))
-        return false;
-    if (!run->options->quiet)
+    const PictureGoal goal = run_goal(run);
+    const RendererUse use = {.entry = picture_entry(&goal)};
+    const Kernel *kernel = session_kernel(&run->session, &use, traits, error);
+    if (kernel != NULL && !run->options->quiet)
         printf("%s kernels, %s, %s nodes, %s: %s %.2f s\n", name,
-               kernel_family_name(choice->family), kernel_nodes_name(choice->nodes),
-               kernel_precision_name(choice->precision),
-               ready.was_compiled ? "already compiled, ready in" : "compiled in", ready.seconds);
-    ready_kernel_free(&ready);
-    return true;
+               kernel_family_name(kernel->choice.family), kernel_nodes_name(kernel->choice.nodes),
+               kernel_precision_name(kernel->choice.precision),
+               kernel->was_compiled ? "already compiled, ready in" : "compiled in",
+               kernel->seconds);
+    return kernel != NULL;
 }
 
 ExitCode warm_kernels(Run *run, Error *error)
@@ -39,6 +36,7 @@ ExitCode warm_kernels(Run *run, Error *error)
         return EXIT_DEVICE;
     if (!has_scene || options->specialization == SPECIALIZE_NEVER)
         return EXIT_DONE;
-    const SceneTraits special = traits_of(&run->flat, options->statistics);
+    const SceneTraits special =
+        traits_of(&session_own_form(&run->session, error)->flat, options->statistics);
     return warm_kernel(run, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
 }

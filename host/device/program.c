@@ -13,34 +13,28 @@
 
 #define OPTIONS_SIZE 2048
 
-// kernels/samples.cl and kernels/ladder.cl, embedded at build time.
-extern const char samples_source[], ladder_source[];
-
-// Each kernel's name, and the source that is compiled after kernel_source; NULL without one.
-static const struct {
-    const char *name, *source;
-} entries[] = {[KERNEL_TILE] = {"render_tile", NULL},
-               [KERNEL_SAMPLES] = {"trace_samples", samples_source},
-               [KERNEL_LADDER] = {"trace_pixels", ladder_source}};
-
-const char *program_entry_name(KernelEntry entry)
+static const char *text_or_nothing(const char *text)
 {
-    return entries[entry].name;
+    return text != NULL ? text : "";
 }
 
-static bool write_options(char options[OPTIONS_SIZE], const Device *device,
-                          const ProgramSource *source, const SceneTraits *traits)
+static const KernelEntry *entry_of(const ProgramSource *source)
+{
+    static const KernelEntry none = {0};
+    return source->entry != NULL ? source->entry : &none;
+}
+
+static bool write_options(char options[OPTIONS_SIZE], const ProgramSource *source)
 {
     char switches[TRAITS_OPTIONS_SIZE];
     char choices[KERNEL_OPTIONS_SIZE];
-    traits_write_options(traits, switches);
+    traits_write_options(&source->traits, switches);
     kernel_write_options(&source->choice, choices);
-    const int length =
-        snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s %s%s%s%s%s", switches, choices,
-                 source->entry == KERNEL_SAMPLES ? " -DCLRT_SIGNATURES=1" : "",
-                 device->correct_division ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
-                 source->extra_options != NULL ? " " : "",
-                 source->extra_options != NULL ? source->extra_options : "");
+    const bool is_correct = source->device->correct_division;
+    const int length = snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s %s %s %s %s", switches,
+                                choices, text_or_nothing(entry_of(source)->options),
+                                is_correct ? "-cl-fp32-correctly-rounded-divide-sqrt" : "",
+                                text_or_nothing(source->extra_options));
     return length > 0 && length < OPTIONS_SIZE;
 }
 
@@ -55,21 +49,17 @@ static bool write_include(char include[PATH_MAX + 32], const char *folder, Error
     return true;
 }
 
-static bool create_program(Program *program, const Device *device, const ProgramSource *source,
-                           Error *error)
+static bool create_program(Program *program, const ProgramSource *source, Error *error)
 {
     char include[PATH_MAX + 32];
     const bool embedded = source->kernel_folder == NULL;
     if (!embedded && !write_include(include, source->kernel_folder, error))
         return false;
-    const char *texts[3] = {embedded ? kernel_source : include};
-    cl_uint count = 1;
-    if (entries[source->entry].source != NULL)
-        texts[count++] = entries[source->entry].source;
-    if (source->appended != NULL)
-        texts[count++] = source->appended;
+    const char *texts[2] = {embedded ? kernel_source : include, entry_of(source)->source};
+    const cl_uint count = texts[1] != NULL ? 2 : 1;
     cl_int status;
-    program->handle = clCreateProgramWithSource(device->context, count, texts, NULL, &status);
+    program->handle =
+        clCreateProgramWithSource(source->device->context, count, texts, NULL, &status);
     return cl_succeeded(status, "create the kernel program", error);
 }
 
@@ -86,14 +76,14 @@ static void report_build_log(const Program *program, const Device *device, cl_in
     free(log);
 }
 
-bool program_build(Program *program, const Device *device, const ProgramSource *source,
-                   const SceneTraits *traits, Error *error)
+bool program_build(Program *program, const ProgramSource *source, Error *error)
 {
     char options[OPTIONS_SIZE];
+    const Device *device = source->device;
     *program = (Program){0};
-    if (!write_options(options, device, source, traits))
+    if (!write_options(options, source))
         return error_set(error, "the options for the kernels' compiler are too long");
-    if (!create_program(program, device, source, error))
+    if (!create_program(program, source, error))
         return false;
     const cl_int status = clBuildProgram(program->handle, 1, &device->id, options, NULL, NULL);
     if (status == CL_SUCCESS)
@@ -103,16 +93,18 @@ bool program_build(Program *program, const Device *device, const ProgramSource *
     return false;
 }
 
-bool program_load(Program *program, const Device *device, const ProgramSource *source,
-                  const SceneTraits *traits, const Cache *cache)
+// Loads the program from the cache. Returns false if the cache has none, if the driver rejects it,
+// or if the kernels are under development: their key would have to contain every edit.
+static bool load(Program *program, const ProgramSource *source)
 {
     char options[OPTIONS_SIZE];
     CachedBinary binary;
     cl_int status, accepted = CL_SUCCESS;
+    const Device *device = source->device;
     *program = (Program){0};
-    program_key(device, source, traits, cache, program->key);
-    if (!write_options(options, device, source, traits) ||
-        !cache_read(cache, program->key, &binary))
+    program_key(source, program->key);
+    if (source->kernel_folder != NULL || !write_options(options, source) ||
+        !cache_read(source->cache, program->key, &binary))
         return false;
     program->handle = clCreateProgramWithBinary(device->context, 1, &device->id, &binary.size,
                                                 &binary.bytes, &accepted, &status);
@@ -122,6 +114,37 @@ bool program_load(Program *program, const Device *device, const ProgramSource *s
         return true;
     program_free(program);
     return false;
+}
+
+static bool build_and_run(Program *program, const ProgramSource *source, const FirstRun *first,
+                          Error *error)
+{
+    const Cache *cache = source->cache;
+    if (cache->announce != NULL)
+        cache->announce(true);
+    const bool ok = program_build(program, source, error) && first->run(first->context, error);
+    if (cache->announce != NULL)
+        cache->announce(false);
+    program_key(source, program->key);
+    program->unsaved = ok && source->kernel_folder == NULL ? cache : NULL;
+    return ok;
+}
+
+bool program_make(Program *program, const ProgramSource *source, const FirstRun *first,
+                  Error *error)
+{
+    const int lock = cache_lock(source->cache);
+    const bool ok = load(program, source) ? first->run(first->context, error)
+                                          : build_and_run(program, source, first, error);
+    cache_unlock(lock);
+    return ok;
+}
+
+bool program_is_compiled(const ProgramSource *source)
+{
+    char key[CACHE_KEY_SIZE];
+    program_key(source, key);
+    return source->kernel_folder == NULL && cache_has(source->cache, key);
 }
 
 static void write_binary(const Program *program)
@@ -155,20 +178,18 @@ void program_free(Program *program)
     *program = (Program){0};
 }
 
-void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
-                 const Cache *cache, char key[CACHE_KEY_SIZE])
+void program_key(const ProgramSource *source, char key[CACHE_KEY_SIZE])
 {
+    const Device *device = source->device;
     char text[OPTIONS_SIZE + sizeof *device + PATH_MAX];
     char options[OPTIONS_SIZE] = "";
-    write_options(options, device, source, traits);
-    const char *folder = source->kernel_folder != NULL ? source->kernel_folder : "";
-    const char *entry = entries[source->entry].source != NULL ? entries[source->entry].source : "";
-    const char *appended = source->appended != NULL ? source->appended : "";
+    write_options(options, source);
+    const char *appended = text_or_nothing(entry_of(source)->source);
     snprintf(text, sizeof text, "%s|%s|%s|%s|%s|%llx", device->name, device->version,
-             device->platform_version, options, folder, (unsigned long long)cache->settings);
+             device->platform_version, options, text_or_nothing(source->kernel_folder),
+             (unsigned long long)source->cache->settings);
     const XXH64_hash_t last = XXH3_64bits(appended, strlen(appended));
-    const XXH64_hash_t behind = XXH3_64bits_withSeed(entry, strlen(entry), last);
-    const XXH64_hash_t code = XXH3_64bits_withSeed(kernel_source, kernel_source_size, behind);
+    const XXH64_hash_t code = XXH3_64bits_withSeed(kernel_source, kernel_source_size, last);
     const XXH128_hash_t hash = XXH3_128bits_withSeed(text, strlen(text), code);
     snprintf(key, CACHE_KEY_SIZE, "%016llx%016llx", (unsigned long long)hash.high64,
              (unsigned long long)hash.low64);

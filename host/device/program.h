@@ -11,11 +11,14 @@
 extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
-// The kernel to build. Every program also contains render_tile.
-typedef enum {
-    KERNEL_TILE,    // render_tile
-    KERNEL_SAMPLES, // trace_samples
-    KERNEL_LADDER   // trace_pixels
+// A kernel function, defined by the file that launches it.
+typedef struct Kernel Kernel;
+typedef struct {
+    const char *name;
+    const char *source;  // compiled after kernel_source, as in other entries; NULL without any
+    const char *options; // compiler options; NULL without any
+    // Runs a new kernel without work, because some drivers finish compiling in the first run.
+    bool (*first_run)(const Kernel *kernel, Error *error);
 } KernelEntry;
 
 typedef struct {
@@ -24,24 +27,33 @@ typedef struct {
     char key[CACHE_KEY_SIZE];
 } Program;
 
+// Everything that a program depends on.
 typedef struct {
+    const Device *device;
+    const Cache *cache;
     const char *kernel_folder; // replaces kernel_source by the folder's render.cl; may be NULL
     const char *extra_options; // compiler options after clrt's own; NULL without any
-    const char *appended;      // source to compile after the kernels; NULL without any
+    const KernelEntry *entry;  // NULL for kernel_source alone
     KernelChoice choice;
-    KernelEntry entry;
+    SceneTraits traits;
 } ProgramSource;
 
-const char *program_entry_name(KernelEntry entry);
-
-// Loads the program with this key from the cache. Returns false if the cache has none or if the
-// driver rejects it.
-bool program_load(Program *program, const Device *device, const ProgramSource *source,
-                  const SceneTraits *traits, const Cache *cache);
-
 // Builds the program from source. The error message contains the compiler's log.
-bool program_build(Program *program, const Device *device, const ProgramSource *source,
-                   const SceneTraits *traits, Error *error);
+bool program_build(Program *program, const ProgramSource *source, Error *error);
+
+// Runs a program's kernels for the first time.
+typedef struct {
+    bool (*run)(void *context, Error *error);
+    void *context;
+} FirstRun;
+
+// Loads the program from the cache, or builds it from source, and calls first->run. program_free
+// saves a new program. On failure, the caller frees the program.
+bool program_make(Program *program, const ProgramSource *source, const FirstRun *first,
+                  Error *error);
+
+// Returns whether the cache says that an earlier process compiled the program.
+bool program_is_compiled(const ProgramSource *source);
 
 // Writes the binary of an unsaved program to its cache. PoCL takes 0.4 to 0.8 s to make it, because
 // it also compiles the kernels for work-groups of any size.
@@ -51,5 +63,4 @@ void program_save(Program *program);
 void program_free(Program *program);
 
 // Writes the key for the cache: a hash of all inputs except the files in kernel_folder.
-void program_key(const Device *device, const ProgramSource *source, const SceneTraits *traits,
-                 const Cache *cache, char key[CACHE_KEY_SIZE]);
+void program_key(const ProgramSource *source, char key[CACHE_KEY_SIZE]);

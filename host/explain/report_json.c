@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Primitive ids equal the values of the --aov channel "primitive", which count from 0.
-#include "explain/explainer.h"
+#include "explain/report.h"
 
 #include "image/json_file.h"
 

@@ -1,11 +1,37 @@
 // SPDX-License-Identifier: MIT
 // Writes a paragraph for each ray, with a line for each of its lights.
-#include "explain/explainer.h"
+#include "explain/report.h"
 
+#include <assert.h>
 #include <string.h>
 
 // Brief reports omit rays of less weight, because such rays hardly change a color of 8 bits.
 #define BRIEF_WEIGHT (1 / 255.0)
+
+// Ids number the spheres first, then the triangles, mesh after mesh.
+PrimitiveName name_primitive(const Scene *scene, uint32_t id)
+{
+    if (id < scene->spheres.count)
+        return (PrimitiveName){.is_sphere = true, .number = (size_t)id + 1};
+    size_t number = id - scene->spheres.count, object = 0;
+    while (number >= scene->objects.data[object].mesh.triangle_count) {
+        number -= scene->objects.data[object++].mesh.triangle_count;
+        assert(object < scene->objects.count);
+    }
+    const MeshObject *found = &scene->objects.data[object];
+    return (PrimitiveName){.number = number_in_file(found, number),
+                           .path = scene->inputs.data[found->input]};
+}
+
+const char *name_material(const Scene *scene, uint32_t material)
+{
+    static const char *const courses[] = {"0", "1", "2", "3"};
+    for (size_t i = 0; i < scene->material_names.list.count; i++)
+        if (scene->material_names.list.data[i].material == material)
+            return scene->material_names.list.data[i].name;
+    assert(material < sizeof courses / sizeof *courses);
+    return courses[material];
+}
 
 static int digits_of(const ExplainReport *report)
 {

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "image/exr_file.h"
-#include "render/renderer.h"
+#include "render/tile.h"
 
 #include <stdatomic.h>
 

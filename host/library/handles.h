@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "library/clrt.h"
-#include "render/renderer.h"
 #include "scene/scene.h"
+#include "session/picture.h"
 
 #include <stdatomic.h>
 
@@ -44,20 +44,12 @@ bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtEr
 // Fails with CLRT_ARGUMENT if the camera is invalid.
 bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, ClrtError *error);
 
-// The inside of a ClrtRenderer: a device with compiled kernels, and the latest scene in the
-// device's layout.
+// The inside of a ClrtRenderer.
 struct ClrtRenderer {
-    Device device;
-    Cache cache;
-    RendererSetup setup;
-    ReadyKernel kernel; // shared with the Renderer of each scene
-    uint32_t threads;
+    Session session;
     atomic_bool is_busy; // true while a picture is drawn
-    uint64_t state;      // ClrtScene::state of the uploaded scene; 0 without a scene
-    Normalization normalization;
-    FlatScene flat;
-    Renderer renderer;
+    uint64_t state;      // ClrtScene::state of the session's scene; 0 without a scene
 };
 
-// Uploads the scene, unless the renderer already has the scene in this state.
+// Compiles and uploads the scene, unless the renderer already has the scene in this state.
 bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);

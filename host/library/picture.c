@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Renderer, scene and the caller's settings -> the caller's floats, written tile by tile.
 #include "library/handles.h"
-#include "scene/camera.h"
 
 // The side of a tile in pixels, which does not affect the picture.
 #define TILE 128
@@ -43,7 +42,7 @@ static bool check_distance(const ClrtRenderer *renderer, Viewpoint *viewpoint, C
 {
     Error cause = {0};
     const Scene alone = {.viewpoints = {.data = viewpoint, .count = 1}};
-    return normalization_check(&renderer->normalization, &alone, &cause) ||
+    return normalization_check(&renderer->session.scene.normalization, &alone, &cause) ||
            check_fail_for(error, CLRT_ARGUMENT, &cause);
 }
 
@@ -54,32 +53,26 @@ static bool report_progress(void *context, const RenderProgress *progress)
            wanted->progress(wanted->user, progress->tiles_done, progress->tiles);
 }
 
-static void resize(Renderer *renderer, const ClrtPicture *wanted)
-{
-    RenderSettings settings = renderer->settings;
-    settings.width = wanted->width;
-    settings.height = wanted->height;
-    settings.samples = wanted->samples;
-    settings.max_level = wanted->max_level;
-    settings.tile_width = settings.tile_height = TILE;
-    renderer_resize(renderer, &settings);
-}
-
 static bool draw(ClrtRenderer *renderer, const Viewpoint *viewpoint, ClrtPicture *wanted,
                  float *rgb, ClrtError *error)
 {
     Error cause = {0};
+    PictureResult drawn = {0};
     Framebuffer framebuffer = {(float(*)[3])rgb, wanted->width, wanted->height};
     const RenderObserver observer = {report_progress, wanted};
-    const CameraData camera = camera_make(viewpoint, &renderer->normalization, wanted->width,
-                                          wanted->height, wanted->samples);
-    resize(&renderer->renderer, wanted);
-    if (!renderer_draw(&renderer->renderer, &camera, &observer, &framebuffer, &cause))
+    const SessionPicture request = {.settings = {.width = wanted->width,
+                                                 .height = wanted->height,
+                                                 .samples = wanted->samples,
+                                                 .max_level = wanted->max_level,
+                                                 .tile_width = TILE,
+                                                 .tile_height = TILE},
+                                    .viewpoint = *viewpoint};
+    if (!session_draw(&renderer->session, &request, &observer, &framebuffer, &drawn, &cause))
         return check_fail_for(error, CLRT_DEVICE, &cause);
-    const RenderProgress *done = &renderer->renderer.progress;
-    return done->tiles_done == done->tiles ||
+    return drawn.is_complete ||
            check_fail(error, CLRT_STOPPED, "the picture was stopped after %llu of %llu tiles",
-                      (unsigned long long)done->tiles_done, (unsigned long long)done->tiles);
+                      (unsigned long long)drawn.progress.tiles_done,
+                      (unsigned long long)drawn.progress.tiles);
 }
 
 static bool render(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtPicture *picture,

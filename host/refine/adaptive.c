@@ -166,9 +166,10 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
                    Error *error)
 {
     Renderer *renderer = setup->renderer;
-    *adaptive = (Adaptive){.renderer = renderer, .pool = setup->pool, .frame = renderer->frame};
+    *adaptive = (Adaptive){.renderer = renderer,
+                           .pool = setup->pool,
+                           .frame = renderer_frame(renderer, setup->camera)};
     FrameData *frame = &adaptive->frame;
-    frame->camera = *setup->camera;
     frame->samples = REFINE_GRID;
     renderer->progress = (RenderProgress){0};
     const ThinSource thin = {frame,       setup->scene, setup->normalization, setup->flat->spheres,

@@ -4,11 +4,12 @@
 #pragma once
 
 #include "base/thread_pool.h"
+#include "image/framebuffer.h"
 #include "refine/thin_parts.h"
-#include "render/renderer.h"
+#include "render/sampler.h"
 
 typedef struct {
-    Renderer *renderer; // with entry KERNEL_SAMPLES; borrowed
+    Renderer *renderer; // with sample_entry; borrowed
     ThreadPool *pool;   // borrowed
     FrameData frame;
     RefineTree tree;
@@ -18,7 +19,7 @@ typedef struct {
 
 // The inputs of adaptive anti-aliasing.
 typedef struct {
-    Renderer *renderer;       // with entry KERNEL_SAMPLES
+    Renderer *renderer;       // with sample_entry
     const FlatScene *flat;    // the renderer's scene
     const CameraData *camera; // made for REFINE_GRID samples
     ThreadPool *pool;         // threads for the work, NULL for none

@@ -38,12 +38,11 @@ bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
     Framebuffer *picture = setup->picture;
     PixelRequests *requests = &ladder->requests;
     *ladder = (Ladder){.requests = {.renderer = renderer,
-                                    .frame = renderer->frame,
+                                    .frame = renderer_frame(renderer, setup->camera),
                                     .observer = setup->observer,
                                     .pool = setup->pool},
                        .picture = picture,
                        .statistics.pixels = (size_t)picture->width * picture->height};
-    requests->frame.camera = *setup->camera;
     requests->frame.samples = LADDER_GRID;
     renderer->progress = (RenderProgress){0};
     if (picture->width > LADDER_SIDE_MOST || picture->height > LADDER_SIDE_MOST ||

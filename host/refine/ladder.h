@@ -9,7 +9,7 @@
 #include "base/thread_pool.h"
 #include "image/framebuffer.h"
 #include "refine/ladder_strata.h"
-#include "render/renderer.h"
+#include "render/sampler.h"
 #include "scene/normalize.h"
 
 // The functions below trace lists of requests for samples of pixels, and sum the samples.
@@ -18,7 +18,7 @@
 #define REQUESTS_MOST (1u << 18)
 
 typedef struct {
-    Renderer *renderer;             // with entry KERNEL_LADDER; borrowed
+    Renderer *renderer;             // with ladder_entry; borrowed
     FrameData frame;                // with a camera made for LADDER_GRID samples
     const RenderObserver *observer; // borrowed; may be NULL
     ThreadPool *pool;               // borrowed; NULL for none
@@ -77,7 +77,7 @@ typedef struct {
 } Ladder;
 
 typedef struct {
-    Renderer *renderer;       // with entry KERNEL_LADDER
+    Renderer *renderer;       // with ladder_entry
     const FlatScene *flat;    // the renderer's scene
     const CameraData *camera; // made for LADDER_GRID samples
     ThreadPool *pool;         // threads for the work, NULL for none

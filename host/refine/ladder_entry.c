@@ -56,8 +56,7 @@ static void enter_all(const Entering *entering)
 // Finds the pixels that thin parts touch.
 static bool find_thin_parts(ThinParts *parts, const LadderSetup *setup, Error *error)
 {
-    FrameData frame = setup->renderer->frame;
-    frame.camera = *setup->camera;
+    FrameData frame = renderer_frame(setup->renderer, setup->camera);
     for (int axis = 0; axis < 3; axis++) {
         frame.camera.right_step[axis] *= (float)LADDER_GRID / REFINE_GRID;
         frame.camera.down_step[axis] *= (float)LADDER_GRID / REFINE_GRID;

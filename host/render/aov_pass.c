@@ -2,85 +2,27 @@
 // One pass over the tiles traces the paths, and another counts the tests if a channel needs them.
 #include "render/aov_pass.h"
 
-#include "device/buffer.h"
-
 // kernels/aov.cl, embedded at build time.
 extern const char aov_source[];
 
-static TilePass path_pass(const AovPass *pass)
+static bool first_run(const Kernel *kernel, Error *error)
 {
-    TilePass paths = {.kernel = pass->trace_paths,
-                      .frame = pass->source->renderer->frame,
-                      .outputs = 1,
-                      .sizes = {sizeof(PathData)}};
-    paths.frame.camera = pass->source->center;
-    paths.frame.samples = 1;
-    return paths;
+    return tile_pass_run_first(kernel, 1, error);
 }
 
-static TilePass test_pass(const AovPass *pass)
-{
-    TilePass tests = {.kernel = pass->count_tests,
-                      .frame = pass->source->renderer->frame,
-                      .outputs = 1,
-                      .sizes = {sizeof(uint32_t[TALLY_KINDS])}};
-    tests.frame.camera = pass->source->camera;
-    return tests;
-}
-
-static bool make_kernel(const AovPass *pass, cl_kernel *kernel, const char *name, Error *error)
-{
-    cl_int status;
-    *kernel = clCreateKernel(pass->program.handle, name, &status);
-    return cl_succeeded(status, "create a kernel for channels", error);
-}
-
-static bool make_kernels(void *context, Error *error)
-{
-    AovPass *pass = context;
-    const Renderer *renderer = pass->source->renderer;
-    if (!make_kernel(pass, &pass->trace_paths, "trace_paths", error) ||
-        !make_kernel(pass, &pass->count_tests, "count_tests", error))
-        return false;
-    const TilePass paths = path_pass(pass), tests = test_pass(pass);
-    return tile_pass_warm_up(&paths, renderer, error) &&
-           (!pass->counts_tests || tile_pass_warm_up(&tests, renderer, error));
-}
-
-bool aov_pass_open(AovPass *pass, AovSet set, const AovSource *source, Error *error)
-{
-    *pass =
-        (AovPass){.source = source, .set = set, .counts_tests = aov_needs(set, AOV_NEEDS_TESTS)};
-    const SceneTraits traits = traits_general(pass->counts_tests);
-    const FirstRun first = {make_kernels, pass};
-    RendererSetup setup = *source->setup;
-    setup.source.entry = KERNEL_TILE;
-    setup.source.appended = aov_source;
-    const bool ok = program_make(&pass->program, &setup, &traits, &first, error);
-    if (!ok)
-        aov_pass_close(pass);
-    return ok;
-}
-
-void aov_pass_close(AovPass *pass)
-{
-    device_release_kernel(&pass->trace_paths);
-    device_release_kernel(&pass->count_tests);
-    program_free(&pass->program);
-    *pass = (AovPass){0};
-}
+const KernelEntry paths_entry = {"trace_paths", aov_source, NULL, first_run};
+const KernelEntry tests_entry = {"count_tests", aov_source, NULL, first_run};
 
 static uint32_t samples_of(const AovPass *pass, uint32_t x, uint32_t y)
 {
-    const AovSource *source = pass->source;
-    const RenderSettings *settings = &source->renderer->settings;
-    return source->samples != NULL ? source->samples[(size_t)y * settings->width + x]
-                                   : settings->samples * settings->samples;
+    const RenderSettings *settings = &pass->paths.settings;
+    return pass->samples != NULL ? pass->samples[(size_t)y * settings->width + x]
+                                 : settings->samples * settings->samples;
 }
 
 static uint32_t certainty_at(const AovPass *pass, uint32_t x, uint32_t y)
 {
-    const CertaintyMap *map = pass->source->certainty;
+    const CertaintyMap *map = pass->certainty;
     return map != NULL ? map->marks[(size_t)y * map->width + x].certainty : CERTAINTY_OPEN;
 }
 
@@ -99,7 +41,7 @@ static void take_paths(void *context, const Tile *tile, void *const values[2])
             const uint32_t x = tile->left + column, y = tile->top + row;
             const AovPixel pixel = {&paths[(size_t)row * tile->width + column],
                                     samples_of(pass, x, y), certainty_at(pass, x, y)};
-            aov_take(pass->set, layers_at(target->layers, x, y), &pixel, &pass->source->scene);
+            aov_take(pass->set, layers_at(target->layers, x, y), &pixel, &pass->scene);
         }
 }
 
@@ -114,18 +56,40 @@ static void take_tests(void *context, const Tile *tile, void *const values[2])
                            tests[(size_t)row * tile->width + column]);
 }
 
+static bool draw_paths(Target *target, const RenderObserver *observer, RenderProgress *progress,
+                       Error *error)
+{
+    const AovPass *pass = target->pass;
+    TilePass paths = {.frame = renderer_frame(&pass->paths, &pass->center),
+                      .outputs = 1,
+                      .sizes = {sizeof(PathData)},
+                      .take = take_paths,
+                      .context = target};
+    paths.frame.samples = 1;
+    return tile_pass_run(&paths, &pass->paths, observer, progress, error);
+}
+
+static bool draw_tests(Target *target, const RenderObserver *observer, RenderProgress *progress,
+                       Error *error)
+{
+    const AovPass *pass = target->pass;
+    Renderer renderer = pass->paths;
+    renderer.kernel = pass->tests;
+    const TilePass tests = {.frame = renderer_frame(&renderer, &pass->camera),
+                            .outputs = 1,
+                            .sizes = {sizeof(uint32_t[TALLY_KINDS])},
+                            .take = take_tests,
+                            .context = target};
+    return tile_pass_run(&tests, &renderer, observer, progress, error);
+}
+
 bool aov_pass_draw(const AovPass *pass, const RenderObserver *observer, Layers *layers,
                    Error *error)
 {
-    const Renderer *renderer = pass->source->renderer;
-    const uint64_t tiles = tile_count(&renderer->settings);
+    const uint64_t tiles = tile_count(&pass->paths.settings);
     Target target = {pass, layers};
-    TilePass paths = path_pass(pass), tests = test_pass(pass);
-    RenderProgress progress = {.tiles = pass->counts_tests ? 2 * tiles : tiles};
-    paths.take = take_paths;
-    tests.take = take_tests;
-    paths.context = tests.context = &target;
-    return tile_pass_run(&paths, renderer, observer, &progress, error) &&
-           (!pass->counts_tests || progress.tiles_done < tiles ||
-            tile_pass_run(&tests, renderer, observer, &progress, error));
+    RenderProgress progress = {.tiles = pass->tests != NULL ? 2 * tiles : tiles};
+    return draw_paths(&target, observer, &progress, error) &&
+           (pass->tests == NULL || progress.tiles_done < tiles ||
+            draw_tests(&target, observer, &progress, error));
 }

@@ -4,22 +4,14 @@
 // nor the lights that reach the hit points.
 #pragma once
 
-#include "render/renderer.h"
+#include "render/draw.h"
 
-typedef struct {
-    Renderer reference; // an fp64 renderer; its program contains the kernel
-    cl_kernel kernel;
-} Certifier;
+// The kernel certify_tile. It needs fp64's KernelChoice.
+extern const KernelEntry certify_entry;
 
-// Prepares to certify fp32 pictures of this scene with these settings. setup must contain
-// certifier_choice(). flat must have the node layout of that choice and outlive the certifier.
 // Fails on devices without double arithmetic or correctly rounded float division, because the
 // bounds require both.
-bool certifier_open(Certifier *certifier, const RendererSetup *setup, const FlatScene *flat,
-                    const RenderSettings *settings, Error *error);
-void certifier_close(Certifier *certifier);
-
-KernelChoice certifier_choice(void);
+bool certifier_check_device(const Device *device, Error *error);
 
 // One mark per pixel, top row first.
 typedef struct {
@@ -38,7 +30,7 @@ typedef struct {
 } CertifiedPicture;
 
 // Fills the map and replaces the colors of repaired pixels, tile by tile, until the observer
-// returns false.
-bool certifier_certify(const Certifier *certifier, const CameraData *camera,
+// returns false. The renderer has certify_entry.
+bool certifier_certify(const Renderer *renderer, const CameraData *camera,
                        const RenderObserver *observer, const CertifiedPicture *picture,
                        Error *error);

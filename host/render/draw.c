@@ -2,7 +2,7 @@
 // Keeps two tiles in flight, each in its own queue. One tile is traced while the other is read back
 // or finishes its last work-groups. All tiles use the same padded grid with offset 0. PoCL
 // compiles separate versions of a kernel for other local sizes, for offsets and for large grids.
-#include "render/renderer.h"
+#include "render/draw.h"
 
 #include "device/buffer.h"
 
@@ -22,7 +22,7 @@ typedef struct {
 
 static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
-    const Device *device = renderer->device;
+    const Device *device = renderer->kernel->device;
     const Tile largest = tile_largest(&renderer->settings);
     const size_t count = (size_t)largest.width * largest.height;
     cl_int status;
@@ -52,42 +52,31 @@ static void close_slot(Slot *slot)
     *slot = (Slot){0};
 }
 
-bool renderer_set_scene(const Renderer *renderer, cl_kernel kernel, const FrameData *frame,
-                        Error *error)
+static size_t grid_side(const Kernel *kernel, uint32_t tile_side, uint32_t group)
 {
-    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
-    for (cl_uint place = 0; place < FLAT_ARRAYS && status == CL_SUCCESS; place++)
-        status = clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->arrays[place]);
-    return cl_succeeded(status, "set the kernel's arguments", error);
+    const uint32_t pixels = kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE : 1;
+    const size_t items = ((size_t)tile_side + pixels - 1) / pixels;
+    return (items + group - 1) / group * group;
 }
 
 static bool launch(const Slot *slot, const TilePass *pass, const Renderer *renderer,
                    const FrameData *frame, Error *error)
 {
-    const RenderSettings *settings = &renderer->settings;
-    const size_t group[2] = {settings->group_width, settings->group_height};
+    const Kernel *kernel = renderer->kernel;
+    const Tile largest = tile_largest(&renderer->settings);
+    const size_t group[2] = {kernel->group[0], kernel->group[1]};
+    const size_t grid[2] = {grid_side(kernel, largest.width, kernel->group[0]),
+                            grid_side(kernel, largest.height, kernel->group[1])};
     cl_int status = CL_SUCCESS;
-    size_t grid[2];
-    if (!renderer_set_scene(renderer, pass->kernel, frame, error))
+    if (!renderer_set_scene(renderer, frame, error))
         return false;
     for (int i = 0; i < pass->outputs && status == CL_SUCCESS; i++)
-        status = clSetKernelArg(pass->kernel, FLAT_ARRAYS + 1 + (cl_uint)i, sizeof(cl_mem),
+        status = clSetKernelArg(kernel->handle, FLAT_ARRAYS + 1 + (cl_uint)i, sizeof(cl_mem),
                                 &slot->outputs[i]);
-    tile_grid(settings, renderer->nodes, grid);
     if (status == CL_SUCCESS)
-        status =
-            clEnqueueNDRangeKernel(slot->queue, pass->kernel, 2, NULL, grid, group, 0, NULL, NULL);
+        status = clEnqueueNDRangeKernel(slot->queue, kernel->handle, 2, NULL, grid, group, 0, NULL,
+                                        NULL);
     return cl_succeeded(status, "run the kernel", error);
-}
-
-bool tile_pass_warm_up(const TilePass *pass, const Renderer *renderer, Error *error)
-{
-    Slot slot = {0};
-    const bool ok = open_slot(&slot, pass, renderer, error) &&
-                    launch(&slot, pass, renderer, &pass->frame, error) &&
-                    cl_succeeded(clFinish(slot.queue), "finish the first run", error);
-    close_slot(&slot);
-    return ok;
 }
 
 // Starts the kernel for the slot's tile and the copying of its outputs. The first output is copied
@@ -144,6 +133,42 @@ bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderO
     return ok;
 }
 
+// Room for the largest output of a pixel.
+#define LARGEST_OUTPUT 256
+
+static bool run_once(Renderer *renderer, const TilePass *pass, Error *error)
+{
+    Slot slot = {0};
+    const bool ok = open_slot(&slot, pass, renderer, error) &&
+                    launch(&slot, pass, renderer, &pass->frame, error) &&
+                    cl_succeeded(clFinish(slot.queue), "finish the first run", error);
+    close_slot(&slot);
+    return ok;
+}
+
+static bool run_one_output(Renderer *renderer, Error *error)
+{
+    return run_once(renderer, &(TilePass){.outputs = 1, .sizes = {LARGEST_OUTPUT}}, error);
+}
+
+static bool run_two_outputs(Renderer *renderer, Error *error)
+{
+    const TilePass pass = {.outputs = 2, .sizes = {LARGEST_OUTPUT, LARGEST_OUTPUT}};
+    return run_once(renderer, &pass, error);
+}
+
+bool tile_pass_run_first(const Kernel *kernel, int outputs, Error *error)
+{
+    return renderer_run_first(kernel, outputs == 1 ? run_one_output : run_two_outputs, error);
+}
+
+static bool draw_first_run(const Kernel *kernel, Error *error)
+{
+    return tile_pass_run_first(kernel, 2, error);
+}
+
+const KernelEntry draw_entry = {.name = "render_tile", .first_run = draw_first_run};
+
 typedef struct {
     Renderer *renderer;
     Framebuffer *framebuffer;
@@ -160,27 +185,10 @@ static void take_tile(void *context, const Tile *tile, void *const values[2])
                    ->pixels[(tile->top + row) * drawing->framebuffer->width + tile->left],
                colors[row * tile->width], tile->width * sizeof *colors);
     const size_t count =
-        drawing->renderer->settings.statistics ? (size_t)tile->width * tile->height : 0;
+        drawing->renderer->kernel->traits.statistics ? (size_t)tile->width * tile->height : 0;
     for (size_t pixel = 0; pixel < count; pixel++)
         for (int kind = 0; kind < TALLY_KINDS; kind++)
             progress->tallies[kind] += tallies[pixel][kind];
-}
-
-static TilePass pass_of(const Renderer *renderer)
-{
-    return (TilePass){
-        .kernel = renderer->kernel,
-        .frame = renderer->frame,
-        .outputs = 2,
-        .sizes = {sizeof(float[3]), renderer->settings.statistics ? sizeof(uint[TALLY_KINDS]) : 0},
-        .first = renderer->settings.ready_tiles,
-        .take = take_tile};
-}
-
-bool draw_warm_up(Renderer *renderer, Error *error)
-{
-    const TilePass pass = pass_of(renderer);
-    return tile_pass_warm_up(&pass, renderer, error);
 }
 
 static bool check_size(const Renderer *renderer, const Framebuffer *framebuffer, Error *error)
@@ -197,10 +205,14 @@ bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObs
 {
     if (!check_size(renderer, framebuffer, error))
         return false;
+    const bool counts = renderer->kernel->traits.statistics;
     Drawing drawing = {renderer, framebuffer};
-    TilePass pass = pass_of(renderer);
-    pass.frame.camera = *camera;
-    pass.context = &drawing;
+    const TilePass pass = {.frame = renderer_frame(renderer, camera),
+                           .outputs = 2,
+                           .sizes = {sizeof(float[3]), counts ? sizeof(uint[TALLY_KINDS]) : 0},
+                           .first = renderer->settings.ready_tiles,
+                           .take = take_tile,
+                           .context = &drawing};
     renderer->progress = (RenderProgress){.tiles_done = pass.first,
                                           .tiles = tile_count(&renderer->settings),
                                           .tiles_ready = pass.first};

@@ -2,7 +2,7 @@
 // Splits a list of requests into launches and keeps two launches in the queue, so that the device
 // need not wait. PoCL compiles a second version of a kernel for grids of 65535 work-items or more.
 // LAUNCH_ITEMS keeps all grids smaller.
-#include "render/renderer.h"
+#include "render/sampler.h"
 
 #include "device/buffer.h"
 
@@ -26,22 +26,28 @@ typedef struct {
     size_t size;
 } Shared;
 
+static bool is_ladder(const Renderer *renderer)
+{
+    return renderer->kernel->entry == &ladder_entry;
+}
+
 static size_t request_size(const Renderer *renderer)
 {
-    return renderer->entry == KERNEL_LADDER ? sizeof(PixelRequest) : sizeof(SamplePlace);
+    return is_ladder(renderer) ? sizeof(PixelRequest) : sizeof(SamplePlace);
 }
 
 static size_t result_size(const Renderer *renderer)
 {
-    return renderer->entry == KERNEL_LADDER ? sizeof(PixelSums) : sizeof(SampleData);
+    return is_ladder(renderer) ? sizeof(PixelSums) : sizeof(SampleData);
 }
 
 // Returns the number of requests per work-item, as the kernels compute it.
 static uint32_t item_requests(const Renderer *renderer, const SampleList *list)
 {
     const PixelRequest *requests = list->requests;
-    const uint32_t item_samples = renderer->nodes == NODES_WIDE ? BLOCK_SIDE * BLOCK_SIDE : 1;
-    const uint32_t samples = renderer->entry == KERNEL_LADDER ? requests[0].samples : 1;
+    const uint32_t item_samples =
+        renderer->kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE * BLOCK_SIDE : 1;
+    const uint32_t samples = is_ladder(renderer) ? requests[0].samples : 1;
     return samples < item_samples ? item_samples / samples : 1;
 }
 
@@ -53,9 +59,9 @@ static uint32_t launch_requests(const Sampling *sampling)
 static bool share(const Sampling *sampling, const Shared *shared, cl_mem *buffer, Error *error)
 {
     cl_int status;
-    *buffer =
-        clCreateBuffer(sampling->renderer->device->context, shared->access | CL_MEM_USE_HOST_PTR,
-                       shared->size, (void *)shared->data, &status);
+    *buffer = clCreateBuffer(sampling->renderer->kernel->device->context,
+                             shared->access | CL_MEM_USE_HOST_PTR, shared->size,
+                             (void *)shared->data, &status);
     return cl_succeeded(status, "share the samples with the device", error);
 }
 
@@ -63,7 +69,7 @@ static bool open_buffers(Sampling *sampling, Error *error)
 {
     const SampleList *list = sampling->list;
     const size_t tallies =
-        sampling->renderer->settings.statistics ? (size_t)list->count * TALLY_KINDS : 16;
+        sampling->renderer->kernel->traits.statistics ? (size_t)list->count * TALLY_KINDS : 16;
     sampling->host_tallies = memory_zeroed(tallies, sizeof *sampling->host_tallies, error);
     if (sampling->host_tallies == NULL)
         return false;
@@ -82,7 +88,7 @@ static bool open_buffers(Sampling *sampling, Error *error)
 // memory.
 static void close_buffers(Sampling *sampling)
 {
-    clFinish(sampling->renderer->device->queue);
+    clFinish(sampling->renderer->kernel->device->queue);
     for (int i = 0; i < 2; i++)
         if (sampling->done[i] != NULL)
             clReleaseEvent(sampling->done[i]);
@@ -95,8 +101,8 @@ static void close_buffers(Sampling *sampling)
 static bool set_arguments(const Sampling *sampling, const FrameData *frame, Error *error)
 {
     const Renderer *renderer = sampling->renderer;
-    cl_kernel kernel = renderer->kernel;
-    if (!renderer_set_scene(renderer, kernel, frame, error))
+    cl_kernel kernel = renderer->kernel->handle;
+    if (!renderer_set_scene(renderer, frame, error))
         return false;
     cl_int status = clSetKernelArg(kernel, FLAT_ARRAYS + 1, sizeof(cl_mem), &sampling->requests);
     status |= clSetKernelArg(kernel, FLAT_ARRAYS + 4, sizeof(cl_mem), &sampling->results);
@@ -106,8 +112,7 @@ static bool set_arguments(const Sampling *sampling, const FrameData *frame, Erro
 
 static const char *sampling_attempt(const Renderer *renderer)
 {
-    return renderer->entry == KERNEL_LADDER ? "run the kernel trace_pixels"
-                                            : "run the kernel trace_samples";
+    return is_ladder(renderer) ? "run the kernel trace_pixels" : "run the kernel trace_samples";
 }
 
 static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
@@ -116,16 +121,17 @@ static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
     const uint32_t most = launch_requests(sampling);
     const cl_uint first = number * most, left = sampling->list->count - first;
     const cl_uint count = left < most ? left : most, end = first + count;
-    const size_t group = (size_t)renderer->settings.group_width * renderer->settings.group_height;
+    const size_t group = (size_t)renderer->kernel->group[0] * renderer->kernel->group[1];
     const size_t requests = sampling->item_requests;
     const size_t grid = ((count + requests - 1) / requests + group - 1) / group * group;
-    cl_int status = clSetKernelArg(renderer->kernel, FLAT_ARRAYS + 2, sizeof first, &first);
-    status |= clSetKernelArg(renderer->kernel, FLAT_ARRAYS + 3, sizeof end, &end);
+    cl_int status = clSetKernelArg(renderer->kernel->handle, FLAT_ARRAYS + 2, sizeof first, &first);
+    status |= clSetKernelArg(renderer->kernel->handle, FLAT_ARRAYS + 3, sizeof end, &end);
     if (status == CL_SUCCESS)
-        status = clEnqueueNDRangeKernel(renderer->device->queue, renderer->kernel, 1, NULL, &grid,
-                                        &group, 0, NULL, &sampling->done[number % 2]);
+        status =
+            clEnqueueNDRangeKernel(renderer->kernel->device->queue, renderer->kernel->handle, 1,
+                                   NULL, &grid, &group, 0, NULL, &sampling->done[number % 2]);
     if (status == CL_SUCCESS)
-        status = clFlush(renderer->device->queue);
+        status = clFlush(renderer->kernel->device->queue);
     return cl_succeeded(status, sampling_attempt(renderer), error);
 }
 
@@ -161,7 +167,7 @@ static bool run_launches(Sampling *sampling, const RenderObserver *observer, Err
 // Makes the device's results visible to the host.
 static bool read_back(const Sampling *sampling, cl_mem buffer, size_t size, Error *error)
 {
-    cl_command_queue queue = sampling->renderer->device->queue;
+    cl_command_queue queue = sampling->renderer->kernel->device->queue;
     cl_int status;
     void *seen =
         clEnqueueMapBuffer(queue, buffer, CL_TRUE, CL_MAP_READ, 0, size, 0, NULL, NULL, &status);
@@ -176,7 +182,7 @@ static bool read_tallies(Sampling *sampling, Error *error)
 {
     Renderer *renderer = sampling->renderer;
     const size_t tallies = (size_t)sampling->list->count * TALLY_KINDS;
-    if (!renderer->settings.statistics)
+    if (!renderer->kernel->traits.statistics)
         return true;
     if (!read_back(sampling, sampling->tallies, tallies * sizeof *sampling->host_tallies, error))
         return false;
@@ -198,14 +204,35 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
     return ok;
 }
 
-bool sampler_warm_up(Renderer *renderer, Error *error)
+static bool skip_sample(Renderer *renderer, Error *error)
 {
     static const SamplePlace nowhere = {NOTHING, 0};
-    static const PixelRequest outside = {.x = NOTHING, .samples = 1};
     SampleData sample;
-    PixelSums sums;
-    const bool is_ladder = renderer->entry == KERNEL_LADDER;
-    const SampleList list = {is_ladder ? (const void *)&outside : &nowhere,
-                             is_ladder ? (void *)&sums : &sample, 1};
-    return sampler_trace(renderer, &renderer->frame, &list, NULL, error);
+    const SampleList list = {&nowhere, &sample, 1};
+    return sampler_trace(renderer, &(FrameData){0}, &list, NULL, error);
 }
+
+static bool skip_pixel(Renderer *renderer, Error *error)
+{
+    static const PixelRequest outside = {.x = NOTHING, .samples = 1};
+    PixelSums sums;
+    const SampleList list = {&outside, &sums, 1};
+    return sampler_trace(renderer, &(FrameData){0}, &list, NULL, error);
+}
+
+static bool sample_first_run(const Kernel *kernel, Error *error)
+{
+    return renderer_run_first(kernel, skip_sample, error);
+}
+
+static bool ladder_first_run(const Kernel *kernel, Error *error)
+{
+    return renderer_run_first(kernel, skip_pixel, error);
+}
+
+// kernels/samples.cl and kernels/ladder.cl, embedded at build time.
+extern const char samples_source[], ladder_source[];
+
+const KernelEntry sample_entry = {"trace_samples", samples_source, "-DCLRT_SIGNATURES=1",
+                                  sample_first_run};
+const KernelEntry ladder_entry = {"trace_pixels", ladder_source, NULL, ladder_first_run};

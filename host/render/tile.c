@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tiles at the right and bottom edges are clipped.
-#include "render/renderer.h"
+#include "render/tile.h"
 
 static uint32_t smaller(uint32_t a, uint32_t b)
 {
@@ -87,18 +87,4 @@ void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile
     frame->tile_y = settings->top + tile->y;
     frame->tile_width = tile->width;
     frame->tile_height = tile->height;
-}
-
-static size_t grid_side(NodeLayout nodes, uint32_t tile_side, uint32_t group)
-{
-    const uint32_t pixels = nodes == NODES_WIDE ? BLOCK_SIDE : 1;
-    const size_t items = ((size_t)tile_side + pixels - 1) / pixels;
-    return (items + group - 1) / group * group;
-}
-
-void tile_grid(const RenderSettings *settings, NodeLayout nodes, size_t grid[2])
-{
-    const Tile largest = tile_largest(settings);
-    grid[0] = grid_side(nodes, largest.width, settings->group_width);
-    grid[1] = grid_side(nodes, largest.height, settings->group_height);
 }

@@ -103,7 +103,7 @@ static void record_picture(WorkerStatus *status, const Job *job)
 
 static void finish_pass(Worker *worker, const Job *job, Layer *layer, double seconds)
 {
-    const RenderProgress *progress = tracer_progress(&worker->tracer, &job->pass);
+    const RenderProgress *progress = &worker->tracer.drawn.progress;
     const bool whole = progress->tiles_done == progress->tiles;
     update_sample_cost(worker, &job->pass, seconds,
                        (double)progress->tiles_done / (double)progress->tiles);
@@ -187,7 +187,7 @@ static bool take(Worker *worker, const Job *job, Model *model, Error *error)
     const bool ok = tracer_take(&worker->tracer, model, job->request.uses_bvh, error);
     if (ok) {
         worker->sample_seconds =
-            plan_first_guess((uint32_t)model->triangles.count, job->request.uses_bvh);
+            plan_first_guess((uint32_t)model->stages.triangles.count, job->request.uses_bvh);
         worker->has_measured = false;
     }
     return ok;
@@ -210,7 +210,7 @@ static void publish(Worker *worker, Model *model, bool has_tree)
 void jobs_load(Worker *worker, const Job *job)
 {
     Error scene_failure = {0}, failure = {0};
-    const uint32_t threads = worker->setup.options->threads;
+    const uint32_t threads = threads_allowed(worker->setup.options->session.threads);
     const bool is_first = worker->model == NULL;
     report_busy(worker, "reading the scene");
     Model *model = model_load(job->request.path, &job->request.load, threads, &scene_failure);
@@ -240,7 +240,13 @@ void jobs_load(Worker *worker, const Job *job)
 void jobs_take(Worker *worker, const Job *job)
 {
     Error error = {0};
-    take(worker, job, worker->tracer.model, &error);
+    const WorkerRequest *done = &worker->status.done;
+    const bool is_taken =
+        job->request.uses_bvh == done->uses_bvh || take(worker, job, worker->tracer.model, &error);
+    if (is_taken && job->request.renewals != done->renewals) {
+        report_busy(worker, "compiling the kernels");
+        tracer_renew(&worker->tracer, &error);
+    }
     report_taken(worker, job, &error);
 }
 

@@ -15,7 +15,7 @@ static bool load(Model *model, const SceneLoadOptions *options, uint32_t threads
         return error_set(error, "%s: %s", path, cause.text);
     ThreadPool *pool = thread_pool_open(threads);
     const bool ok =
-        triangles_make(&model->triangles, &model->scene, &model->normalization, pool, error);
+        triangles_make(&model->stages.triangles, &model->scene, &model->normalization, pool, error);
     thread_pool_close(pool);
     return ok;
 }
@@ -36,7 +36,7 @@ Model *model_load(const char *path, const SceneLoadOptions *options, uint32_t th
 bool model_build_tree(Model *model, const BvhSettings *settings, uint32_t threads, Error *error)
 {
     ThreadPool *pool = thread_pool_open(threads);
-    const bool ok = bvh_build(&model->bvh, &model->triangles, settings, pool, error);
+    const bool ok = bvh_build(&model->stages.bvh, &model->stages.triangles, settings, pool, error);
     thread_pool_close(pool);
     return ok;
 }
@@ -51,8 +51,7 @@ void model_release(Model *model)
 {
     if (model == NULL || atomic_fetch_sub(&model->holders, 1) > 1)
         return;
-    bvh_free(&model->bvh);
-    triangles_free(&model->triangles);
+    compile_stages_free(&model->stages);
     scene_free(&model->scene);
     free(model);
 }

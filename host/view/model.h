@@ -4,8 +4,8 @@
 // others read it.
 #pragma once
 
-#include "accel/bvh.h"
 #include "scene/scn.h"
+#include "session/geometry.h"
 
 #include <stdatomic.h>
 
@@ -14,8 +14,7 @@ typedef struct {
     const char *path; // the path as given
     Scene scene;
     Normalization normalization;
-    Triangles triangles;
-    Bvh bvh; // empty until the tree is built
+    CompileStages stages; // without a tree until it is built
 } Model;
 
 // Reads the scene or mesh at path and returns a model with one reference, or NULL on failure. The
@@ -23,7 +22,7 @@ typedef struct {
 Model *model_load(const char *path, const SceneLoadOptions *options, uint32_t threads,
                   Error *error);
 
-// Builds the tree. No other thread may read model->bvh before the function returns.
+// Builds the tree. No other thread may read the tree before the function returns.
 bool model_build_tree(Model *model, const BvhSettings *settings, uint32_t threads, Error *error);
 
 // Adds a reference and returns the model.

@@ -2,32 +2,22 @@
 // Device, model and pass -> picture, on the tracing thread.
 #pragma once
 
-#include "explain/explainer.h"
-#include "render/renderer.h"
+#include "explain/report.h"
+#include "session/picture.h"
 #include "view/model.h"
 #include "view/plan.h"
 
 typedef struct {
-    const char *device; // for device_open
-    KernelRequest kernel;
-    Specialization specialization;
-    BvhBuilder builder;
-    uint32_t group_width, group_height; // 0: the kernels' default
-    int64_t max_level;                  // negative: the scene's
-    uint32_t threads;                   // threads on the host
-    const char *kernel_folder;          // NULL: the embedded kernels
-    const Cache *cache;
+    SessionSettings session;
+    Cache cache;
+    int64_t max_level; // negative: the scene's
 } TracerOptions;
 
 typedef struct {
     const TracerOptions *options;
-    Device device;
-    RendererSetup setup;
-    uint32_t group[2];
-    Model *model; // the current model, with a reference; may be NULL
-    FlatScene flat;
-    Renderer renderer;
-    Renderer counter; // the renderer for PASS_COUNT, opened on first use
+    Session session;
+    Model *model;        // the current model, with a reference; may be NULL
+    PictureResult drawn; // the latest picture
 } Tracer;
 
 // Opens the device. The options must outlive the tracer. The caller closes the tracer, even after a
@@ -42,11 +32,9 @@ BvhSettings tracer_tree(const Tracer *tracer);
 // the previous model.
 bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error);
 
-// Saves new programs to the cache, which takes about a second.
-void tracer_save(Tracer *tracer);
-
-// Returns whether tracer_save has nothing to do.
-bool tracer_is_saved(const Tracer *tracer);
+// Compiles the kernels again from the kernel folder. On failure, the tracer keeps the previous
+// kernels.
+bool tracer_renew(Tracer *tracer, Error *error);
 
 // A picture to draw: a camera and a pass.
 typedef struct {
@@ -65,6 +53,3 @@ bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observe
 // Writes the explanation of a pixel of the shot. head provides pixel, encoding and is_brief.
 bool tracer_explain(Tracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
                     Error *error);
-
-// Returns the progress and counters of a pass that tracer_draw has just drawn.
-const RenderProgress *tracer_progress(const Tracer *tracer, const Pass *pass);

@@ -250,8 +250,6 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
         return VIEWER_NO_WINDOW;
     }
     viewer->settings = *settings;
-    viewer->cache = *settings->tracer.cache;
-    viewer->settings.tracer.cache = &viewer->cache;
     viewer->request = (WorkerRequest){.path = settings->scene_path,
                                       .load = settings->load,
                                       .loads = 1,
@@ -262,7 +260,7 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, glfwPostEmptyEvent};
     ViewerEnd end = VIEWER_NO_DEVICE;
     // Watching starts before the first read, so that changes during the read are detected.
-    const char *kernels = settings->tracer.kernel_folder;
+    const char *kernels = settings->tracer.session.kernel_folder;
     if (viewer_watch_files(viewer, error) &&
         watch_set(&viewer->kernel_files, &kernels, kernels != NULL, error))
         viewer->worker = worker_start(&setup, &viewer->request, error);

@@ -16,11 +16,11 @@
 static void describe_scene(Viewer *viewer)
 {
     const Scene *scene = &viewer->model->scene;
-    viewer->scene =
-        (StateScene){.viewpoints = scene->viewpoints.data,
-                     .viewpoint_count = scene->viewpoints.count,
-                     .is_course = scene->has_course_views,
-                     .levels = viewer->status.has_tree ? boxes_levels(&viewer->model->bvh) : 0};
+    viewer->scene = (StateScene){
+        .viewpoints = scene->viewpoints.data,
+        .viewpoint_count = scene->viewpoints.count,
+        .is_course = scene->has_course_views,
+        .levels = viewer->status.has_tree ? boxes_levels(&viewer->model->stages.bvh) : 0};
 }
 
 bool viewer_watch_files(Viewer *viewer, Error *error)

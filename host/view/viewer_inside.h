@@ -44,7 +44,6 @@ bool pictures_save(const Framebuffer *shown, const Framebuffer *traced, const Sa
 typedef struct {
     // Copies, because the worker may outlive viewer_run. keys and quit_after hold what remains.
     ViewerSettings settings;
-    Cache cache;
     Window window;
     Views views;
     Canvas canvas;

@@ -43,7 +43,7 @@ static bool load_boxes(Views *views, const Frame *frame, Error *error)
     const uint32_t level = frame->state->level;
     if (views->has_boxes && views->level == level)
         return true;
-    const bool ok = !frame->has_tree || boxes_make(&boxes, &frame->model->bvh, level, error);
+    const bool ok = !frame->has_tree || boxes_make(&boxes, &frame->model->stages.bvh, level, error);
     line_view_load(&views->boxes, boxes.data, ok ? boxes.count : 0);
     boxes_free(&boxes);
     views->has_boxes = frame->has_tree;

@@ -43,12 +43,12 @@ static Job await_job(Worker *worker)
         job.kind = next_kind(worker, &job.pass);
         if (job.kind != JOB_PASS || job.pass.kind != PASS_NONE)
             break;
-        if (tracer_is_saved(&worker->tracer)) {
+        if (kernel_set_is_saved(&worker->tracer.session.kernels)) {
             pthread_cond_wait(&worker->changed, &worker->mutex);
             continue;
         }
         pthread_mutex_unlock(&worker->mutex);
-        tracer_save(&worker->tracer);
+        kernel_set_save(&worker->tracer.session.kernels);
         pthread_mutex_lock(&worker->mutex);
     }
     pthread_mutex_unlock(&worker->mutex);

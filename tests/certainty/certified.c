@@ -21,17 +21,25 @@ static void draw_plain(Certified *certified, const Scene *scene, const Certified
 
 static bool certify(Certified *certified, const Studio *studio, Error *error)
 {
-    Certifier certifier = {0};
+    SceneBuffers buffers = {0};
     const RenderSettings *settings = &certified->settings;
-    const RendererSetup setup = {
-        .device = &studio->device,
-        .cache = &studio->cache,
-        .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"), .choice = certifier_choice()}};
+    const KernelSpec spec = {.entry = &certify_entry,
+                             .choice = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64},
+                             .traits = traits_general(false),
+                             .group = {8, 8}};
+    KernelSet kernels = {.source = {.device = &studio->device,
+                                    .cache = &studio->cache,
+                                    .kernel_folder = getenv("CLRT_KERNEL_DIR")}};
     const CertifiedPicture picture = {&certified->picture, &certified->map};
-    const bool ok = certifier_open(&certifier, &setup, &certified->stage.flat, settings, error) &&
-                    certainty_map_make(&certified->map, settings->width, settings->height, error) &&
-                    certifier_certify(&certifier, &certified->camera, NULL, &picture, error);
-    certifier_close(&certifier);
+    Renderer renderer = {.scene = &buffers, .settings = *settings};
+    bool ok = certifier_check_device(&studio->device, error) &&
+              scene_buffers_make(&buffers, &studio->device, &certified->stage.flat, error) &&
+              certainty_map_make(&certified->map, settings->width, settings->height, error);
+    renderer.kernel = ok ? kernel_set_get(&kernels, &spec, error) : NULL;
+    ok = renderer.kernel != NULL &&
+         certifier_certify(&renderer, &certified->camera, NULL, &picture, error);
+    scene_buffers_free(&buffers);
+    kernel_set_clear(&kernels);
     return ok;
 }
 

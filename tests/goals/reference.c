@@ -134,10 +134,9 @@ static bool draw(void *context, Renderer *renderer, const CameraData *camera, Fr
                  Error *error)
 {
     Reference *reference = context;
-    FrameData frame = renderer->frame;
+    FrameData frame = renderer_frame(renderer, camera);
     const size_t pixels = (size_t)picture->width * picture->height;
     bool ok = true;
-    frame.camera = *camera;
     frame.samples = GRID;
     reference->size = picture;
     for (int half = 0; half < 2; half++)

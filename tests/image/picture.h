@@ -2,15 +2,15 @@
 // A scene file -> its picture, by the same stages as in clrt.
 #pragma once
 
-#include "explain/explainer.h"
-#include "refine/adaptive.h"
 #include "refine/ladder.h"
-#include "render/aov.h"
+#include "render/draw.h"
+#include "session/channels.h"
+#include "session/explainer.h"
 
 // A callback that receives a picture and an explainer for its pixels.
 typedef void PictureVisit(Explainer *explainer, const Framebuffer *picture, void *context);
 
-// A callback that draws the picture by a renderer with KERNEL_SAMPLES.
+// A callback that draws the picture by a renderer with sample_entry.
 typedef bool PictureDraw(void *context, Renderer *renderer, const CameraData *camera,
                          Framebuffer *picture, Error *error);
 

@@ -190,7 +190,7 @@ static void draw_into_a_smaller_framebuffer(Explainer *explainer, const Framebuf
                                             void *context)
 {
     FREED_BY(framebuffer_free) Framebuffer small;
-    Renderer renderer = *explainer->renderer;
+    Renderer renderer = explainer->renderer;
     Error error = {0};
     assert_true(framebuffer_make(&small, drawn->width, drawn->height - 1, &error));
     assert_false(renderer_draw(&renderer, &explainer->frame.camera, NULL, &small, &error));

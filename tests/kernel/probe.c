@@ -10,12 +10,14 @@ static bool probe_open(Probe *probe, Precision precision, Error *error)
 {
     File file = {0};
     *probe = (Probe){0};
-    const SceneTraits traits = traits_general(false);
     bool ok = file_read(&file, CLRT_SOURCE_FOLDER "/tests/kernel/probe.cl", error) &&
               device_open(&probe->device, NULL, error);
-    const ProgramSource source = {.appended = file.bytes,
-                                  .choice = {FAMILY_RAY, NODES_PAIR, 0, precision}};
-    ok = ok && program_build(&probe->program, &probe->device, &source, &traits, error);
+    const KernelEntry entry = {.source = file.bytes};
+    const ProgramSource source = {.device = &probe->device,
+                                  .entry = &entry,
+                                  .choice = {FAMILY_RAY, NODES_PAIR, 0, precision},
+                                  .traits = traits_general(false)};
+    ok = ok && program_build(&probe->program, &source, error);
     file_free(&file);
     return ok;
 }

@@ -16,7 +16,7 @@ typedef struct {
     Edges edges;
     Triangles triangles;
     Aims aims;
-    AimRay rays[64];
+    CastRay rays[64];
     uint32_t targets[64];
 } Fixture;
 

@@ -2,13 +2,11 @@
 // The parsed command line.
 #pragma once
 
-#include "accel/bvh.h"
 #include "base/error.h"
 #include "compare/difference.h"
 #include "image/image_file.h"
-#include "render/aov.h"
-#include "render/renderer.h"
 #include "scene/scn.h"
+#include "session/channels.h"
 
 #include <jansson.h>
 #include <stdint.h>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "image/image_file.h"
-#include "render/renderer.h"
+#include "session/session.h"
 
 #include <pthread.h>
 

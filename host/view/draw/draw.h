@@ -2,7 +2,6 @@
 // Everything that OpenGL draws: a model's triangles, spheres and boxes, traced pictures and text.
 #pragma once
 
-#include "accel/bvh.h"
 #include "base/array.h"
 #include "base/error.h"
 #include "base/file.h"

@@ -78,7 +78,7 @@ static bool add_faces(Boxes *lines, const Mesh *mesh, const float (*points)[4], 
 
 bool normals_make(Boxes *lines, const Model *model, Error *error)
 {
-    const float(*points)[4] = (const float(*)[4])model->triangles.points;
+    const float(*points)[4] = (const float(*)[4])model->stages.triangles.points;
     for (size_t i = 0; i < model->scene.objects.count; i++) {
         const MeshObject *object = &model->scene.objects.data[i];
         const bool is_smooth = object->mesh.normals != NULL;

@@ -33,14 +33,14 @@ static void store_vertices(Vertex *vertices, const Model *model)
     for (size_t i = 0; i < model->scene.objects.count; i++) {
         const Mesh *mesh = &model->scene.objects.data[i].mesh;
         for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++, place++)
-            store_vertex(&vertices[place], model->triangles.points[place],
+            store_vertex(&vertices[place], model->stages.triangles.points[place],
                          mesh->normals == NULL ? NULL : mesh->normals[vertex]);
     }
 }
 
 bool triangle_view_load(const Drawing *view, const Model *model, Error *error)
 {
-    const Triangles *triangles = &model->triangles;
+    const Triangles *triangles = &model->stages.triangles;
     Vertex *vertices = memory_raw(triangles->point_count, sizeof *vertices, error);
     if (vertices == NULL)
         return false;

@@ -92,8 +92,7 @@ static Vec3 placed(const Mirror *mirror, Vec3 point)
 // from all of them. A picture with 256 x 256 pixels has four million reflections.
 static void judge_mirror(const Studio *studio, const Mirror *mirror, Mesh mesh, uint32_t views)
 {
-    Stage stage;
-    Renderer renderer;
+    OpenPicture open;
     Error error = {0};
     Random random = {45};
     const PictureSettings settings = mirror_settings((uint32_t)tier_size(64, 256));
@@ -104,18 +103,17 @@ static void judge_mirror(const Studio *studio, const Mirror *mirror, Mesh mesh, 
     FREED_BY(framebuffer_free) Framebuffer picture;
     const uint32_t side = settings.render.width;
     require(framebuffer_make(&picture, side, side, &error), &error);
-    picture_open(&renderer, &stage, studio, &scene, &settings);
+    picture_open(&open, studio, &scene, &settings);
     for (uint32_t view = 0; view < views; view++) {
         const Vec3 eye = mirror->inside(&random);
         scene.viewpoints.data[0].eye = placed(mirror, eye);
         scene.viewpoints.data[0].look_at = placed(mirror, vec3_add(eye, random_direction(&random)));
         const CameraData camera = picture_camera(&scene, &settings.render);
-        require(renderer_draw(&renderer, &camera, NULL, &picture, &error), &error);
+        require(renderer_draw(&open.renderer, &camera, NULL, &picture, &error), &error);
         outcome_add(&outcome,
                     outcome_of("T-45", picture_pixels(&picture), count_escapes(&picture)));
     }
-    renderer_close(&renderer);
-    stage_free(&stage);
+    picture_close(&open);
     outcome.limit = mirror->limit;
     outcome_report(outcome, "mirror=%s bounces=%d crease=%g offset=%g scale=%g", mirror->name,
                    BOUNCES, mirror->crease_degrees, mirror->offset, mirror->scale);

@@ -153,8 +153,7 @@ static void draw_part(Renderer *renderer, const CameraData *camera, Framebuffer 
 
 static Framebuffer draw_shuffled(const Studio *studio, Random *random)
 {
-    Stage stage;
-    Renderer renderer;
+    OpenPicture open;
     Error error = {0};
     Framebuffer picture;
     uint32_t order[PARTS] = {0};
@@ -162,20 +161,19 @@ static Framebuffer draw_shuffled(const Studio *studio, Random *random)
     settings.render.tile_width = settings.render.tile_height = 32;
     FREED_BY(scene_free) Scene scene = varied_scene();
     const CameraData camera = picture_camera(&scene, &settings.render);
-    picture_open(&renderer, &stage, studio, &scene, &settings);
+    picture_open(&open, studio, &scene, &settings);
     require(framebuffer_make(&picture, SIZE, SIZE, &error), &error);
-    renderer.settings.parts = PARTS;
+    open.renderer.settings.parts = PARTS;
     for (uint32_t i = 0; i < PARTS; i++) {
         const uint32_t other = random_below(random, i + 1);
         order[i] = order[other];
         order[other] = i;
     }
     for (uint32_t i = 0; i < PARTS; i++) {
-        renderer.settings.part = order[i];
-        draw_part(&renderer, &camera, &picture);
+        open.renderer.settings.part = order[i];
+        draw_part(&open.renderer, &camera, &picture);
     }
-    renderer_close(&renderer);
-    stage_free(&stage);
+    picture_close(&open);
     return picture;
 }
 

@@ -30,7 +30,6 @@ int picture_teardown(void **state)
 PictureSettings picture_settings(uint32_t side)
 {
     const KernelChoice choice = form_choice();
-    const uint32_t group = form_group(&choice);
     return (PictureSettings){.tree = TREE_SAH,
                              .choice = choice,
                              .render = {.width = side,
@@ -38,26 +37,40 @@ PictureSettings picture_settings(uint32_t side)
                                         .samples = 1,
                                         .max_level = 4,
                                         .tile_width = 32,
-                                        .tile_height = 32,
-                                        .group_width = group,
-                                        .group_height = group,
-                                        .specialization = SPECIALIZE_NEVER}};
+                                        .tile_height = 32}};
 }
 
-void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const Scene *scene,
+void picture_open(OpenPicture *picture, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings)
 {
     Error error = {0};
-    const RendererSetup setup = {.device = &studio->device,
-                                 .cache = &studio->cache,
-                                 .source = {.kernel_folder = getenv("CLRT_KERNEL_DIR"),
-                                            .extra_options = settings->extra_options,
-                                            .choice = settings->choice}};
-    stage_make_as(stage, scene, settings->tree, settings->choice.nodes);
-    const bool ok = renderer_open(renderer, &setup, &stage->flat, &settings->render, &error);
-    if (!ok)
-        stage_free(stage);
-    require(ok, &error);
+    const uint32_t group = form_group(&settings->choice);
+    const KernelSpec spec = {.entry = &draw_entry,
+                             .choice = settings->choice,
+                             .traits = traits_general(false),
+                             .group = {group, group}};
+    *picture = (OpenPicture){.kernels.source = {.device = &studio->device,
+                                                .cache = &studio->cache,
+                                                .kernel_folder = getenv("CLRT_KERNEL_DIR"),
+                                                .extra_options = settings->extra_options}};
+    stage_make_as(&picture->stage, scene, settings->tree, settings->choice.nodes);
+    const bool ok =
+        scene_buffers_make(&picture->buffers, &studio->device, &picture->stage.flat, &error);
+    picture->renderer =
+        (Renderer){.kernel = ok ? kernel_set_get(&picture->kernels, &spec, &error) : NULL,
+                   .scene = &picture->buffers,
+                   .settings = settings->render};
+    if (picture->renderer.kernel == NULL)
+        picture_close(picture);
+    require(error.text[0] == '\0', &error);
+}
+
+// The device may share the stage's memory.
+void picture_close(OpenPicture *picture)
+{
+    scene_buffers_free(&picture->buffers);
+    kernel_set_clear(&picture->kernels);
+    stage_free(&picture->stage);
 }
 
 CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
@@ -67,28 +80,19 @@ CameraData picture_camera(const Scene *scene, const RenderSettings *settings)
                        settings->height, settings->samples);
 }
 
-Framebuffer picture_draw_counted(const Studio *studio, const Scene *scene,
-                                 const PictureSettings *settings, RenderProgress *progress)
+Framebuffer picture_draw(const Studio *studio, const Scene *scene, const PictureSettings *settings)
 {
-    Stage stage;
-    Renderer renderer;
+    OpenPicture open;
     Error error = {0};
     Framebuffer picture;
     const RenderSettings *render = &settings->render;
     const CameraData camera = picture_camera(scene, render);
-    picture_open(&renderer, &stage, studio, scene, settings);
+    picture_open(&open, studio, scene, settings);
     const bool ok = framebuffer_make(&picture, render->width, render->height, &error) &&
-                    renderer_draw(&renderer, &camera, NULL, &picture, &error);
-    *progress = renderer.progress;
-    renderer_close(&renderer);
-    stage_free(&stage);
+                    renderer_draw(&open.renderer, &camera, NULL, &picture, &error);
+    picture_close(&open);
     require(ok, &error);
     return picture;
-}
-
-Framebuffer picture_draw(const Studio *studio, const Scene *scene, const PictureSettings *settings)
-{
-    return picture_draw_counted(studio, scene, settings, &(RenderProgress){0});
 }
 
 Framebuffer picture_draw_once(const Studio *studio, Scene scene, const PictureSettings *settings)

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "outcome.h"
-#include "render/renderer.h"
+#include "render/draw.h"
 #include "stage.h"
 
 typedef struct {
@@ -28,10 +28,19 @@ typedef struct {
 // program of form_choice.
 PictureSettings picture_settings(uint32_t side);
 
-// Opens a renderer with the kernels in CLRT_KERNEL_DIR, or the built-in kernels. The caller closes
-// the renderer before freeing the stage, because the device may share the stage's memory.
-void picture_open(Renderer *renderer, Stage *stage, const Studio *studio, const Scene *scene,
+// A scene that is ready to draw.
+typedef struct {
+    Stage stage;
+    SceneBuffers buffers;
+    KernelSet kernels;
+    Renderer renderer;
+} OpenPicture;
+
+// Opens a picture with the kernels in CLRT_KERNEL_DIR, or the built-in kernels. The picture must
+// stay at its address until picture_close.
+void picture_open(OpenPicture *picture, const Studio *studio, const Scene *scene,
                   const PictureSettings *settings);
+void picture_close(OpenPicture *picture);
 
 // Returns the camera of the scene's first viewpoint.
 CameraData picture_camera(const Scene *scene, const RenderSettings *settings);
@@ -41,10 +50,6 @@ Framebuffer picture_draw(const Studio *studio, const Scene *scene, const Picture
 
 // Draws like picture_draw, and frees the scene.
 Framebuffer picture_draw_once(const Studio *studio, Scene scene, const PictureSettings *settings);
-
-// Draws like picture_draw. If settings enable statistics, stores the tallies in progress.
-Framebuffer picture_draw_counted(const Studio *studio, const Scene *scene,
-                                 const PictureSettings *settings, RenderProgress *progress);
 
 size_t picture_pixels(const Framebuffer *picture);
 

@@ -77,16 +77,6 @@ static bool make_kernels(void *context, Error *error)
     return cl_succeeded(clFinish(batch->device.queue), "finish the first runs", error);
 }
 
-static void make_program(RayBatch *batch, const ProgramSource *source)
-{
-    Error error = {0};
-    const SceneTraits traits = traits_general(false);
-    const RendererSetup setup = {
-        .device = &batch->device, .cache = &batch->cache, .source = *source};
-    const FirstRun first = {make_kernels, batch};
-    require(program_make(&batch->program, &setup, &traits, &first, &error), &error);
-}
-
 void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *options)
 {
     Error error = {0};
@@ -102,12 +92,17 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
     batch->hits = make_buffer(batch, NULL, BATCH_RAYS * sizeof(TestHit));
     batch->outward = make_buffer(batch, NULL, BATCH_RAYS * sizeof(float[3]));
     ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes});
+    const KernelEntry entry = {.source = file.bytes};
     const ProgramSource source = {
+        .device = &batch->device,
+        .cache = &batch->cache,
         .kernel_folder = kernel_folder != NULL ? kernel_folder : getenv("CLRT_KERNEL_DIR"),
         .extra_options = options,
-        .appended = file.bytes,
-        .choice = batch->choice};
-    make_program(batch, &source);
+        .entry = &entry,
+        .choice = batch->choice,
+        .traits = traits_general(false)};
+    const FirstRun first = {make_kernels, batch};
+    require(program_make(&batch->program, &source, &first, &error), &error);
     file_free(&file);
 }
 

@@ -5,7 +5,6 @@
 
 #include "accel/flat.h"
 #include "device/program.h"
-#include "render/ready_kernel.h"
 
 // Equals the RayKind of kernels/ray.cl.
 typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Runs the kernel explain_sample and converts its results to scene coordinates.
-#include "explain/explainer.h"
+#include "session/explainer.h"
 
 #include "device/buffer.h"
+#include "scene/camera.h"
 
-#include <assert.h>
 #include <stdlib.h>
 
 // kernels/explain.cl, embedded at build time.
@@ -33,6 +33,7 @@ static size_t scalar_size(const Explainer *explainer)
 
 static bool make_room(Explainer *explainer, Error *error)
 {
+    const Device *device = explainer->renderer.kernel->device;
     const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
     const size_t values = levels * level_values(explainer);
     const size_t words = levels * level_words(explainer);
@@ -43,66 +44,75 @@ static bool make_room(Explainer *explainer, Error *error)
         memory_raw(levels * explainer->frame.light_count, sizeof *explainer->lights, error);
     return explainer->host_values != NULL && explainer->host_words != NULL &&
            explainer->rays != NULL && explainer->lights != NULL &&
-           device_buffer(explainer->renderer->device, values * scalar, &explainer->values, error) &&
-           device_buffer(explainer->renderer->device, words * sizeof(uint32_t), &explainer->words,
-                         error) &&
-           device_buffer(explainer->renderer->device, 4 * scalar, &explainer->result, error) &&
-           device_buffer(explainer->renderer->device, sizeof(uint32_t), &explainer->count, error);
+           device_buffer(device, values * scalar, &explainer->values, error) &&
+           device_buffer(device, words * sizeof(uint32_t), &explainer->words, error) &&
+           device_buffer(device, 4 * scalar, &explainer->result, error) &&
+           device_buffer(device, sizeof(uint32_t), &explainer->count, error);
 }
 
-static bool run_kernel(const Explainer *explainer, const FrameData *frame, cl_uint column,
-                       cl_uint row, Error *error)
+// The kernel's outputs: values, words, result and count.
+#define OUTPUTS 4
+
+static bool run_kernel(const Renderer *renderer, const FrameData *frame, const cl_uint place[2],
+                       const cl_mem outputs[OUTPUTS], Error *error)
 {
-    const Renderer *renderer = explainer->renderer;
-    const cl_mem outputs[] = {explainer->values, explainer->words, explainer->result,
-                              explainer->count};
+    const Kernel *kernel = renderer->kernel;
     const size_t one = 1;
-    cl_kernel kernel = explainer->kernel;
-    cl_uint place = FLAT_ARRAYS + 1;
-    if (!renderer_set_scene(renderer, kernel, frame, error))
+    cl_uint next = FLAT_ARRAYS + 1;
+    cl_int status = CL_SUCCESS;
+    if (!renderer_set_scene(renderer, frame, error))
         return false;
-    cl_int status = clSetKernelArg(kernel, place++, sizeof column, &column);
-    status |= clSetKernelArg(kernel, place++, sizeof row, &row);
-    for (int i = 0; i < 4; i++)
-        status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &outputs[i]);
+    for (int axis = 0; axis < 2; axis++)
+        status |= clSetKernelArg(kernel->handle, next++, sizeof place[axis], &place[axis]);
+    for (int i = 0; i < OUTPUTS; i++)
+        status |= clSetKernelArg(kernel->handle, next++, sizeof(cl_mem), &outputs[i]);
     if (!cl_succeeded(status, "set the arguments of the kernel explain_sample", error))
         return false;
-    status =
-        clEnqueueNDRangeKernel(renderer->device->queue, kernel, 1, NULL, &one, &one, 0, NULL, NULL);
+    status = clEnqueueNDRangeKernel(kernel->device->queue, kernel->handle, 1, NULL, &one, &one, 0,
+                                    NULL, NULL);
     return cl_succeeded(status, "run the kernel explain_sample", error);
 }
 
-// Creates the kernel and runs it once with no levels.
-static bool make_kernel(void *context, Error *error)
+// Traces a sample with no levels.
+static bool trace_nothing(Renderer *renderer, Error *error)
 {
-    Explainer *explainer = context;
-    cl_int status;
-    FrameData nothing = explainer->frame;
-    nothing.max_level = 0;
-    explainer->kernel = clCreateKernel(explainer->program.handle, "explain_sample", &status);
-    return cl_succeeded(status, "create the kernel explain_sample", error) &&
-           run_kernel(explainer, &nothing, 0, 0, error) &&
-           cl_succeeded(clFinish(explainer->renderer->device->queue), "finish the first run",
-                        error);
+    const Device *device = renderer->kernel->device;
+    const cl_uint place[2] = {0, 0};
+    cl_mem nothing;
+    if (!device_buffer(device, 64, &nothing, error))
+        return false;
+    const cl_mem outputs[OUTPUTS] = {nothing, nothing, nothing, nothing};
+    const bool ok = run_kernel(renderer, &(FrameData){.samples = 1}, place, outputs, error) &&
+                    cl_succeeded(clFinish(device->queue), "finish the first run", error);
+    device_release(&nothing);
+    return ok;
 }
 
-bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *error)
+static bool first_run(const Kernel *kernel, Error *error)
 {
-    *explainer = (Explainer){.renderer = source->renderer,
-                             .scene = source->scene,
-                             .normalization = source->normalization,
-                             .frame = source->renderer->frame,
-                             .is_fp64 = source->setup->source.choice.precision == PRECISION_FP64};
-    explainer->frame.camera = source->camera;
-    const SceneTraits traits = traits_general(false);
-    const FirstRun first = {make_kernel, explainer};
-    RendererSetup setup = *source->setup;
-    setup.source.appended = explain_source;
-    const bool ok = make_room(explainer, error) &&
-                    program_make(&explainer->program, &setup, &traits, &first, error);
-    if (!ok)
-        explainer_close(explainer);
-    return ok;
+    return renderer_run_first(kernel, trace_nothing, error);
+}
+
+static const KernelEntry explain_entry = {"explain_sample", explain_source, NULL, first_run};
+
+bool explainer_open(Explainer *explainer, Session *session, const RenderSettings *settings,
+                    const Viewpoint *viewpoint, Error *error)
+{
+    const RendererUse use = {.entry = &explain_entry, .is_general = true};
+    const SessionScene *scene = &session->scene;
+    *explainer = (Explainer){.scene = scene->scene,
+                             .normalization = &scene->normalization,
+                             .is_fp64 = session->choice.precision == PRECISION_FP64};
+    if (!session_renderer(session, &use, settings, &explainer->renderer, error))
+        return false;
+    const CameraData camera =
+        camera_make(viewpoint, &scene->normalization, render_whole_width(settings),
+                    render_whole_height(settings), settings->samples);
+    explainer->frame = renderer_frame(&explainer->renderer, &camera);
+    if (make_room(explainer, error))
+        return true;
+    explainer_close(explainer);
+    return false;
 }
 
 void explainer_close(Explainer *explainer)
@@ -111,8 +121,6 @@ void explainer_close(Explainer *explainer)
     device_release(&explainer->words);
     device_release(&explainer->result);
     device_release(&explainer->count);
-    device_release_kernel(&explainer->kernel);
-    program_free(&explainer->program);
     free(explainer->host_values);
     free(explainer->host_words);
     free(explainer->rays);
@@ -214,7 +222,7 @@ static void take_ray(Explainer *explainer, uint32_t level)
 static bool read_back(const Explainer *explainer, ExplainedSample *sample, Error *error)
 {
     double result[4]; // fits floats and doubles
-    const Device *device = explainer->renderer->device;
+    const Device *device = explainer->renderer.kernel->device;
     const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
     if (!device_read(device, explainer->values, explainer->host_values,
                      levels * level_values(explainer) * scalar, error) ||
@@ -233,9 +241,11 @@ bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t ind
                      ExplainedSample *sample, Error *error)
 {
     const uint32_t side = explainer->frame.samples;
-    const uint32_t column = pixel[0] * side + index % side, row = pixel[1] * side + index / side;
+    const cl_uint place[2] = {pixel[0] * side + index % side, pixel[1] * side + index / side};
+    const cl_mem outputs[OUTPUTS] = {explainer->values, explainer->words, explainer->result,
+                                     explainer->count};
     *sample = (ExplainedSample){.rays = explainer->rays};
-    if (!run_kernel(explainer, &explainer->frame, column, row, error) ||
+    if (!run_kernel(&explainer->renderer, &explainer->frame, place, outputs, error) ||
         !read_back(explainer, sample, error))
         return false;
     for (uint32_t level = 0; level < sample->ray_count; level++)
@@ -255,29 +265,4 @@ void explainer_mix(const Explainer *explainer, float color[3])
         color[channel] =
             explainer->is_fp64 ? (float)((double)mean * 0x1p-32) : (float)mean * 0x1p-32f;
     }
-}
-
-// Ids number the spheres first, then the triangles, mesh after mesh.
-PrimitiveName name_primitive(const Scene *scene, uint32_t id)
-{
-    if (id < scene->spheres.count)
-        return (PrimitiveName){.is_sphere = true, .number = (size_t)id + 1};
-    size_t number = id - scene->spheres.count, object = 0;
-    while (number >= scene->objects.data[object].mesh.triangle_count) {
-        number -= scene->objects.data[object++].mesh.triangle_count;
-        assert(object < scene->objects.count);
-    }
-    const MeshObject *found = &scene->objects.data[object];
-    return (PrimitiveName){.number = number_in_file(found, number),
-                           .path = scene->inputs.data[found->input]};
-}
-
-const char *name_material(const Scene *scene, uint32_t material)
-{
-    static const char *const courses[] = {"0", "1", "2", "3"};
-    for (size_t i = 0; i < scene->material_names.list.count; i++)
-        if (scene->material_names.list.data[i].material == material)
-            return scene->material_names.list.data[i].name;
-    assert(material < sizeof courses / sizeof *courses);
-    return courses[material];
 }

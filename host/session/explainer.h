@@ -3,13 +3,7 @@
 // A separate kernel traces the sample again with the picture's functions.
 #pragma once
 
-#include "image/image_file.h"
-#include "render/renderer.h"
-#include "scene/normalize.h"
-#include "scene/scene.h"
-
-#include <jansson.h>
-#include <stdio.h>
+#include "session/session.h"
 
 typedef struct {
     LightState state;
@@ -45,13 +39,11 @@ typedef struct {
 } ExplainedSample;
 
 typedef struct {
-    const Renderer *renderer;
+    Renderer renderer; // with the settings of the picture
     const Scene *scene;
     const Normalization *normalization;
     FrameData frame;
     bool is_fp64;
-    Program program;
-    cl_kernel kernel;
     cl_mem values, words, result, count; // device buffers for one sample
     void *host_values;                   // doubles if is_fp64, otherwise floats
     uint32_t *host_words;
@@ -60,16 +52,10 @@ typedef struct {
     uint64_t sums[3];       // of ExplainedSample::steps over the pixel's samples
 } Explainer;
 
-// The inputs of explainer_open. renderer, scene and normalization must outlive the Explainer.
-typedef struct {
-    const RendererSetup *setup;
-    const Renderer *renderer;
-    const Scene *scene;
-    const Normalization *normalization;
-    CameraData camera;
-} ExplainerSource;
-
-bool explainer_open(Explainer *explainer, const ExplainerSource *source, Error *error);
+// Prepares to explain the pixels of a picture of the session's scene. The session keeps the scene
+// until the explainer is closed.
+bool explainer_open(Explainer *explainer, Session *session, const RenderSettings *settings,
+                    const Viewpoint *viewpoint, Error *error);
 void explainer_close(Explainer *explainer);
 
 // Traces a sample of a pixel into *sample, which stays valid until the next call. Callers trace all
@@ -79,35 +65,3 @@ bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t ind
 
 // Stores the pixel's color. explainer_trace must have traced all samples of the pixel.
 void explainer_mix(const Explainer *explainer, float color[3]);
-
-// A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and
-// number in that file.
-typedef struct {
-    bool is_sphere;
-    size_t number;    // spheres from 1, triangles from 0
-    const char *path; // of the triangle's mesh; NULL for a sphere
-} PrimitiveName;
-
-PrimitiveName name_primitive(const Scene *scene, uint32_t id);
-
-// Returns the name of a defined or imported material, or the number of a material of the course.
-// The string belongs to the scene or is static.
-const char *name_material(const Scene *scene, uint32_t material);
-
-typedef struct {
-    const char *scene_path;
-    const Scene *scene;
-    const RenderSettings *settings;
-    uint32_t view; // number of the viewpoint, from 1
-    uint32_t pixel[2];
-    Encoding encoding;
-    bool is_brief; // only the first sample and its important rays, with fewer facts and digits
-} ExplainReport;
-
-// Traces the pixel's samples with explainer and writes them as text. Returns false if the device
-// fails.
-bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
-                        Error *error);
-
-// Like explain_write_text, but returns JSON, or NULL if the device fails.
-json_t *explain_json(const ExplainReport *report, Explainer *explainer, Error *error);

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// PoCL compiles a kernel when it runs for the first time, so every first run holds the cache's
+// lock.
+#include "device/kernel.h"
+
+#include "base/clock.h"
+#include "device/buffer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_for(const Kernel *kernel, const KernelSpec *spec)
+{
+    return kernel->entry == spec->entry &&
+           memcmp(&kernel->choice, &spec->choice, sizeof spec->choice) == 0 &&
+           memcmp(&kernel->traits, &spec->traits, sizeof spec->traits) == 0 &&
+           memcmp(kernel->group, spec->group, sizeof spec->group) == 0;
+}
+
+static ProgramSource source_of(const KernelSet *set, const KernelSpec *spec)
+{
+    ProgramSource source = set->source;
+    source.entry = spec->entry;
+    source.choice = spec->choice;
+    source.traits = spec->traits;
+    return source;
+}
+
+static bool start(void *context, Error *error)
+{
+    Kernel *kernel = context;
+    cl_int status;
+    kernel->handle = clCreateKernel(kernel->program->handle, kernel->entry->name, &status);
+    return cl_succeeded(status, "create a kernel", error) &&
+           kernel->entry->first_run(kernel, error);
+}
+
+static Program *program_with_key(const KernelSet *set, const char *key)
+{
+    for (size_t i = 0; i < set->programs.count; i++)
+        if (strcmp(set->programs.data[i]->key, key) == 0)
+            return set->programs.data[i];
+    return NULL;
+}
+
+// Creates the kernel in a program of the set.
+static bool start_in(Kernel *kernel, const Cache *cache, Error *error)
+{
+    const int lock = cache_lock(cache);
+    const bool ok = start(kernel, error);
+    cache_unlock(lock);
+    return ok;
+}
+
+static bool make_program(KernelSet *set, Kernel *kernel, const ProgramSource *source, Error *error)
+{
+    const FirstRun first = {start, kernel};
+    kernel->program = memory_zeroed(1, sizeof *kernel->program, error);
+    if (kernel->program == NULL || !array_push(&set->programs, kernel->program, error)) {
+        free(kernel->program);
+        return false;
+    }
+    if (program_make(kernel->program, source, &first, error))
+        return true;
+    set->programs.count--;
+    program_free(kernel->program);
+    free(kernel->program);
+    return false;
+}
+
+static bool make(KernelSet *set, Kernel *kernel, const KernelSpec *spec, Error *error)
+{
+    char key[CACHE_KEY_SIZE];
+    const double start_time = clock_seconds();
+    const ProgramSource source = source_of(set, spec);
+    *kernel = (Kernel){.device = source.device,
+                       .entry = spec->entry,
+                       .choice = spec->choice,
+                       .traits = spec->traits,
+                       .group = {spec->group[0], spec->group[1]},
+                       .was_compiled = program_is_compiled(&source)};
+    program_key(&source, key);
+    kernel->program = program_with_key(set, key);
+    const bool ok = kernel->program != NULL ? start_in(kernel, source.cache, error)
+                                            : make_program(set, kernel, &source, error);
+    kernel->seconds = clock_seconds() - start_time;
+    return ok;
+}
+
+const Kernel *kernel_set_get(KernelSet *set, const KernelSpec *spec, Error *error)
+{
+    for (size_t i = 0; i < set->kernels.count; i++)
+        if (is_for(set->kernels.data[i], spec))
+            return set->kernels.data[i];
+    Kernel *kernel = memory_zeroed(1, sizeof *kernel, error);
+    if (kernel != NULL && make(set, kernel, spec, error) &&
+        array_push(&set->kernels, kernel, error))
+        return kernel;
+    if (kernel != NULL)
+        device_release_kernel(&kernel->handle);
+    free(kernel);
+    return NULL;
+}
+
+bool kernel_set_has(const KernelSet *set, const KernelSpec *spec)
+{
+    const ProgramSource source = source_of(set, spec);
+    for (size_t i = 0; i < set->kernels.count; i++)
+        if (is_for(set->kernels.data[i], spec))
+            return true;
+    return program_is_compiled(&source);
+}
+
+void kernel_set_save(KernelSet *set)
+{
+    for (size_t i = 0; i < set->programs.count; i++)
+        program_save(set->programs.data[i]);
+}
+
+bool kernel_set_is_saved(const KernelSet *set)
+{
+    for (size_t i = 0; i < set->programs.count; i++)
+        if (set->programs.data[i]->unsaved != NULL)
+            return false;
+    return true;
+}
+
+void kernel_set_clear(KernelSet *set)
+{
+    for (size_t i = 0; i < set->kernels.count; i++) {
+        device_release_kernel(&set->kernels.data[i]->handle);
+        free(set->kernels.data[i]);
+    }
+    for (size_t i = 0; i < set->programs.count; i++) {
+        program_free(set->programs.data[i]);
+        free(set->programs.data[i]);
+    }
+    free(set->kernels.data);
+    free(set->programs.data);
+
+    *set = (KernelSet){.source = set->source};
+}

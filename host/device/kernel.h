@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The kernels of a device, each made once. Kernels of one source share a program. Making a kernel
+// needs no scene.
+#pragma once
+
+#include "device/program.h"
+
+struct Kernel {
+    const Device *device;
+    const KernelEntry *entry;
+    KernelChoice choice;
+    SceneTraits traits;
+    uint32_t group[2]; // the size of work-groups that the kernel is for
+    Program *program;
+    cl_kernel handle;
+    double seconds;    // time spent on making the kernel
+    bool was_compiled; // by an earlier process, according to the cache
+};
+
+typedef struct {
+    ProgramSource source; // device, cache, kernel folder and extra options of all kernels
+    ARRAY(Program *) programs;
+    ARRAY(Kernel *) kernels;
+} KernelSet;
+
+// A kernel to make. The group may be {0, 0} for a kernel that its file launches in its own shape.
+typedef struct {
+    const KernelEntry *entry;
+    KernelChoice choice;
+    SceneTraits traits;
+    uint32_t group[2];
+} KernelSpec;
+
+// Returns the kernel for spec, or NULL. The kernel belongs to the set.
+const Kernel *kernel_set_get(KernelSet *set, const KernelSpec *spec, Error *error);
+
+// Returns whether the set or the cache has the program of the kernel for spec.
+bool kernel_set_has(const KernelSet *set, const KernelSpec *spec);
+
+// Saves new programs to the cache.
+void kernel_set_save(KernelSet *set);
+
+// Returns whether kernel_set_save has nothing to do.
+bool kernel_set_is_saved(const KernelSet *set);
+
+// Saves new programs, and releases all programs and kernels.
+void kernel_set_clear(KernelSet *set);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Writes the explanation of a pixel as text or JSON.
+#pragma once
+
+#include "image/image_file.h"
+#include "session/explainer.h"
+
+#include <jansson.h>
+#include <stdio.h>
+
+// A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and
+// number in that file.
+typedef struct {
+    bool is_sphere;
+    size_t number;    // spheres from 1, triangles from 0
+    const char *path; // of the triangle's mesh; NULL for a sphere
+} PrimitiveName;
+
+PrimitiveName name_primitive(const Scene *scene, uint32_t id);
+
+// Returns the name of a defined or imported material, or the number of a material of the course.
+// The string belongs to the scene or is static.
+const char *name_material(const Scene *scene, uint32_t material);
+
+typedef struct {
+    const char *scene_path;
+    const Scene *scene;
+    const RenderSettings *settings;
+    uint32_t view; // number of the viewpoint, from 1
+    uint32_t pixel[2];
+    Encoding encoding;
+    bool is_brief; // only the first sample and its important rays, with fewer facts and digits
+} ExplainReport;
+
+// Traces the pixel's samples with explainer and writes them as text. Returns false if the device
+// fails.
+bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
+                        Error *error);
+
+// Like explain_write_text, but returns JSON, or NULL if the device fails.
+json_t *explain_json(const ExplainReport *report, Explainer *explainer, Error *error);

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Renderer and camera -> a picture or other values of pixels, tile by tile.
+#pragma once
+
+#include "image/framebuffer.h"
+#include "render/renderer.h"
+
+// The kernel render_tile.
+extern const KernelEntry draw_entry;
+
+// Draws the camera's picture into framebuffer. Fails unless it has the size of tile_frame_size. If
+// the observer stops the picture, the call returns true with fewer tiles_done than tiles.
+bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
+                   Framebuffer *framebuffer, Error *error);
+
+// The outputs of a kernel that computes values for each pixel of a tile. Its arguments are the
+// frame, the scene's arrays and the outputs.
+typedef struct {
+    FrameData frame; // without a tile
+    int outputs;     // 1 or 2
+    size_t sizes[2]; // bytes per pixel of each output; 0 if the kernel does not write the second
+    uint64_t first;  // the number of the first tile to draw
+    // Receives a tile's outputs, row by row. The tiles come in the order of their numbers.
+    void (*take)(void *context, const Tile *tile, void *const values[2]);
+    void *context;
+} TilePass;
+
+// Runs the renderer's kernel for all tiles until the observer returns false, and adds each finished
+// tile to progress.
+bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderObserver *observer,
+                   RenderProgress *progress, Error *error);
+
+// Runs a kernel with these outputs once over an empty tile. Implements KernelEntry::first_run.
+bool tile_pass_run_first(const Kernel *kernel, int outputs, Error *error);

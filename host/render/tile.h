@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// A picture's settings -> its tiles.
+#pragma once
+
+#include "scene/scene.h"
+
+typedef struct {
+    uint32_t width, height;             // size of the crop
+    uint32_t left, top;                 // position of the crop in the whole picture
+    uint32_t whole_width, whole_height; // size of the whole picture; 0 without a crop
+    uint32_t samples;                   // along each side of a pixel
+    uint32_t max_level; // rays of this level return the background; camera rays have level 0
+    uint32_t tile_width, tile_height;
+    uint64_t ready_tiles; // number of leading tiles that exist already and are skipped
+    uint32_t part, parts; // draws one of `parts` parts (see Tile); 0, 0 draws all tiles
+} RenderSettings;
+
+// Return the size of the whole picture.
+static inline uint32_t render_whole_width(const RenderSettings *settings)
+{
+    return settings->whole_width > 0 ? settings->whole_width : settings->width;
+}
+
+static inline uint32_t render_whole_height(const RenderSettings *settings)
+{
+    return settings->whole_height > 0 ? settings->whole_height : settings->height;
+}
+
+static inline bool render_is_part(const RenderSettings *settings)
+{
+    return settings->width < render_whole_width(settings) ||
+           settings->height < render_whole_height(settings);
+}
+
+// The largest RenderSettings::samples. This limit keeps sample coordinates exact in float.
+#define SAMPLES_MAX 64
+
+// A picture is split into tiles, row by row from its upper left corner. A part draws every parts-th
+// tile of each row, from a column that varies between rows.
+typedef struct {
+    uint32_t x, y, width, height; // in pixels of the crop
+    uint32_t left, top;           // position in the framebuffer
+} Tile;
+
+// Stores the size of the framebuffer in which the tiles are drawn. A part's framebuffer contains
+// only the part's tiles, below each other.
+void tile_frame_size(const RenderSettings *settings, uint32_t *width, uint32_t *height);
+
+// Return the number of tiles to draw, and the position and size of one of them.
+uint64_t tile_count(const RenderSettings *settings);
+Tile tile_at(const RenderSettings *settings, uint64_t number);
+
+// Returns the size of the largest tile, with x and y 0.
+Tile tile_largest(const RenderSettings *settings);
+
+// Sets the tile that the frame draws.
+void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// A picture that is drawn already -> its channels and the certainty of its pixels.
+#pragma once
+
+#include "render/aov_pass.h"
+#include "session/picture.h"
+
+// Computes the certainty of each pixel, and replaces the colors of pixels repaired in fp64, until
+// the observer returns false. Fails if the device's arithmetic does not suffice.
+bool session_certify(Session *session, const SessionPicture *request,
+                     const RenderObserver *observer, const CertifiedPicture *picture, Error *error);
+
+typedef struct {
+    AovSet set;
+    const uint32_t *pixel_samples; // PictureResult::pixel_samples
+    const CertaintyMap *certainty; // NULL if no channel needs it
+} ChannelRequest;
+
+// Computes the channels into layers until the observer returns false. layers must have the names of
+// the set (aov_name_layers) and the picture's size.
+bool session_draw_channels(Session *session, const SessionPicture *request,
+                           const ChannelRequest *channels, const RenderObserver *observer,
+                           Layers *layers, Error *error);

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// For a goal, the device traces samples in passes. Between passes, a thread pool on the host
+// decides where to sample next.
+#include "session/picture.h"
+
+#include "base/clock.h"
+#include "refine/adaptive.h"
+#include "refine/ladder.h"
+#include "render/draw.h"
+#include "scene/camera.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// A picture in progress.
+typedef struct {
+    const Session *session;
+    const SessionPicture *request;
+    const RenderObserver *observer;
+    Renderer renderer;
+    const SceneForm *form;
+    ThreadPool *pool; // for refining
+    Framebuffer *framebuffer;
+    PictureResult *result;
+} Drawing;
+
+const KernelEntry *picture_entry(const PictureGoal *goal)
+{
+    if (goal->contrast > 0)
+        return &sample_entry;
+    return goal_is_given(goal) ? &ladder_entry : &draw_entry;
+}
+
+CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples)
+{
+    const RenderSettings *settings = &request->settings;
+    return camera_make(&request->viewpoint, &session->scene.normalization,
+                       render_whole_width(settings), render_whole_height(settings), samples);
+}
+
+static bool open_renderer(Session *session, const SessionPicture *request, Renderer *renderer,
+                          PictureResult *result, Error *error)
+{
+    const RendererUse use = {.entry = picture_entry(&request->goal), .counts = request->counts};
+    if (!session_renderer(session, &use, &request->settings, renderer, error))
+        return false;
+    result->is_special = renderer->is_special;
+    result->upload_size = renderer->scene->size;
+    result->upload_seconds = renderer->scene->seconds;
+    result->build_seconds = renderer->kernel->seconds;
+    result->group[0] = renderer->kernel->group[0];
+    result->group[1] = renderer->kernel->group[1];
+    return true;
+}
+
+bool session_prepare(Session *session, const SessionPicture *request, PictureResult *result,
+                     Error *error)
+{
+    Renderer renderer;
+    return open_renderer(session, request, &renderer, result, error);
+}
+
+static void count_tree(uint32_t *samples, const RefineTree *tree)
+{
+    for (uint32_t y = 0; y < tree->height; y++)
+        for (uint32_t x = 0; x < tree->width; x++)
+            samples[(size_t)y * tree->width + x] = refine_tree_count(tree, x, y);
+}
+
+static bool draw_adaptively(Drawing *drawing, Error *error)
+{
+    Adaptive adaptive;
+    const Session *session = drawing->session;
+    PictureResult *result = drawing->result;
+    const CameraData camera = session_camera(session, drawing->request, REFINE_GRID);
+    const AdaptiveSetup setup = {.renderer = &drawing->renderer,
+                                 .flat = &drawing->form->flat,
+                                 .camera = &camera,
+                                 .pool = drawing->pool,
+                                 .scene = session->scene.scene,
+                                 .normalization = &session->scene.normalization};
+    const float contrast = (float)drawing->request->goal.contrast;
+    const bool ok = adaptive_open(&adaptive, &setup, drawing->observer, error) &&
+                    adaptive_refine(&adaptive, contrast, drawing->observer, error);
+    if (ok)
+        adaptive_store(&adaptive, drawing->framebuffer);
+    if (ok && result->pixel_samples != NULL)
+        count_tree(result->pixel_samples, &adaptive.tree);
+    result->samples = adaptive.samples;
+    adaptive_close(&adaptive);
+    return ok;
+}
+
+// Refines toward the time or error goal. Does nothing if truncation alone reaches the error goal.
+static bool refine(const PictureGoal *goal, Ladder *ladder, double start, GoalOutcome *outcome,
+                   Error *error)
+{
+    const GoalTime time = {start, goal->seconds};
+    const double left = goal->error * goal->error - goal->truncated * goal->truncated;
+    if (goal->seconds > 0)
+        return goal_spend_time(ladder, &time, outcome, error);
+    return left <= 0 || goal_reach_error(ladder, sqrt(left), outcome, error);
+}
+
+static bool draw_for_goal(Drawing *drawing, Error *error)
+{
+    Ladder ladder;
+    GoalOutcome outcome = {0};
+    const Session *session = drawing->session;
+    const PictureGoal *goal = &drawing->request->goal;
+    PictureResult *result = drawing->result;
+    const double start = clock_seconds();
+    const CameraData camera = session_camera(session, drawing->request, LADDER_GRID);
+    const LadderSetup setup = {.renderer = &drawing->renderer,
+                               .flat = &drawing->form->flat,
+                               .camera = &camera,
+                               .pool = drawing->pool,
+                               .scene = session->scene.scene,
+                               .normalization = &session->scene.normalization,
+                               .picture = drawing->framebuffer,
+                               .observer = drawing->observer};
+    if (!ladder_open(&ladder, &setup, error))
+        return false;
+    const bool ok = refine(goal, &ladder, start, &outcome, error);
+    result->estimate = hypot(outcome.estimate, goal->truncated);
+    result->bound = hypot(outcome.bound, goal->truncated);
+    result->goal_missed = !outcome.reached;
+    result->samples = ladder.samples;
+    for (size_t i = 0; result->pixel_samples != NULL && i < ladder.statistics.pixels; i++)
+        result->pixel_samples[i] = ladder_pixel_samples(&ladder, i);
+    ladder_close(&ladder);
+    return ok;
+}
+
+static bool draw_refined(Drawing *drawing, Error *error)
+{
+    const RenderSettings *settings = &drawing->request->settings;
+    PictureResult *result = drawing->result;
+    result->pixels = (uint64_t)settings->width * settings->height;
+    if (drawing->request->keeps_samples && result->pixel_samples == NULL) {
+        result->pixel_samples = memory_raw(result->pixels, sizeof *result->pixel_samples, error);
+        if (result->pixel_samples == NULL)
+            return false;
+    }
+    drawing->pool = thread_pool_open(threads_allowed(drawing->session->settings.threads));
+    const bool ok = drawing->request->goal.contrast > 0 ? draw_adaptively(drawing, error)
+                                                        : draw_for_goal(drawing, error);
+    thread_pool_close(drawing->pool);
+    return ok;
+}
+
+static bool draw_evenly(Drawing *drawing, Error *error)
+{
+    const RenderSettings *settings = &drawing->request->settings;
+    PictureResult *result = drawing->result;
+    Renderer *renderer = &drawing->renderer;
+    const CameraData camera = session_camera(drawing->session, drawing->request, settings->samples);
+    if (!renderer_draw(renderer, &camera, drawing->observer, drawing->framebuffer, error))
+        return false;
+    result->pixels = 0;
+    for (uint64_t number = settings->ready_tiles; number < renderer->progress.tiles_done;
+         number++) {
+        const Tile tile = tile_at(settings, number);
+        result->pixels += (uint64_t)tile.width * tile.height;
+    }
+    result->samples = result->pixels * settings->samples * settings->samples;
+    return true;
+}
+
+bool session_draw(Session *session, const SessionPicture *request, const RenderObserver *observer,
+                  Framebuffer *framebuffer, PictureResult *result, Error *error)
+{
+    Drawing drawing = {.session = session,
+                       .request = request,
+                       .observer = observer,
+                       .framebuffer = framebuffer,
+                       .result = result};
+    if (!open_renderer(session, request, &drawing.renderer, result, error))
+        return false;
+    drawing.form = session_own_form(session, error);
+    const bool ok = goal_is_given(&request->goal) ? draw_refined(&drawing, error)
+                                                  : draw_evenly(&drawing, error);
+    result->progress = drawing.renderer.progress;
+    result->is_complete = ok && result->progress.tiles_done == result->progress.tiles;
+    return ok;
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// A picture of the session's scene -> its colors, with equal samples for all pixels or toward a
+// goal.
+#pragma once
+
+#include "image/framebuffer.h"
+#include "session/session.h"
+
+// Where to stop refining. At most one member is above zero; without one, all pixels have
+// RenderSettings::samples.
+typedef struct {
+    double contrast;  // refine while neighboring samples differ by more than this
+    double error;     // refine until the root mean square error is at most this
+    double seconds;   // refine for this time
+    double truncated; // the part of `error` that is due to RenderSettings::max_level
+} PictureGoal;
+
+// Returns whether the number of samples may differ between pixels.
+static inline bool goal_is_given(const PictureGoal *goal)
+{
+    return goal->contrast > 0 || goal->error > 0 || goal->seconds > 0;
+}
+
+typedef struct {
+    RenderSettings settings;
+    Viewpoint viewpoint;
+    PictureGoal goal;
+    bool counts;        // rays and tests
+    bool keeps_samples; // stores PictureResult::pixel_samples
+} SessionPicture;
+
+typedef struct {
+    // Set by session_prepare.
+    bool is_special; // the kernels are specialized for the scene
+    size_t upload_size;
+    double upload_seconds, build_seconds;
+    uint32_t group[2]; // size of the work-groups
+    // Set by session_draw.
+    RenderProgress progress;
+    bool is_complete;
+    bool goal_missed;
+    double estimate;         // of the RMSE, with PictureGoal::truncated; 0 without a goal
+    double bound;            // upper bound of the RMSE with 95 % confidence
+    uint64_t pixels;         // drawn, without those that existed before
+    uint64_t samples;        // total of these pixels
+    uint32_t *pixel_samples; // by pixel; NULL if all are equal; the caller frees it
+} PictureResult;
+
+// Returns the kernel that draws the colors.
+const KernelEntry *picture_entry(const PictureGoal *goal);
+
+// Returns the camera for `samples` sub-pixels along each side of a pixel.
+CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples);
+
+// Uploads the scene and compiles the kernels for session_draw.
+bool session_prepare(Session *session, const SessionPicture *request, PictureResult *result,
+                     Error *error);
+
+// Draws the picture into framebuffer, which has the size of tile_frame_size. If the observer stops
+// the picture, the call returns true, and result->is_complete is false.
+bool session_draw(Session *session, const SessionPicture *request, const RenderObserver *observer,
+                  Framebuffer *framebuffer, PictureResult *result, Error *error);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A picture -> the same picture with many other samples and the accuracy of fp64.
+#pragma once
+
+#include "session/picture.h"
+
+typedef struct {
+    Framebuffer picture; // owned; empty if the observer stopped the reference
+    double own_error;    // its RMSE, estimated from two independent halves
+} ReferencePicture;
+
+// Draws the reference of the requested picture with an even number of samples per pixel. The
+// observer sees the tiles of all passes.
+bool reference_draw(Session *session, const SessionPicture *request, uint32_t samples,
+                    const RenderObserver *observer, ReferencePicture *reference, Error *error);

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// A background thread opens the device while the caller's thread reads the scene. Making the kernel
+// on the background thread too would not make runs measurably shorter.
+#include "session/session.h"
+
+#include "base/clock.h"
+#include "session/costs.h"
+
+static bool open_device(Session *session, Error *error)
+{
+    const SessionSettings *settings = &session->settings;
+    const double start = clock_seconds();
+    session->is_open = device_open(&session->device, settings->device, error);
+    session->device_seconds = clock_seconds() - start;
+    session->choice = kernel_choose(&settings->kernel, &session->device);
+    session->kernels.source = (ProgramSource){.device = &session->device,
+                                              .cache = &session->cache,
+                                              .kernel_folder = settings->kernel_folder,
+                                              .extra_options = settings->extra_options};
+    return session->is_open && kernel_check_device(&session->choice, &session->device, error);
+}
+
+static void *run_thread(void *context)
+{
+    Session *session = context;
+    open_device(session, &session->error);
+    return NULL;
+}
+
+void session_begin(Session *session)
+{
+    session->is_running = device_thread_start(&session->thread, run_thread, session);
+    if (!session->is_running) // fall back to opening the device on this thread
+        run_thread(session);
+}
+
+bool session_open(Session *session, Error *error)
+{
+    return open_device(session, error);
+}
+
+// Explicit requests take precedence over the choice of quick kernels.
+static bool leaves_kernels_open(const Session *session)
+{
+    const SessionSettings *settings = &session->settings;
+    const KernelRequest *request = &settings->kernel;
+    return request->family == 0 && request->nodes == 0 && request->lanes == 0 &&
+           request->precision == PRECISION_FP32 && settings->tree != TREE_NEVER &&
+           settings->specialization != SPECIALIZE_ALWAYS;
+}
+
+static bool is_compiled(const Session *session, const KernelEntry *entry, KernelChoice choice)
+{
+    const KernelSpec spec = {.entry = entry, .choice = choice, .traits = traits_general(false)};
+    return kernel_set_has(&session->kernels, &spec);
+}
+
+// Until packets are compiled, kernels that compile faster render small pictures of small scenes, if
+// they save more compile time than the pictures then lose. Kernels under development never count as
+// compiled.
+static void choose_quick_kernels(Session *session, const SessionWork *work)
+{
+    const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32};
+    if (work->counts || !leaves_kernels_open(session) || session->choice.family != FAMILY_PACKET ||
+        session->settings.kernel_folder != NULL ||
+        scene_triangle_count(session->scene.scene) >= QUICK_TRIANGLES ||
+        is_compiled(session, work->entry, session->choice))
+        return;
+    const double saved = is_compiled(session, work->entry, quick) ? 0 : QUICK_COMPILE_SECONDS;
+    const double lost = work->samples * SAVED_PER_SAMPLE / session->device.compute_units +
+                        LOST_OF_LIMIT * work->seconds;
+    session->is_quick = lost <= PACKET_COMPILE_SECONDS - saved;
+    if (session->is_quick)
+        session->choice = quick;
+}
+
+static void join(Session *session)
+{
+    if (session->is_running)
+        pthread_join(session->thread, NULL);
+    session->is_running = false;
+}
+
+bool session_await(Session *session, const SessionWork *work, Error *error)
+{
+    join(session);
+    if (session->error.text[0] != '\0')
+        return error_set(error, "%s", session->error.text);
+    if (work != NULL)
+        choose_quick_kernels(session, work);
+    return true;
+}
+
+void session_save(Session *session)
+{
+    join(session);
+    kernel_set_save(&session->kernels);
+}
+
+void session_close(Session *session)
+{
+    session_save(session);
+    session_scene_free(&session->scene);
+    kernel_set_clear(&session->kernels);
+    if (session->is_open)
+        device_close(&session->device);
+    *session = (Session){.settings = session->settings, .cache = session->cache};
+}
+
+static bool specialization_pays(const Session *session, const KernelSpec *special,
+                                const RenderSettings *settings)
+{
+    const double samples =
+        (double)settings->width * settings->height * settings->samples * settings->samples;
+    const double rate = RAYS_PER_SECOND * session->device.compute_units;
+    const double saving = SPECIALIZED_SAVES * samples * RAYS_PER_SAMPLE / rate;
+    if (session->settings.specialization != SPECIALIZE_AUTO)
+        return session->settings.specialization == SPECIALIZE_ALWAYS;
+    return kernel_set_has(&session->kernels, special) ||
+           (session->settings.kernel_folder == NULL && saving > COMPILE_SECONDS);
+}
+
+static KernelSpec spec_of(const Session *session, const RendererUse *use, const SceneTraits *traits)
+{
+    const SessionSettings *settings = &session->settings;
+    KernelSpec spec = {.entry = use->entry,
+                       .choice = use->choice != NULL ? *use->choice : session->choice,
+                       .traits = *traits};
+    const uint32_t side = kernel_group_side(&spec.choice);
+    const bool is_own = use->choice == NULL;
+    spec.group[0] = is_own && settings->group_width > 0 ? settings->group_width : side;
+    spec.group[1] = is_own && settings->group_height > 0 ? settings->group_height : side;
+    return spec;
+}
+
+const Kernel *session_kernel(Session *session, const RendererUse *use, const SceneTraits *traits,
+                             Error *error)
+{
+    const KernelSpec spec = spec_of(session, use, traits);
+    return kernel_set_get(&session->kernels, &spec, error);
+}
+
+bool session_renderer(Session *session, const RendererUse *use, const RenderSettings *settings,
+                      Renderer *renderer, Error *error)
+{
+    const bool is_own = use->choice == NULL;
+    SceneForm *form = is_own ? session_own_form(session, error)
+                             : session_form(session, use->choice->nodes, true, error);
+    if (form == NULL || (form->buffers.device == NULL &&
+                         !scene_buffers_make(&form->buffers, &session->device, &form->flat, error)))
+        return false;
+    SceneTraits traits = form->buffers.traits;
+    traits.statistics = use->counts;
+    const KernelSpec special = spec_of(session, use, &traits);
+    const bool is_special = !use->is_general && specialization_pays(session, &special, settings);
+    if (!is_special)
+        traits = traits_general(use->counts);
+    *renderer = (Renderer){.kernel = session_kernel(session, use, &traits, error),
+                           .scene = &form->buffers,
+                           .settings = *settings,
+                           .is_special = is_special};
+    return renderer->kernel != NULL;
+}
+
+KernelChoice session_exact_choice(void)
+{
+    return (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
+}
