@@ -21,7 +21,7 @@ RUN apt-get update \
 COPY --from=build /out /
 # Compiled kernels, which any user may add to.
 ENV POCL_CACHE_DIR=/var/cache/clrt
-RUN mkdir -m 1777 $POCL_CACHE_DIR && clrt --warm && chmod -R a+rwX $POCL_CACHE_DIR
+RUN mkdir -m 1777 $POCL_CACHE_DIR && clrt warm && chmod -R a+rwX $POCL_CACHE_DIR
 WORKDIR /work
 USER nobody
 ENTRYPOINT ["clrt"]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernel of --explain-pixel traces one sample with the functions of trace(). A single work-item
+// The kernel of clrt explain SCENE X,Y traces one sample with the functions of trace(). A single work-item
 // traces it in its first lane and records the path (shared.h). The kernel is compiled after
 // render.cl, and only if requested.
 

@@ -244,7 +244,7 @@ typedef struct {
 } PathData;
 CLRT_SAME_SIZE(PathData, 48)
 
-// The record of each ray of a path for --explain-pixel. It holds LEVEL_VALUES numbers of the
+// The record of each ray of a path for explanations of pixels. It holds LEVEL_VALUES numbers of the
 // kernel's precision and LEVEL_WORDS words. For each light, LIGHT_VALUES and LIGHT_WORDS follow.
 // Vectors take three entries.
 typedef enum {

@@ -17,17 +17,17 @@ ExitCode show_scene(Run *run, Error *error);
 // Prints the window's keys; prints nothing in a build without a window.
 void show_write_keys(FILE *stream);
 
-// clrt --warm: compiles kernels in advance.
+// clrt warm: compiles kernels in advance.
 ExitCode warm_kernels(Run *run, Error *error);
 
-// clrt --explain: prints which kernel features and buffers a scene uses or omits, and why.
+// clrt explain SCENE: prints which kernel features and buffers a scene uses or omits, and why.
 ExitCode explain_scene(Run *run, Error *error);
 
-// clrt --explain-pixel: prints how clrt computes a pixel's color.
+// clrt explain SCENE X,Y: prints how clrt computes a pixel's color.
 ExitCode explain_pixel(Run *run, Error *error);
 
-// clrt --list-devices: prints the OpenCL devices as `clinfo -l` does, or as versioned JSON.
-ExitCode device_report_write(bool as_json, Error *error);
+// clrt devices: prints the OpenCL devices as `clinfo -l` does, or writes versioned JSON.
+ExitCode device_report_write(const Options *options, Error *error);
 
 // clrt check: reports faults of a scene's geometry. A missing device is an error only if the
 // options name a device or fp64.

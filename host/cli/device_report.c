@@ -21,32 +21,32 @@ static json_t *device_json(const Device *device)
                      device->has_fp64, "correctly_rounded", device->correct_division);
 }
 
-static ExitCode write_json(const DeviceList *list, Error *error)
+static json_t *list_json(const DeviceList *list)
 {
     json_t *devices = json_array();
     for (unsigned i = 0; i < list->count; i++)
         json_array_append_new(devices, device_json(&list->devices[i]));
-    json_t *root = json_pack("{s:i, s:s, s:o}", "schema", SCHEMA_VERSION, "version", CLRT_VERSION,
-                             "devices", devices);
-    return json_file_write(root, "-", error) ? EXIT_DONE : EXIT_OUTPUT;
+    return json_pack("{s:i, s:s, s:o}", "schema", SCHEMA_VERSION, "version", CLRT_VERSION,
+                     "devices", devices);
 }
 
-static ExitCode write_text(const DeviceList *list)
+static ExitCode write(const DeviceList *list, const Options *options, Error *error)
 {
     char text[DEVICE_TEXT_SIZE];
     device_list_text(list, text);
-    fputs(text, stdout);
-    return EXIT_DONE;
+    if (!options_print_json(options))
+        fputs(text, stdout);
+    return options->json_path == NULL || json_file_write(list_json(list), options->json_path, error)
+               ? EXIT_DONE
+               : EXIT_OUTPUT;
 }
 
-ExitCode device_report_write(bool as_json, Error *error)
+ExitCode device_report_write(const Options *options, Error *error)
 {
     Cache cache;
     DeviceList list;
-    ExitCode code = EXIT_DEVICE;
     cache_open(&cache);
-    if (device_list(&list, error))
-        code = as_json ? write_json(&list, error) : write_text(&list);
+    const ExitCode code = device_list(&list, error) ? write(&list, options, error) : EXIT_DEVICE;
     cache_close(&cache);
     return code;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --explain-pixel: text is printed sample by sample, and JSON after the last sample.
+// Explains a pixel: text is printed sample by sample, and JSON after the last sample.
 #include "cli/commands.h"
 
 #include "explain/report.h"
@@ -10,7 +10,7 @@ static bool has_pixel(const Run *run, Error *error)
     const Options *options = run->options;
     const RenderSettings *settings = &run->settings;
     return (options->pixel[0] < settings->width && options->pixel[1] < settings->height) ||
-           error_set(error, "--explain-pixel %u,%u: the picture has %u x %u pixels, counted from 0",
+           error_set(error, "pixel %u,%u: the picture has %u x %u pixels, counted from 0",
                      options->pixel[0], options->pixel[1], settings->width, settings->height);
 }
 

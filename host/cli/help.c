@@ -64,23 +64,16 @@ static void write_classes(FILE *stream)
     }
 }
 
-static void write_usage(FILE *stream)
+static void write_commands(FILE *stream)
 {
-    fputs("Usage: clrt SCENE [options]             show it in a window\n"
-          "       clrt SCENE -o FILE [options]     draw it to a file\n"
-          "       clrt --warm [SCENE] [options]    compile the kernels in advance\n",
-          stream);
-    for (size_t i = 0; i < command_count; i++)
-        fprintf(stream, "       clrt %s %s [options]\n", command_table[i].name,
-                command_table[i].operands);
-    fputs("Traces a scene file (.scn) or a single mesh with OpenCL; - reads standard input.\n",
-          stream);
-    fputs("\nCommands:\n", stream);
+    fputs("Usage:\n", stream);
     for (size_t i = 0; i < command_count; i++) {
-        char name[64];
-        snprintf(name, sizeof name, "  %s %s", command_table[i].name, command_table[i].operands);
+        char text[COMMAND_TEXT_SIZE], name[COMMAND_TEXT_SIZE + 2];
+        command_write(&command_table[i], text);
+        snprintf(name, sizeof name, "  %s", text);
         write_item(stream, name, command_table[i].help);
     }
+    fputs("A scene is a scene file (.scn) or a single mesh; - reads standard input.\n", stream);
 }
 
 static void write_channels(FILE *stream)
@@ -95,7 +88,7 @@ static void write_channels(FILE *stream)
 
 void options_write_help(FILE *stream)
 {
-    write_usage(stream);
+    write_commands(stream);
     for (int group = 0; group < OPTION_GROUPS; group++)
         write_group(stream, (OptionGroup)group);
     write_channels(stream);

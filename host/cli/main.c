@@ -47,8 +47,8 @@ static ExitCode perform(const Options *options, Error *error)
     case ACTION_VERSION:
         puts("clrt " CLRT_VERSION);
         return EXIT_DONE;
-    case ACTION_LIST_DEVICES:
-        return device_report_write(options->lists_json, error);
+    case ACTION_DEVICES:
+        return device_report_write(options, error);
     case ACTION_WARM:
         return perform_run(options, warm_kernels, error);
     case ACTION_VIEW:

@@ -100,9 +100,8 @@ class Crop(Work):
 
     def test_samples_that_depend_on_other_pixels_are_refused(self):
         for words in (["--aa-adaptive"], ["--error", "1%"], ["--time", "1"]):
-            self.refuses(2, "--crop does not go with --aa-adaptive, --error and --time, which refine the picture "
-                         "as a whole: give --aa", *WHOLE, "-o", "a.pfm", "--crop", "0,0,9,9", *words)
-        self.refuses(2, "clrt --explain-pixel takes no --crop", *WHOLE, "--explain-pixel", "3,3", "--crop", "0,0,9,9")
+            self.refuses(2, "--crop and --", *WHOLE, "-o", "a.pfm", "--crop", "0,0,9,9", *words)
+        self.refuses(2, "clrt explain SCENE X,Y takes no --crop", "explain", *WHOLE, "3,3", "--crop", "0,0,9,9")
 
 
 if __name__ == "__main__":

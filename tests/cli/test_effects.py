@@ -22,7 +22,6 @@ FLAT = "flat.ply"
 CHECK = ["check", FLAT]
 MESH = [FLAT, "-s", "24x16", "-o", "a.pfm"]
 CONE = [str(ROOT / "scenes/cone.ply"), "-s", "24x16", "-o", "a.pfm"]
-EXPLAIN = [SCENE, "-s", "24x16", "--explain-pixel"]
 COMPARE = ["compare", "black.pfm", "white.pfm"]
 
 # For each option, arguments without it (or with another value) and with it. Their effects must differ. If the option
@@ -61,15 +60,11 @@ TRIALS = {
              PLAIN + ["--format", "exr", "--tile", "8x8", "--part", "2/3"]),
     "resume": (PLAIN + ["-v"], PLAIN + ["-v", "--resume"]),
     "device": (PICTURE, PICTURE + ["--device", "no such device"]),
-    "list-devices": ([], ["--list-devices"]),
     "threads": (PICTURE + ["-v", "-j", "2"], PICTURE + ["-v", "-j", "1"]),
-    "warm": ([], ["--warm"]),
     "stats": (PLAIN, PICTURE),
     "reference": (PICTURE, PICTURE + ["--reference"]),
     "reference-samples": (PICTURE + ["--reference"], PICTURE + ["--reference-samples", "32"]),
     "repeat": (PICTURE, PICTURE + ["--repeat", "2"]),
-    "explain": (PLAIN, [SCENE, "-s", "24x16", "--explain"]),
-    "explain-pixel": (EXPLAIN + ["9,9"], EXPLAIN + ["12,8"]),
     "bad-geometry": (MESH, MESH + ["--bad-geometry", "fail"]),
     "fail": (COMPARE, COMPARE + ["--fail", "max=0.5"]),
     "json": (CHECK, CHECK + ["--json"]),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests --explain-pixel and --explain: text, JSON, the pixel's color, compiled features and uploaded data.
+# Tests clrt explain: text, JSON, the pixel's color, compiled features and uploaded data.
 # Usage: test_explain.py CLRT
 import re
 
@@ -96,7 +96,7 @@ BY_HAND = [
      [{"hit": floor(4, light("behind_face", 11.180340, 0.178885), normal=[0.6, 0, 0.8])}],
      {"color": [0.08] * 3}),
 ]
-PIXEL = ["mirrors.scn", "--explain-pixel", "2,2"]
+PIXEL = ["explain", "mirrors.scn", "2,2"]
 FORMS = ["", "--aa=3", "--kernel ray --nodes pair", "--kernel ray --nodes wide", "--kernel packet --lanes 4",
          "--precision fp64", "--precision fp64 --aa", "--no-bvh", "--max-level 1", "--max-level 0", "-j 1"]
 
@@ -189,8 +189,7 @@ class Pixels(Explain):
         for scene, pixels in (EVERY_FEATURE, ("70,60", "90,70", "64,90")), \
                 ("mirrors.scn", ("2,2",)), ("flat.scn", ("4,4",)), ("lamps.scn", ("150,190",)):
             for pixel in pixels:
-                words = [str(ROOT / "scenes" / scene) if scene == "lamps.scn" else scene, "--explain-pixel", pixel,
-                         "--aa=2"]
+                words = ["explain", str(ROOT / "scenes" / scene) if scene == "lamps.scn" else scene, pixel, "--aa=2"]
                 found = self.report(*words, "--json")
                 hits = [ray["hit"] for sample in found["samples"] for ray in sample["rays"] if ray["hit"]]
                 shaders |= {hit["factors"]["shader"] for hit in hits}
@@ -202,7 +201,7 @@ class Pixels(Explain):
         self.assertEqual(shaders, {"silhouette", "matte", "blinn_phong"})
 
     def test_a_corner_meets_nothing(self):
-        self.assertIn("meets      nothing", self.clrt("mirrors.scn", "--explain-pixel", "0,4"))
+        self.assertIn("meets      nothing", self.clrt("explain", "mirrors.scn", "0,4"))
 
     def expect_near(self, found, expected, place=""):
         """Compares parts of a report. Numbers are rounded to six digits."""
@@ -221,7 +220,7 @@ class Pixels(Explain):
     def test_pixels_agree_with_values_computed_by_hand(self):
         for text, pixel, rays, parts in BY_HAND:
             self.write(hand_scn=text if text.startswith(HEAD) else HEAD + text)
-            found = self.report("hand.scn", "--explain-pixel", pixel, "--json")
+            found = self.report("explain", "hand.scn", pixel, "--json")
             weight = 0.5 ** len(rays) if "mirror" in text else float(not rays[0]["hit"])
             self.expect_near(found, {"schema": 1, "pixel": list(map(int, pixel.split(","))), "size": [5, 5],
                                      "samples": [{"rays": rays, "background_weight": weight}], **parts}, text)
@@ -231,7 +230,7 @@ class Pixels(Explain):
                          ["camera", "reflected", "reflected"])
 
     def test_lights_behind_a_face_and_behind_a_normal_differ(self):
-        words = ["leaning.scn", "--explain-pixel", "2,2"]
+        words = ["explain", "leaning.scn", "2,2"]
         told = self.clrt(*words)
         self.assertIn("light 1    does not reach it: the face is turned away; cosine 0.1788", told)
         self.assertIn("light 2    does not reach it: the normal is turned away; cosine -0.8944", told)
@@ -240,7 +239,7 @@ class Pixels(Explain):
 
     def test_the_color_is_the_pictures_and_each_blocker_is_named(self):
         for form in FORMS:
-            found = self.report(EVERY_FEATURE, "--explain-pixel", "70,60", "--json", *form.split())
+            found = self.report("explain", EVERY_FEATURE, "70,60", "--json", *form.split())
             self.clrt(EVERY_FEATURE, "--crop", "70,60,71,61", "-o", "a.pfm", *form.split())
             self.assertEqual([found["color"]], read_pfm(self.work / "a.pfm"), form)
             hits = [ray["hit"] for sample in found["samples"] for ray in sample["rays"] if ray["hit"]]
@@ -249,14 +248,12 @@ class Pixels(Explain):
 
     def test_refusals(self):
         for code, sentence, words in (
-            (2, "--explain-pixel 2,9: the picture has 5 x 5 pixels, counted from 0",
-             ["mirrors.scn", "--explain-pixel", "2,9"]),
-            (2, "--explain-pixel wants X,Y counted from 0, X from the left and Y from the top, not '2'",
-             ["mirrors.scn", "--explain-pixel", "2"]),
-            (2, "clrt --explain-pixel takes no --output", [*PIXEL, "-o", "a.pfm"]),
-            (2, "clrt --explain takes no --output", ["ball.scn", "--explain", "-o", "a.pfm"]),
+            (2, "pixel 2,9: the picture has 5 x 5 pixels", ["explain", "mirrors.scn", "2,9"]),
+            (2, "'2' is no pixel: explain wants X,Y", ["explain", "mirrors.scn", "2"]),
+            (2, "clrt explain SCENE X,Y takes no --output", [*PIXEL, "-o", "a.pfm"]),
+            (2, "clrt explain SCENE takes no --output", ["explain", "ball.scn", "-o", "a.pfm"]),
             (3, "nowhere.scn: cannot be opened: No such file or directory",
-             ["nowhere.scn", "--explain-pixel", "0,0"]),
+             ["explain", "nowhere.scn", "0,0"]),
             (5, "/dev/full: cannot be written: No space left on device", [*PIXEL, "--json=/dev/full"]),
         ):
             self.refuses(code, sentence, *words)
@@ -267,7 +264,7 @@ class Scenes(Explain):
 
     def expect_parts(self, words, **parts):
         """Compares whether each part is needed and compiled, and the reason; returns the report."""
-        found = self.report(*words, "--explain", "--json")
+        found = self.report("explain", *words, "--json")
         by_name = {part["name"]: part for part in found["parts"]}
         for name, expected in parts.items():
             part = by_name[name]
@@ -275,7 +272,7 @@ class Scenes(Explain):
         return found
 
     def test_the_text_lists_compiled_and_omitted_features_and_uploads(self):
-        told = self.clrt("ball.scn", "--explain", "--specialize", "always")
+        told = self.clrt("explain", "ball.scn", "--specialize", "always")
         left_out = told.split("\nleft out\n")[1].split("\nuploaded")[0]
         self.assertEqual(left_out.count("\n  ") + 1, 4, told)
         self.assertIn("  tree        there are no triangles to find", left_out)

@@ -254,7 +254,7 @@ class Memory(Faults):
         refined = ["--aa-adaptive", "--reference", "--reference-samples=2"]
         self.assertGreater(self.count_failures(*picture, "-o", "target/a.png", *refined), 10)
         os.remove(self.target / "a.png")
-        self.assertGreater(self.count_failures(*picture, "--explain-pixel", "3,3"), 10)
+        self.assertGreater(self.count_failures("explain", *picture, "3,3"), 10)
         self.assertGreater(self.count_failures("check", "mesh.scn"), 10)
         self.assertGreater(self.count_failures("compare", "a.pfm", "a.pfm"), 1)
 

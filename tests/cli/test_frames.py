@@ -174,7 +174,7 @@ class Frames(Work):
             (["-o", "-"], many + "standard output takes one: give -o FILE"),
             (["-o", "a.pfm", "--stats=a.json"], many + "--stats=FILE describes one"),
             (["-o", "a.pfm", "--reference=b.pfm"], many + "--reference=FILE holds one"),
-            (["-o", "a.pfm", "--expect-hash", 32 * "0"], many + "--expect-hash checks one"),
+            (["-o", "a.pfm", "--expect-hash", 32 * "0"], "--expect-hash exclude each other"),
             (["-o", "a.pfm", "--turntable", "1"], "--turntable 1 has no picture 2"),
         ):
             self.refuses(2, sentence, *SMALL, "--frames", "1-2", *words)

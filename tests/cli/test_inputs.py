@@ -30,9 +30,9 @@ COMMANDS = [
     ["-o", "a.pfm", "--turntable", "2", "--error", "5%", *REFERENCE],
     ["-o", "a.pfm", "--resume", "--crop", "3,5,40,30", "--stats"],
     ["-o", "-", "--format", "pfm", "--no-bvh", *REFERENCE],
-    ["--explain-pixel", "20,20"],
-    ["--explain"],
-    ["--warm", "-q"],
+    ["explain", "20,20"],
+    ["explain"],
+    ["warm", "-q"],
     ["check"],
     ["convert", "a.scn"],
 ]
@@ -41,7 +41,7 @@ if HAS_EXR:
 
 
 def line_of(command, scene):
-    is_named = command[0] in ("check", "convert")
+    is_named = not command[0].startswith("-")
     return [command[0], scene, *command[1:]] if is_named else [scene, *command]
 
 

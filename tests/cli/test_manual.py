@@ -39,7 +39,7 @@ def read_page(page):
 
 HELP = run(CLRT, "--help").stdout
 OPTIONS = ENTRY.findall(HELP)
-COMMANDS = re.findall(r"^  ([a-z]+) [A-Z]", HELP, re.MULTILINE)
+COMMANDS = sorted(set(re.findall(r"^  clrt ([a-z]+)", HELP, re.MULTILINE)))
 
 
 class Pages(Work):

@@ -139,7 +139,7 @@ class Formats(Work):
 
     def test_warm_and_statistics_read_models(self):
         self.write(a_stl=models.stl(POINTS, TRIANGLES))
-        self.clrt("--warm", "a.stl")
+        self.clrt("warm", "a.stl")
         self.picture("a.stl", "-q", "--stats=stats.json")
         self.assertIn(f'"triangles": {len(TRIANGLES)}', (self.work / "stats.json").read_text())
 
@@ -203,7 +203,7 @@ class Materials(Work):
         self.assertFalse(self.picture("colors.obj") == self.picture("plain.obj"))
 
     def test_explanations_name_the_material_and_the_triangle(self):
-        text = self.run_clrt("own.scn", "--explain-pixel", "48,32", "--view", "1").stdout
+        text = self.run_clrt("explain", "own.scn", "48,32", "--view", "1").stdout
         self.assertRegex(text, r"triangle \d+ of colors.obj, material colors.obj:(red|shiny)")
 
     def test_a_missing_library_is_reported(self):

@@ -117,7 +117,7 @@ class Pictures(Overwriting):
 
 class Reports(Overwriting):
     def test_explanations_and_checks_keep_what_they_read(self):
-        for words in (["check", "a.scn"], ["a.scn", "--explain"], ["a.scn", "--explain-pixel", "1,1"]):
+        for words in (["check", "a.scn"], ["explain", "a.scn"], ["explain", "a.scn", "1,1"]):
             self.refuses_files("--json=a.scn", "the scene a.scn", *words, "--json=a.scn")
             self.refuses_files("--json=a.ply", "the scene's file a.ply", *words, "--json=a.ply")
 

@@ -33,8 +33,8 @@ class Talk(Work):
 
 class Streams(Talk):
     def test_pictures_and_reports_go_to_standard_output_alone(self):
-        for words in (SMALL + ["-o", "-"], ["--list-devices"], ["--help"], ["--version"],
-                      ["--list-devices=json"], ["check", "open.ply", "--json"]):
+        for words in (SMALL + ["-o", "-"], ["devices"], ["--help"], ["--version"],
+                      ["devices", "--json"], ["check", "open.ply", "--json"]):
             done = self.run_clrt(*words, content=b"")
             self.assertTrue(done.stdout, words)
             self.assertEqual(done.stderr, b"", words)
@@ -58,7 +58,7 @@ class Streams(Talk):
         self.assertNotEqual(self.run_clrt("none.scn", "-o", "a.pfm", "-q").stderr, "")
 
     def test_reports_without_a_device_print_nothing_and_are_exit_4(self):
-        done = self.run_clrt("--list-devices=json", **NO_OPENCL)
+        done = self.run_clrt("devices", "--json", **NO_OPENCL)
         self.assertEqual((done.returncode, done.stdout), (4, ""))
 
 
@@ -136,8 +136,8 @@ class Terminal(Talk):
         self.assertNotIn(b"loading", self.on_terminal("a.scn", "-s", "8x8", "-o", "a.pfm"))
 
     def test_every_command_announces_compiling(self):
-        for words in (["--warm"], [*SMALL, "-o", "a.pfm", "--stats"], ["check", SCENE, "--json"],
-                      [*SMALL, "--explain-pixel", "3,3"]):
+        for words in (["warm"], [*SMALL, "-o", "a.pfm", "--stats"], ["check", SCENE, "--json"],
+                      ["explain", *SMALL, "3,3"]):
             shutil.rmtree(self.work / "cache", ignore_errors=True)
             self.assertIn(b"compiling kernels, 0 s", self.on_terminal(*words), words)
 
@@ -229,13 +229,13 @@ class Schemas(Talk):
         self.assertIsNotNone(self.validate("compare", "compare", "a.exr", "b.exr", "--json")[1]["causes"])
 
     def test_devices(self):
-        self.validate("devices", "--list-devices=json")
+        self.validate("devices", "devices", "--json")
 
     def test_explanations(self):
         for pixel in "0,0", "8,6", "7,9":
-            self.validate("explanation", *SMALL, "--explain-pixel", pixel, "--json")
+            self.validate("explanation", "explain", *SMALL, pixel, "--json")
         for words in [*SMALL, "--stats"], [*SMALL, "--specialize", "always"], ["empty.scn"]:
-            self.validate("explanation-scene", *words, "--explain", "--json")
+            self.validate("explanation-scene", "explain", *words, "--json")
 
 
 if __name__ == "__main__":

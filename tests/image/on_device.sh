@@ -35,7 +35,7 @@ serial)
   # PoCL 6.0 calls this device cpu-minimal.
   for name in basic cpu-minimal; do
     export POCL_DEVICES=$name
-    "$CLRT" --list-devices >/dev/null 2>&1 && break
+    "$CLRT" devices >/dev/null 2>&1 && break
   done
   ;;
 sse2) export POCL_KERNELLIB_NAME=sse2 ;;

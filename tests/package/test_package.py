@@ -128,7 +128,7 @@ class Package(unittest.TestCase):
         with tempfile.TemporaryDirectory() as work:
             run("dpkg-deb", "-e", self.package, f"{work}/control")
             script = f"""mount -t tmpfs none /var/cache && {work}/control/postinst configure
-                clrt --warm && {work}/control/prerm remove && ls /var/cache"""
+                clrt warm && {work}/control/prerm remove && ls /var/cache"""
             environment = {**os.environ, "XDG_CACHE_HOME": f"{work}/cache",
                            "PATH": f"{self.clrt.parent}:{os.environ['PATH']}"}
             environment.pop("POCL_CACHE_DIR", None)

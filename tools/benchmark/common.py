@@ -19,7 +19,7 @@ CLRT = os.environ.get("CLRT", str(BUILD / "clrt"))
 def compile_ahead():
     """Compiles the kernels. Otherwise clrt would draw small pictures with kernels that compile
     faster."""
-    subprocess.run([CLRT, "--warm", "-q"], check=True)
+    subprocess.run([CLRT, "warm", "-q"], check=True)
 
 
 def draw(scene, options, folder, frames=1):

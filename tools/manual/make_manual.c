@@ -1,32 +1,48 @@
 // SPDX-License-Identifier: MIT
-// make_manual man TEMPLATE | bash | zsh | fish: prints the man page or a shell's completions,
-// generated from the table of options.
-#include "bash.h"
-#include "fish.h"
-#include "man_page.h"
-#include "zsh.h"
+// make_manual TEMPLATE: prints the template. Parts from the tables replace %NAMES%.
+#include "manual.h"
 
 #include <string.h>
 
-static int usage(void)
+static const struct {
+    const char *name;
+    WritePart *write;
+} parts[] = {
+    {"%SYNOPSIS%", write_synopsis},
+    {"%COMMANDS%", write_commands},
+    {"%OPTIONS%", write_options},
+    {"%CLASSES%", write_classes},
+    {"%CHANNELS%", write_channels},
+    {"%KEYS%", write_keys},
+    {"%COMMAND_NAMES%", write_command_names},
+    {"%OPTION_TABLE%", write_option_table},
+};
+
+static void write_line(FILE *stream, const char *line)
 {
-    fputs("usage: make_manual man TEMPLATE | bash | zsh | fish\n", stderr);
-    return 2;
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        const char *found = strstr(line, parts[i].name);
+        if (found == NULL)
+            continue;
+        const char *rest = found + strlen(parts[i].name);
+        fprintf(stream, "%.*s", (int)(found - line), line);
+        parts[i].write(stream);
+        fputs(found == line ? "" : rest, stream); // parts of the man page are whole lines
+        return;
+    }
+    fputs(line, stream);
 }
 
 int main(int count, char **words)
 {
-    const char *kind = count > 1 ? words[1] : "";
-    bool ok = true;
-    if (strcmp(kind, "man") == 0 && count == 3)
-        ok = man_page_write(stdout, words[2]);
-    else if (strcmp(kind, "bash") == 0)
-        bash_write(stdout);
-    else if (strcmp(kind, "zsh") == 0)
-        zsh_write(stdout);
-    else if (strcmp(kind, "fish") == 0)
-        fish_write(stdout);
-    else
-        return usage();
-    return ok && fflush(stdout) == 0 ? 0 : 1;
+    char line[1024];
+    FILE *template = count == 2 ? fopen(words[1], "r") : NULL;
+    if (template == NULL) {
+        fputs("usage: make_manual TEMPLATE\n", stderr);
+        return 2;
+    }
+    while (fgets(line, sizeof line, template) != NULL)
+        write_line(stdout, line);
+    fclose(template);
+    return fflush(stdout) == 0 ? 0 : 1;
 }

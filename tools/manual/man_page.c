@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Writes mdoc. Option names become .Fl, literal words .Cm, and other values .Ar.
-#include "man_page.h"
-
 #include "cli/commands.h"
 #include "cli/options/option.h"
+#include "manual.h"
 #include "render/aov.h"
-#include "value.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -33,8 +31,10 @@ static void write_sentence(FILE *stream, const char *text)
 // Writes the words of a choice, or the name of the value.
 static void write_words(FILE *stream, const Option *option)
 {
-    char words[VALUE_WORDS_SIZE];
-    value_name(option, words, sizeof words);
+    char words[128];
+    const char *argument = option->argument + strspn(option->argument, "[=");
+    snprintf(words, sizeof words, "%.*s",
+             (int)strcspn(argument, option_argument_is_optional(option) ? "]" : ""), argument);
     const char *separator = "";
     for (char *rest = words, *word; (word = strsep(&rest, "|")) != NULL; separator = " | ")
         fprintf(stream, "%s%s %s", separator, isupper((unsigned char)word[0]) ? "Ar" : "Cm", word);
@@ -63,7 +63,7 @@ static void write_option(FILE *stream, const Option *option)
         fprintf(stream, ".Bq %s\n", option_class_names[option->class]);
 }
 
-static void write_options(FILE *stream)
+void write_options(FILE *stream)
 {
     for (int group = 0; group < OPTION_GROUPS; group++) {
         fprintf(stream, ".Ss %s\n.Bl -tag -width Ds\n", option_group_names[group]);
@@ -74,11 +74,27 @@ static void write_options(FILE *stream)
     }
 }
 
-static void write_synopsis(FILE *stream)
+// Writes macros for the command's name and operands, without the name of the program.
+static void write_words_of(FILE *stream, const Command *command)
 {
-    for (size_t i = 0; i < command_count; i++)
-        fprintf(stream, ".Nm\n.Cm %s\n.Ar %s\n.Op Ar options\n", command_table[i].name,
-                command_table[i].operands);
+    char words[COMMAND_TEXT_SIZE], *rest = words;
+    if (command->name[0] != '\0')
+        fprintf(stream, "Cm %s", command->name);
+    snprintf(words, sizeof words, "%s", command->operands);
+    for (char *word = strsep(&rest, " "); word != NULL; word = strsep(&rest, " "))
+        if (word[0] == '-')
+            fprintf(stream, " Fl %s%s", word[1] == '-' ? "\\" : "", word + 1);
+        else if (word[0] != '\0')
+            fprintf(stream, "%sAr %s", command->name[0] == '\0' && word == words ? "" : " ", word);
+}
+
+void write_synopsis(FILE *stream)
+{
+    for (size_t i = 0; i < command_count; i++) {
+        fputs(".Nm\n.", stream);
+        write_words_of(stream, &command_table[i]);
+        fputs("\n.Op Ar options\n", stream);
+    }
 }
 
 // Lists the options that a command accepts.
@@ -86,9 +102,9 @@ static void write_taken(FILE *stream, const Command *command)
 {
     size_t left = 0;
     for (size_t i = 0; i < option_count; i++)
-        left += command_takes(command, &option_table[i]);
+        left += (option_table[i].uses & command->use) != 0;
     for (size_t i = 0; i < option_count; i++) {
-        if (!command_takes(command, &option_table[i]))
+        if ((option_table[i].uses & command->use) == 0)
             continue;
         left--;
         fprintf(stream, ".Fl \\-%s%s\n", option_table[i].name,
@@ -98,11 +114,13 @@ static void write_taken(FILE *stream, const Command *command)
     }
 }
 
-static void write_commands(FILE *stream)
+void write_commands(FILE *stream)
 {
     fputs(".Bl -tag -width Ds\n", stream);
     for (size_t i = 0; i < command_count; i++) {
-        fprintf(stream, ".It Cm %s Ar %s\n", command_table[i].name, command_table[i].operands);
+        fputs(".It ", stream);
+        write_words_of(stream, &command_table[i]);
+        fputc('\n', stream);
         write_sentence(stream, command_table[i].help);
         fputs("It takes the options\n", stream);
         write_taken(stream, &command_table[i]);
@@ -110,7 +128,7 @@ static void write_commands(FILE *stream)
     fputs(".El\n", stream);
 }
 
-static void write_classes(FILE *stream)
+void write_classes(FILE *stream)
 {
     fputs(".Bl -tag -width Ds\n", stream);
     for (size_t i = CLASS_NONE + 1; i < OPTION_CLASSES; i++) {
@@ -122,7 +140,7 @@ static void write_classes(FILE *stream)
 
 // Writes the window's keys. --help lists one key per line, and two spaces separate a key from its
 // meaning.
-static void write_keys(FILE *stream)
+void write_keys(FILE *stream)
 {
     char text[4096] = "";
     FILE *lines = fmemopen(text, sizeof text, "w");
@@ -147,7 +165,7 @@ static void write_keys(FILE *stream)
     fputs(".El\n", stream);
 }
 
-static void write_channels(FILE *stream)
+void write_channels(FILE *stream)
 {
     fputs(".Bl -tag -width primitive\n", stream);
     for (size_t i = 0; i < aov_count; i++) {
@@ -155,34 +173,4 @@ static void write_channels(FILE *stream)
         write_sentence(stream, aov_table[i].help);
     }
     fputs(".El\n", stream);
-}
-
-static void write_line(FILE *stream, const char *line)
-{
-    static const struct {
-        const char *name;
-        void (*write)(FILE *);
-    } gaps[] = {{"%SYNOPSIS%\n", write_synopsis}, {"%COMMANDS%\n", write_commands},
-                {"%OPTIONS%\n", write_options},   {"%CLASSES%\n", write_classes},
-                {"%CHANNELS%\n", write_channels}, {"%KEYS%\n", write_keys}};
-    for (size_t i = 0; i < sizeof gaps / sizeof gaps[0]; i++)
-        if (strcmp(line, gaps[i].name) == 0) {
-            gaps[i].write(stream);
-            return;
-        }
-    fputs(line, stream);
-}
-
-bool man_page_write(FILE *stream, const char *path)
-{
-    char line[1024];
-    FILE *page = fopen(path, "r");
-    if (page == NULL) {
-        perror(path);
-        return false;
-    }
-    while (fgets(line, sizeof line, page) != NULL)
-        write_line(stream, line);
-    fclose(page);
-    return true;
 }

@@ -60,7 +60,7 @@ def first_row(place, setting, scene, options, folder):
     picture, report = folder / f"{place}.pfm", folder / f"{place}.json"
     # Otherwise, clrt would draw settings with few samples by kernels that compile sooner.
     kernels = [word for word in setting.words if not word.startswith(("--aa=", "--max-level"))]
-    run_clrt(["--warm", "-q", scene, *kernels])
+    run_clrt(["warm", "-q", scene, *kernels])
     draw(setting, scene, options, picture, f"--stats={report}")
     if setting.kind == "time":  # counting is slow, so a time goal would give another picture
         draw(setting, scene, options, picture)

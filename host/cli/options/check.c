@@ -4,102 +4,78 @@
 
 #include <string.h>
 
-#define NAMES_MOST 9
-
-// Options that exclude each other, regardless of their values.
-typedef struct {
-    const char *names[NAMES_MOST], *others[NAMES_MOST]; // NULL after the last name
-    const char *sentence;                               // a format; %s is the given one of names
-} Conflict;
-
 #define REFINES "aa-adaptive", "error", "time"
 
-static const Conflict conflicts[] = {
-    {{"quiet"}, {"verbose"}, "--quiet and --verbose contradict each other: give one"},
-    {{"aa", REFINES},
-     {"aa", REFINES},
-     "--aa, --aa-adaptive, --error and --time each choose the samples: give one"},
-    {{"crop", "part"},
-     {REFINES},
-     "--%s does not go with --aa-adaptive, --error and --time, which refine the picture as a "
-     "whole: "
-     "give --aa"},
-    {{"tile"},
-     {REFINES},
-     "--aa-adaptive, --error and --time draw the picture as a whole: leave out --tile"},
-    {{"no-bvh"}, {"bvh"}, "--no-bvh builds no tree: leave out --bvh"},
-    {{"part"}, {"no-metadata"}, "--part needs the metadata: leave out --no-metadata"},
-    {{"resume"}, {"repeat"}, "--repeat measures whole pictures: leave out --resume"},
-    {{"frames", "turntable"},
-     {"expect-hash"},
-     "--frames and --turntable draw many pictures, and --expect-hash checks one"},
+// Value-independent rules.
+const Exclusion exclusion_table[] = {
+    {{"aa", REFINES}, {NULL}},
+    {{"crop", "part", "tile"}, {REFINES}},
+    {{"part"}, {"reference", "reference-samples", "no-metadata"}},
+    {{"resume"}, {"repeat"}},
+    {{"frames", "turntable"}, {"expect-hash"}},
+    {{"no-bvh"}, {"bvh"}},
+    {{"quiet", "verbose"}, {NULL}},
 };
+const size_t exclusion_count = sizeof exclusion_table / sizeof exclusion_table[0];
 
 // Returns the first of these names that the command line contains, or NULL. Skips the name `but`.
-static const char *first_given(const Options *options, const char *const names[NAMES_MOST],
-                               const char *but)
+static const char *first_given(const Options *options, const char *const names[], const char *but)
 {
-    for (int i = 0; i < NAMES_MOST && names[i] != NULL; i++)
+    for (int i = 0; i < EXCLUSION_NAMES && names[i] != NULL; i++)
         if (option_is_given(options, names[i]) && (but == NULL || strcmp(names[i], but) != 0))
             return names[i];
     return NULL;
 }
 
-bool options_check_conflicts(const Options *options, Error *error)
+static bool check_exclusions(const Options *options, Error *error)
 {
-    for (size_t i = 0; i < sizeof conflicts / sizeof conflicts[0]; i++) {
-        const Conflict *conflict = &conflicts[i];
-        const char *name = first_given(options, conflict->names, NULL);
-        if (name != NULL && first_given(options, conflict->others, name) != NULL)
-            return error_set(error, conflict->sentence, name);
+    for (size_t i = 0; i < exclusion_count; i++) {
+        const Exclusion *row = &exclusion_table[i];
+        const char *name = first_given(options, row->names, NULL);
+        const char *const *others = row->others[0] != NULL ? row->others : row->names;
+        const char *other = name != NULL ? first_given(options, others, name) : NULL;
+        if (other != NULL)
+            return error_set(error, "--%s and --%s exclude each other: give one", name, other);
     }
     return true;
 }
 
-// Returns the table's first given option that is valid for use but not for other, or NULL.
-static const char *first_for(const Options *options, unsigned use, unsigned other)
+// Returns the first command that accepts the option.
+static const Command *first_taker(const Option *option)
 {
-    for (size_t i = 0; i < option_count; i++)
-        if (option_is_given(options, option_table[i].name) && (option_table[i].uses & use) != 0 &&
-            (option_table[i].uses & other) == 0)
-            return option_table[i].name;
-    return NULL;
+    const Command *command = command_table;
+    while ((command->use & option->uses) == 0)
+        command++;
+    return command;
 }
 
-#ifdef CLRT_WITH_WINDOW
-static bool check_window(Options *options, Error *error)
+static bool check_uses(const Options *options, const Command *command, Error *error)
 {
-    const char *refused = first_for(options, FOR_FILE, FOR_WINDOW);
-    options->action = ACTION_VIEW;
+    char text[COMMAND_TEXT_SIZE], taker[COMMAND_TEXT_SIZE];
+    for (size_t i = 0; i < option_count; i++) {
+        const Option *option = &option_table[i];
+        if (!option_is_given(options, option->name) || (option->uses & command->use) != 0)
+            continue;
+        command_write(command, text);
+        command_write(first_taker(option), taker);
+        return error_set(error, "%s takes no --%s; %s does", text, option->name, taker);
+    }
+    return true;
+}
+
+static bool check_window(const Options *options, Error *error)
+{
+#ifdef CLRT_WITH_WINDOW
     if (options->fits_level)
-        refused = "max-level auto";
-    if (options->statistics_path != NULL)
-        refused = "stats=FILE";
-    if (refused != NULL)
-        return error_set(error, "--%s is for files: give one with -o FILE%s", refused,
-                         options->aovs != 0 ? ".exr" : "");
+        return error_set(error, "--max-level auto is for files: give one with -o FILE");
     return !options_read_input(options) ||
            error_set(error, "the window reads its scene again and again, and standard input "
                             "can be read once: give -o FILE");
-}
 #else
-static bool check_window(Options *options, Error *error)
-{
     (void)options;
     return error_set(error, "this build has no window: write the picture with -o FILE, or add the "
                             "window: tools/setup window && tools/render SCENE");
-}
 #endif
-
-// Without a file, clrt prints the hash of the pixels and writes no picture.
-static bool check_hash_alone(Options *options, Error *error)
-{
-    static const char *const of_files[NAMES_MOST] = {"format", "encode",      "exposure",
-                                                     "aov",    "no-metadata", "part",
-                                                     "resume", "frames",      "turntable"};
-    const char *name = first_given(options, of_files, NULL);
-    options->format = "pfm"; // stores the traced pixels
-    return name == NULL || error_set(error, "--%s is for files: give one with -o FILE", name);
 }
 
 // Advice on film formats that clrt does not write. The name of the film follows.
@@ -165,8 +141,6 @@ static bool check_file(const Options *options, Error *error)
          "--aov needs an EXR file (-o FILE.exr): %s holds colors alone"},
         {options->parts > 0 && !takes_layers,
          "--part needs an EXR file (-o FILE.exr), which clrt merge reads"},
-        {options->parts > 0 && options->reference,
-         "--reference measures whole pictures: leave out --part"},
         {options->resume && is_adaptive,
          "--resume does not go with --aa-adaptive, --error and --time, which refine the picture as "
          "a whole: give --aa"},
@@ -229,30 +203,18 @@ static bool check_streams(const Options *options, Error *error)
                      picture ? "picture" : "statistics");
 }
 
-bool options_check_purpose(Options *options, Error *error)
+static bool check_picture(Options *options, Error *error)
 {
-    const bool has_file = options->output_path != NULL;
     choose_precision(options);
-    if (!has_file && !options->hash && options->expected_hash == NULL)
-        return check_window(options, error);
-    if (first_for(options, FOR_WINDOW, FOR_FILE) != NULL)
-        return error_set(error, "--keys and --quit-after are for the window: leave out %s",
-                         has_file ? "-o" : "--hash and --expect-hash");
-    return (has_file ? check_format(options, error) : check_hash_alone(options, error)) &&
-           check_frames(options, error) && check_file(options, error) &&
+    if (options->output_path == NULL)
+        options->format = "pfm"; // stores the traced pixels
+    else if (!check_format(options, error))
+        return false;
+    return check_frames(options, error) && check_file(options, error) &&
            check_streams(options, error);
 }
 
-bool options_check_general_kernels(const Options *options, Error *error)
-{
-    static const char *const of_scenes[NAMES_MOST] = {"bvh", "no-bvh", "specialize"};
-    const char *name = first_given(options, of_scenes, NULL);
-    if (name != NULL)
-        return error_set(error, "--%s chooses kernels for a scene: name one", name);
-    return kernel_check_request(&options->kernel, error);
-}
-
-bool options_check_compare(Options *options, Error *error)
+static bool check_compare(Options *options, Error *error)
 {
     if (options->output_path == NULL)
         return options->format == NULL ||
@@ -264,9 +226,33 @@ bool options_check_compare(Options *options, Error *error)
     return check_format(options, error);
 }
 
-bool options_check_merge(Options *options, Error *error)
+static bool check_merge(Options *options, Error *error)
 {
     if (options->output_path == NULL)
         return error_set(error, "clrt merge wants the name of the whole picture: -o FILE");
     return check_format(options, error) && check_streams(options, error);
+}
+
+static bool check_action(Options *options, Error *error)
+{
+    if (options->statistics_path != NULL && options->action != ACTION_RENDER)
+        return error_set(error, "--stats=FILE is for pictures in files: give one with -o FILE");
+    switch (options->action) {
+    case ACTION_VIEW:
+        return check_window(options, error);
+    case ACTION_RENDER:
+        return check_picture(options, error);
+    case ACTION_COMPARE:
+        return check_compare(options, error);
+    case ACTION_MERGE:
+        return check_merge(options, error);
+    default:
+        return true;
+    }
+}
+
+bool options_check(Options *options, const Command *command, Error *error)
+{
+    return check_uses(options, command, error) && check_exclusions(options, error) &&
+           kernel_check_request(&options->kernel, error) && check_action(options, error);
 }

@@ -216,14 +216,6 @@ bool set_part(Options *options, const char *text, Error *error)
     return true;
 }
 
-bool set_list_devices(Options *options, const char *text, Error *error)
-{
-    options->action = ACTION_LIST_DEVICES;
-    options->lists_json = text != NULL && strcmp(text, "json") == 0;
-    return text == NULL || options->lists_json || strcmp(text, "text") == 0 ||
-           error_set(error, "--list-devices wants text or json, not '%s'", text);
-}
-
 bool set_stats(Options *options, const char *text, Error *error)
 {
     options->statistics = true;
@@ -267,17 +259,16 @@ bool set_normals(Options *options, const char *text, Error *error)
            error_set(error, "--normals wants flat or smooth, not '%s'", text);
 }
 
-bool set_explain_pixel(Options *options, const char *text, Error *error)
+bool set_pixel(Options *options, const char *text, Error *error)
 {
     int64_t place[2];
     if (!read_pair(text, ',', 0, PICTURE_SIZE_MAX - 1, place))
         return error_set(error,
-                         "--explain-pixel wants X,Y counted from 0, X from the left and Y "
-                         "from the top, not '%s'",
+                         "'%s' is no pixel: explain wants X,Y counted from 0, X from the left and "
+                         "Y from the top",
                          text);
     options->pixel[0] = (uint32_t)place[0];
     options->pixel[1] = (uint32_t)place[1];
-    options->action = ACTION_EXPLAIN;
     return true;
 }
 

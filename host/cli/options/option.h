@@ -43,21 +43,24 @@ typedef enum {
     OPTION_ODD     // calls Option::set
 } OptionKind;
 
-// The commands and modes that accept an option.
+// The commands that accept an option; one bit for each row of command_table.
 enum {
-    FOR_FILE = 1,      // writing a picture to a file
-    FOR_WINDOW = 2,    // the window
-    FOR_CHECK = 4,     // clrt check
-    FOR_COMPARE = 8,   // clrt compare
-    FOR_MERGE = 16,    // clrt merge
-    FOR_CONVERT = 32,  // clrt convert
-    FOR_PIXEL = 64,    // --explain-pixel
-    FOR_EXPLAIN = 128, // --explain
-    FOR_WARM = 256,    // --warm
-    FOR_LIST = 512,    // --list-devices
-    FOR_PICTURE = FOR_FILE | FOR_WINDOW,
-    FOR_TRACING = FOR_PICTURE | FOR_CHECK | FOR_PIXEL | FOR_EXPLAIN, // uses that trace a scene
-    FOR_KERNELS = FOR_TRACING | FOR_WARM                             // uses that compile kernels
+    FOR_WINDOW = 1,
+    FOR_FILE = 2,
+    FOR_HASH = 4, // pictures of which only the hash is printed
+    FOR_CHECK = 8,
+    FOR_COMPARE = 16,
+    FOR_MERGE = 32,
+    FOR_CONVERT = 64,
+    FOR_EXPLAIN = 128,
+    FOR_PIXEL = 256,
+    FOR_GENERAL = 512, // clrt warm without a scene
+    FOR_WARM = 1024,
+    FOR_DEVICES = 2048,
+    FOR_DRAWING = FOR_HASH | FOR_FILE,
+    FOR_PICTURE = FOR_DRAWING | FOR_WINDOW,
+    FOR_SCENE = FOR_PICTURE | FOR_CHECK | FOR_EXPLAIN | FOR_PIXEL, // traces a scene
+    FOR_KERNELS = FOR_SCENE | FOR_GENERAL | FOR_WARM               // compiles kernels
 };
 
 // Parses text and stores the value in options. text is NULL if the argument was omitted.
@@ -86,26 +89,48 @@ bool option_names_file(const Option *option);
 // Parses text and stores the value. On failure, the message names the option, or auto/N's variable.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);
 
-// Rejects options that exclude each other, for any command.
-bool options_check_conflicts(const Options *options, Error *error);
+// A way to run clrt. A command whose number of operands may differ has a row for each number.
+typedef struct {
+    const char *name;     // "": clrt renders a scene
+    const char *operands; // the words after the name, for --help
+    int least, most;      // the number of operands
+    Action action;
+    unsigned use; // one FOR_... bit
+    const char *help;
+} Command;
 
-// Determines whether the picture goes to a file, to the window, or nowhere because only its hash is
-// requested, and the file's format. Rejects options that do not apply there.
-bool options_check_purpose(Options *options, Error *error);
+// Rows with the same name are adjacent.
+extern const Command command_table[];
+extern const size_t command_count;
 
-// Rejects options without effect on the kernels of --warm without a scene.
-bool options_check_general_kernels(const Options *options, Error *error);
+// Returns whether the row before has another name.
+bool command_is_first(const Command *command);
 
-// Checks the outputs of clrt compare, and determines the format of its picture if -o is given.
-bool options_check_compare(Options *options, Error *error);
+// Returns whether the command of this name accepts the option with any number of operands.
+bool command_takes(const char *name, const Option *option);
 
-// Checks the outputs of clrt merge, which requires -o, and determines the format of its picture.
-bool options_check_merge(Options *options, Error *error);
+#define COMMAND_TEXT_SIZE 64
+
+// Writes the command and its operands as a user types them.
+void command_write(const Command *command, char text[COMMAND_TEXT_SIZE]);
+
+// Options that exclude each other, regardless of their values: each of `names` and each of `others`
+// or, if there are none, any two of `names`.
+#define EXCLUSION_NAMES 4
+typedef struct {
+    const char *names[EXCLUSION_NAMES], *others[EXCLUSION_NAMES]; // NULL: the rest is unused
+} Exclusion;
+
+extern const Exclusion exclusion_table[];
+extern const size_t exclusion_count;
+
+// Checks the options of a command and their combination. Determines the format of the picture.
+bool options_check(Options *options, const Command *command, Error *error);
 
 // Setters of options whose values fit none of the kinds.
 SetOption set_output, set_format, set_exposure, set_aov, set_expect_hash, set_crop, set_max_level,
-    set_error, set_time, set_frames, set_part, set_list_devices, set_stats, set_reference,
-    set_reference_samples, set_normals, set_explain_pixel, set_fail, set_json;
+    set_error, set_time, set_frames, set_part, set_stats, set_reference, set_reference_samples,
+    set_normals, set_pixel, set_fail, set_json;
 
 // The table of all options. The parser, --help, the man page and the completions iterate over it.
 
@@ -124,28 +149,3 @@ extern const char *const option_class_meanings[OPTION_CLASSES];
 
 // Returns whether the command line contains the option. name must be in option_table.
 bool option_is_given(const Options *options, const char *name);
-
-// The commands. If the first operand names no command, clrt renders a scene.
-typedef struct {
-    const char *name;
-    Action action;
-    unsigned use;         // one FOR_... bit; the command accepts the options with this bit
-    const char *operands; // the arguments after the name, for --help
-    const char *help;
-    const char *two_operands; // describes two file operands in messages; NULL: one scene, or parts
-} Command;
-
-extern const Command command_table[];
-extern const size_t command_count; // excludes the commands that an option selects
-
-// Returns the command called word, or NULL.
-const Command *command_named(const char *word);
-
-// Returns the command that an option such as --explain selects, or NULL.
-const Command *command_of_action(Action action);
-
-// Returns whether the command accepts the option. NULL stands for rendering.
-bool command_takes(const Command *command, const Option *option);
-
-// Writes the commands that accept the option, for example "clrt check or clrt compare".
-void command_list_takers(const Option *option, char *text, size_t size);

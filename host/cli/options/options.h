@@ -81,17 +81,17 @@ json_t *crop_json(const RenderSettings *settings);
 
 typedef enum {
     ACTION_RENDER,
-    ACTION_HELP,
-    ACTION_VERSION,
-    ACTION_LIST_DEVICES,
-    ACTION_WARM,
     ACTION_VIEW,
     ACTION_CHECK,
     ACTION_COMPARE,
     ACTION_MERGE,
     ACTION_CONVERT,
-    ACTION_EXPLAIN,
-    ACTION_EXPLAIN_SCENE
+    ACTION_EXPLAIN_SCENE,
+    ACTION_EXPLAIN, // a pixel
+    ACTION_WARM,
+    ACTION_DEVICES,
+    ACTION_HELP,
+    ACTION_VERSION
 } Action;
 
 // The exit status. If a signal stopped the process, the status is 128 + the signal's number.
@@ -181,11 +181,10 @@ typedef struct {
     const char *keys;          // key presses to play in the window; NULL for none
     uint32_t quit_after;       // frames before the window closes; 0: the user closes it
     BadGeometry bad_geometry;
-    bool lists_json;       // ACTION_LIST_DEVICES prints JSON
     Limits limits;         // of ACTION_COMPARE
     uint32_t pixel[2];     // of ACTION_EXPLAIN: column and row
-    const char *json_path; // of check, compare, --explain and --explain-pixel: NULL for text; "-":
-                           // print JSON instead of the text on standard output
+    const char *json_path; // the file of the report; NULL: none; "-": standard output, instead of
+                           // the text
     bool quiet, verbose;
 } Options;
 

@@ -31,29 +31,47 @@ static void fill_getopt(struct option longs[OPTIONS_MOST + 1], char *shorts)
     *shorts = '\0';
 }
 
-// Option names of other programs, with the options of clrt.
+// Options of other programs and of older versions, with the words of clrt.
 static const struct {
-    const char *name, *option;
+    const char *name, *words;
 } synonyms[] = {
-    {"samples", "aa=N"},      {"spp", "aa=N"},        {"width", "size=WxH"},
-    {"height", "size=WxH"},   {"resolution", "size"}, {"depth", "max-level"},
-    {"bounces", "max-level"}, {"camera", "view"},
+    {"samples", "--aa=N"},
+    {"spp", "--aa=N"},
+    {"width", "--size=WxH"},
+    {"height", "--size=WxH"},
+    {"resolution", "--size"},
+    {"depth", "--max-level"},
+    {"bounces", "--max-level"},
+    {"camera", "--view"},
+    {"explain", "clrt explain SCENE"},
+    {"explain-pixel", "clrt explain SCENE X,Y"},
+    {"warm", "clrt warm"},
+    {"list-devices", "clrt devices"},
 };
+
+static const char *find_synonym(const char *name, size_t length)
+{
+    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
+        if (strlen(synonyms[i].name) == length && memcmp(synonyms[i].name, name, length) == 0)
+            return synonyms[i].words;
+    return NULL;
+}
 
 static bool unknown_option(const char *word, Error *error)
 {
     const char *names[OPTIONS_MOST];
     const char *name = word + strspn(word, "-");
     const size_t length = strcspn(name, "=");
+    const bool is_long = strncmp(word, "--", 2) == 0;
     for (size_t i = 0; i < option_count; i++)
         names[i] = option_table[i].name;
-    const char *nearest = word_nearest(name, length, names, option_count);
-    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
-        if (strlen(synonyms[i].name) == length && memcmp(synonyms[i].name, name, length) == 0)
-            nearest = synonyms[i].option;
-    if (nearest == NULL || strncmp(word, "--", 2) != 0)
-        return error_set(error, "unknown option '%s'; clrt --help lists them", word);
-    return error_set(error, "unknown option '%s', perhaps --%s", word, nearest);
+    const char *nearest = is_long ? word_nearest(name, length, names, option_count) : NULL;
+    const char *synonym = is_long ? find_synonym(name, length) : NULL;
+    if (synonym != NULL)
+        return error_set(error, "unknown option '%s', perhaps %s", word, synonym);
+    if (nearest != NULL)
+        return error_set(error, "unknown option '%s', perhaps --%s", word, nearest);
+    return error_set(error, "unknown option '%s'; clrt --help lists them", word);
 }
 
 static size_t option_of(int found)
@@ -79,65 +97,59 @@ static bool mark_given(Options *options, size_t row, Error *error)
     return true;
 }
 
-// Rejects options that the command does not take. NULL stands for rendering.
-static bool check_purposes(const Options *options, const Command *command, Error *error)
+// Returns the command that the options and operands select. Of the rows with its name, this is the
+// last one that wants no more than `count` operands, or the first one.
+static const Command *find_command(const Options *options, const char *name, int count)
 {
-    char takers[256];
-    if (command != NULL && options->statistics_path != NULL &&
-        (command->use & (FOR_WARM | FOR_EXPLAIN)) != 0)
-        return error_set(error, "clrt %s takes no --stats=FILE", command->name);
-    for (size_t i = 0; i < option_count; i++) {
-        const Option *option = &option_table[i];
-        if (!option_is_given(options, option->name) || command_takes(command, option))
-            continue;
-        if (command != NULL)
-            return error_set(error, "clrt %s takes no --%s", command->name, option->name);
-        command_list_takers(option, takers, sizeof takers);
-        return error_set(error, "--%s is for %s", option->name, takers);
+    const bool hashes = options->hash || options->expected_hash != NULL;
+    const unsigned picture = options->output_path != NULL ? FOR_FILE
+                             : hashes                     ? FOR_HASH
+                                                          : FOR_WINDOW;
+    const Command *found = NULL;
+    for (size_t i = 0; i < command_count; i++) {
+        const Command *command = &command_table[i];
+        if (strcmp(command->name, name) == 0 && (name[0] != '\0' || command->use == picture) &&
+            (found == NULL || command->least <= count))
+            found = command;
     }
+    return found;
+}
+
+static bool check_count(const Command *command, char **words, int count, Error *error)
+{
+    char text[COMMAND_TEXT_SIZE];
+    command_write(command, text);
+    if (count < command->least)
+        return error_set(error, "a name is missing: the usage is %s [options]", text);
+    if (count == 2 && command->action == ACTION_VIEW && image_format_of_path(words[1]) != NULL)
+        return error_set(error, "to write the picture '%s', give -o %s", words[1], words[1]);
+    return count <= command->most ||
+           error_set(error,
+                     "'%s' is one name too many: the usage is %s [options] (optional values follow "
+                     "an equals sign, as in --json=FILE)",
+                     words[command->most], text);
+}
+
+static bool read_operands(Options *options, char **words, int count, Error *error)
+{
+    if (options->action == ACTION_MERGE) {
+        options->part_paths = words;
+        options->part_count = count;
+        return true;
+    }
+    options->scene_path = count > 0 ? words[0] : NULL;
+    if (options->action == ACTION_EXPLAIN)
+        return set_pixel(options, words[1], error);
+    options->other_path = count > 1 ? words[1] : NULL;
     return true;
 }
 
-static bool read_two(Options *options, const Command *command, int count, char **arguments,
-                     Error *error)
+static bool is_command(const char *word)
 {
-    if (optind + 2 != count)
-        return error_set(error, "clrt %s wants %s", command->name, command->two_operands);
-    options->scene_path = arguments[optind];
-    options->other_path = arguments[optind + 1];
-    return options->action != ACTION_COMPARE || options_check_compare(options, error);
-}
-
-static bool read_parts(Options *options, int count, char **arguments, Error *error)
-{
-    if (optind >= count)
-        return error_set(error, "clrt merge wants the names of all parts of a picture");
-    options->part_paths = arguments + optind;
-    options->part_count = count - optind;
-    return options_check_merge(options, error);
-}
-
-static bool read_scene(Options *options, int count, char **arguments, Error *error)
-{
-    if (options->action == ACTION_LIST_DEVICES)
-        return optind == count ||
-               error_set(error, "clrt --list-devices takes no '%s'", arguments[optind]);
-    if (optind >= count && options->action == ACTION_WARM)
-        return options_check_general_kernels(options, error);
-    if (optind >= count)
-        return error_set(error, "no scene is named; clrt --help shows the usage");
-    if (optind + 2 == count && options->action == ACTION_RENDER && options->output_path == NULL &&
-        image_format_of_path(arguments[optind + 1]) != NULL)
-        return error_set(error, "to write the picture '%s', give -o %s", arguments[optind + 1],
-                         arguments[optind + 1]);
-    if (optind + 1 < count)
-        return error_set(error,
-                         "one scene at a time: '%s' comes after '%s' (values of --stats and --json "
-                         "follow an equals sign)",
-                         arguments[optind + 1], arguments[optind]);
-    options->scene_path = arguments[optind];
-    return kernel_check_request(&options->kernel, error) &&
-           (options->action != ACTION_RENDER || options_check_purpose(options, error));
+    size_t i = 0;
+    while (i < command_count && strcmp(command_table[i].name, word) != 0)
+        i++;
+    return i < command_count;
 }
 
 // Rejects a valid value after a space, as in "--aa 4", unless a file has this name.
@@ -163,7 +175,7 @@ static bool read_options(Options *options, int count, char **arguments, Error *e
         const char *word = arguments[optind > 0 ? optind : 1];
         const int found = getopt_long(count, arguments, shorts, longs, NULL);
         if (found == -1)
-            return options_check_conflicts(options, error);
+            return true;
         if (found == ':')
             return error_set(error, "%s wants a value", arguments[optind - 1]);
         if (found == '?')
@@ -187,21 +199,14 @@ bool options_parse(Options *options, int count, char **arguments, Error *error)
                          .tile_height = OPTIONS_TILE};
     if (!read_options(options, count, arguments, error))
         return false;
-    if (command_of_action(options->action) != NULL)
-        return check_purposes(options, command_of_action(options->action), error) &&
-               read_scene(options, count, arguments, error);
     if (options->action != ACTION_RENDER)
         return true; // --help and --version ignore the rest of the command line
-    const Command *command = optind < count ? command_named(arguments[optind]) : NULL;
-    if (command != NULL) {
-        optind++;
-        options->action = command->action;
-    }
-    if (!check_purposes(options, command, error))
-        return false;
-    if (options->action == ACTION_MERGE)
-        return read_parts(options, count, arguments, error);
-    return command != NULL && command->two_operands != NULL
-               ? read_two(options, command, count, arguments, error)
-               : read_scene(options, count, arguments, error);
+    const bool is_named = optind < count && is_command(arguments[optind]);
+    const char *name = is_named ? arguments[optind++] : "";
+    char **operands = arguments + optind;
+    count -= optind;
+    const Command *command = find_command(options, name, count);
+    options->action = command->action;
+    return check_count(command, operands, count, error) &&
+           read_operands(options, operands, count, error) && options_check(options, command, error);
 }

@@ -4,6 +4,7 @@
 #include "cli/options/option.h"
 
 #include <assert.h>
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,34 +19,34 @@
 
 const Option option_table[] = {
     {"output", "FILE", 'o', ODD(set_output), GROUP_OUTPUT, CLASS_NONE,
-     FOR_PICTURE | FOR_COMPARE | FOR_MERGE,
+     FOR_FILE | FOR_COMPARE | FOR_MERGE,
      "write the picture; the file's ending sets the format; - is standard output"},
     {"format", "NAME", 0, ODD(set_format), GROUP_OUTPUT, CLASS_NONE,
      FOR_FILE | FOR_COMPARE | FOR_MERGE,
      "write this format regardless of the ending (default for standard output: png)"},
-    {"encode", "raw|srgb", 0, WORD(encoding), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
-     "values of 8-bit files: raw (default) or srgb"},
-    {"exposure", "EV", 0, ODD(set_exposure), GROUP_OUTPUT, CLASS_NONE, FOR_PICTURE,
+    {"encode", "raw|srgb", 0, WORD(encoding), GROUP_OUTPUT, CLASS_NONE,
+     FOR_FILE | FOR_WINDOW | FOR_PIXEL, "values of 8-bit files: raw (default) or srgb"},
+    {"exposure", "EV", 0, ODD(set_exposure), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_WINDOW,
      "multiply the colors of 8-bit files by 2^EV, as the keys + and - do in the window"},
     {"aov", "LIST", 0, ODD(set_aov), GROUP_OUTPUT, CLASS_NONE, FOR_FILE,
      "add channels to an EXR file; the names are below; all means every channel but error"},
     {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
      "omit the metadata that records how the picture was made"},
-    {"hash", NULL, 0, FLAG(hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
+    {"hash", NULL, 0, FLAG(hash), GROUP_OUTPUT, CLASS_NONE, FOR_DRAWING | FOR_MERGE,
      "print a hash of the traced pixels on standard output; without -o, write no picture"},
-    {"expect-hash", "HASH", 0, ODD(set_expect_hash), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
-     "exit with status 1 if the pixels have another hash"},
+    {"expect-hash", "HASH", 0, ODD(set_expect_hash), GROUP_OUTPUT, CLASS_NONE,
+     FOR_DRAWING | FOR_MERGE, "exit with status 1 if the pixels have another hash"},
 
     {"size", "WxH", 's', AREA(width, PICTURE_SIZE_MAX), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
      "size of the picture in pixels (default: the scene's, or 512x512)"},
-    {"crop", "X0,Y0,X1,Y1", 0, ODD(set_crop), GROUP_PICTURE, CLASS_NONE, FOR_FILE,
+    {"crop", "X0,Y0,X1,Y1", 0, ODD(set_crop), GROUP_PICTURE, CLASS_NONE, FOR_DRAWING,
      "draw only the pixels from X0,Y0 to X1,Y1 (exclusive); if a number has a dot, all four are "
      "fractions of the sides; an EXR file records the position"},
     {"view", "N", 0, COUNT(view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
      "use the scene's N-th camera (default: 1); a scene without cameras has the course's six"},
     {"up", "auto|x|y|z|-x|-y|-z", 0, WORD(load.up), GROUP_PICTURE, CLASS_NONE,
-     FOR_TRACING | FOR_CONVERT,
+     FOR_SCENE | FOR_CONVERT,
      "axis that points up in a mesh file without a scene (default: auto, by format and shape)"},
     {"normals", "flat|smooth", 0, ODD(set_normals), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN | FOR_CONVERT,
@@ -57,29 +58,31 @@ const Option option_table[] = {
      "take N x N samples per pixel (default: 2); without this option, files of scenes get 1 sample "
      "and files of lone meshes 3 x 3; the window takes N x N when the camera rests, unless N is 1"},
     {"aa-adaptive", "[=T]", 0, FIELD(PART, contrast), 0, "0.02", NULL, GROUP_QUALITY,
-     CLASS_STATISTICAL, FOR_FILE | FOR_WARM,
+     CLASS_STATISTICAL, FOR_DRAWING | FOR_GENERAL | FOR_WARM,
      "add samples where neighbors differ, until a pixel's contrast is at most T (default: 0.02)"},
     {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
      "rays of level N see the background (default: the scene's N, or 3); the error is at most "
      "R^N, where R is the highest reflectivity; auto: the smallest N whose error is below half a "
      "step of the file's values"},
-    {"error", "E", 0, ODD(set_error), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE | FOR_WARM,
+    {"error", "E", 0, ODD(set_error), GROUP_QUALITY, CLASS_STATISTICAL,
+     FOR_DRAWING | FOR_GENERAL | FOR_WARM,
      "choose samples, levels and precision for a root mean square error of E, such as 0.5%"},
-    {"time", "S", 0, ODD(set_time), GROUP_QUALITY, CLASS_STATISTICAL, FOR_FILE | FOR_WARM,
+    {"time", "S", 0, ODD(set_time), GROUP_QUALITY, CLASS_STATISTICAL,
+     FOR_DRAWING | FOR_GENERAL | FOR_WARM,
      "choose the number of samples so that tracing takes S seconds"},
     {"precision", "fp32|fp64", 0, WORD(kernel.precision), GROUP_QUALITY, CLASS_STATISTICAL,
      FOR_KERNELS,
      "arithmetic: fp32 (default), or fp64 as a reference, with single rays and pair nodes"},
 
-    {"bvh", "sah|midpoint", 0, WORD(builder), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
+    {"bvh", "sah|midpoint", 0, WORD(builder), GROUP_SPEED, CLASS_EXACT, FOR_SCENE | FOR_WARM,
      "build the tree by the surface area heuristic (default) or by midpoints; without this "
      "option, up to 32 triangles get no tree with wide nodes"},
-    {"no-bvh", NULL, 0, FLAG(no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
+    {"no-bvh", NULL, 0, FLAG(no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_SCENE | FOR_WARM,
      "build no tree and test every triangle"},
-    {"tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT, FOR_FILE,
+    {"tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT, FOR_DRAWING,
      "size of the tiles in which the picture is traced (default: 128x128; for parts 64x64)"},
     {"work-group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
-     FOR_PICTURE | FOR_WARM,
+     FOR_PICTURE | FOR_GENERAL | FOR_WARM,
      "size of the device's work-groups (default: 8x8; with wide nodes 2x2)"},
     {"specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
@@ -106,42 +109,30 @@ const Option option_table[] = {
 
     {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
-    {"list-devices", "[=text|json]", 0, ODD(set_list_devices), GROUP_DEVICE, CLASS_NONE,
-     FOR_PICTURE | FOR_LIST, "list the OpenCL devices"},
     {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "threads of a CPU device (default: all that the process may use)"},
-    {"warm", NULL, 0, ACTION(ACTION_WARM), GROUP_DEVICE, CLASS_NONE, FOR_PICTURE | FOR_WARM,
-     "compile the kernels in advance, and those for SCENE if it is named; draw nothing"},
 
     {"stats", "[=FILE]", 0, ODD(set_stats), GROUP_STATISTICS, CLASS_NONE,
-     FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
+     FOR_PICTURE | FOR_EXPLAIN | FOR_GENERAL | FOR_WARM,
      "count rays and tests; write them as JSON to FILE (- is standard output); in the window, "
      "time frames"},
-    {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_STATISTICS, CLASS_NONE, FOR_FILE,
+    {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_STATISTICS, CLASS_NONE, FOR_DRAWING,
      "measure the picture against a reference in fp64 with many samples; write the reference to "
      "FILE"},
     {"reference-samples", "N", 0, ODD(set_reference_samples), GROUP_STATISTICS, CLASS_NONE,
-     FOR_FILE, "samples per pixel of the reference, an even number (default: 256)"},
-    {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_STATISTICS, CLASS_NONE, FOR_FILE,
+     FOR_DRAWING, "samples per pixel of the reference, an even number (default: 256)"},
+    {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_STATISTICS, CLASS_NONE, FOR_DRAWING,
      "draw the picture N times, for timing; -v and --stats=FILE report each time (default: 1)"},
-    {"explain", NULL, 0, ACTION(ACTION_EXPLAIN_SCENE), GROUP_STATISTICS, CLASS_NONE,
-     FOR_PICTURE | FOR_EXPLAIN,
-     "explain which kernel features and buffers this scene uses, and why the others are left "
-     "out; draw nothing"},
-    {"explain-pixel", "X,Y", 0, ODD(set_explain_pixel), GROUP_STATISTICS, CLASS_NONE,
-     FOR_PICTURE | FOR_PIXEL,
-     "explain the color of a pixel, ray by ray; X counts from the left and Y from the top, both "
-     "from 0; draw nothing"},
 
     {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_GEOMETRY, CLASS_NONE,
-     FOR_FILE | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
+     FOR_DRAWING | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
      "drop triangles with two equal corners (default), or fail at triangles without area"},
 
     {"fail", "LIMITS", 0, ODD(set_fail), GROUP_REPORT, CLASS_NONE, FOR_COMPARE,
      "compare: exit with status 1 above rmse=V, max=V, share1=V, share4=V or hits=V, or below "
      "psnr=V"},
     {"json", "[=FILE]", 0, ODD(set_json), GROUP_REPORT, CLASS_NONE,
-     FOR_CHECK | FOR_COMPARE | FOR_PIXEL | FOR_EXPLAIN,
+     FOR_CHECK | FOR_COMPARE | FOR_EXPLAIN | FOR_PIXEL | FOR_DEVICES,
      "write the report or explanation as JSON, to FILE or instead of the text"},
 
     {"keys", "KEYS", 0, TEXT(keys), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
@@ -200,55 +191,46 @@ bool option_is_given(const Options *options, const char *name)
 }
 
 const Command command_table[] = {
-    {"check", ACTION_CHECK, FOR_CHECK, "SCENE",
-     "report faults in the scene's geometry; draw nothing", NULL},
-    {"compare", ACTION_COMPARE, FOR_COMPARE, "PICTURE PICTURE",
-     "report how much two pictures differ; -o draws a map of the differences",
-     "the names of two pictures"},
-    {"merge", ACTION_MERGE, FOR_MERGE, "PART...",
-     "join the EXR files of all parts (--part) into the whole picture (-o)", NULL},
-    {"convert", ACTION_CONVERT, FOR_CONVERT, "SCENE FILE",
+    {"", "SCENE", 1, 1, ACTION_VIEW, FOR_WINDOW, "show a scene or a mesh in a window"},
+    {"", "SCENE -o FILE", 1, 1, ACTION_RENDER, FOR_FILE, "draw it to a file"},
+    {"", "SCENE --hash", 1, 1, ACTION_RENDER, FOR_HASH, "print the hash of its pixels"},
+    {"check", "SCENE", 1, 1, ACTION_CHECK, FOR_CHECK, "report faults in the scene's geometry"},
+    {"compare", "PICTURE PICTURE", 2, 2, ACTION_COMPARE, FOR_COMPARE,
+     "report how much two pictures differ; -o draws a map of the differences"},
+    {"merge", "PART...", 1, INT_MAX, ACTION_MERGE, FOR_MERGE,
+     "join the EXR files of all parts (--part) into the whole picture (-o)"},
+    {"convert", "SCENE FILE", 2, 2, ACTION_CONVERT, FOR_CONVERT,
      "write a scene or mesh as FILE: a .scn with a binary .ply per mesh beside it, or one .ply "
-     "with all meshes",
-     "the names of a scene or mesh and of the file to write"},
-    {.name = "--explain-pixel", .action = ACTION_EXPLAIN, .use = FOR_PIXEL},
-    {.name = "--explain", .action = ACTION_EXPLAIN_SCENE, .use = FOR_EXPLAIN},
-    {.name = "--warm", .action = ACTION_WARM, .use = FOR_WARM},
-    {.name = "--list-devices", .action = ACTION_LIST_DEVICES, .use = FOR_LIST},
+     "with all meshes"},
+    {"explain", "SCENE", 1, 1, ACTION_EXPLAIN_SCENE, FOR_EXPLAIN,
+     "explain which kernel features and buffers the scene uses, and why the others are left out"},
+    {"explain", "SCENE X,Y", 2, 2, ACTION_EXPLAIN, FOR_PIXEL,
+     "explain the color of a pixel, ray by ray; X counts from the left and Y from the top, both "
+     "from 0"},
+    {"warm", "", 0, 0, ACTION_WARM, FOR_GENERAL, "compile the kernels in advance"},
+    {"warm", "SCENE", 1, 1, ACTION_WARM, FOR_WARM, "compile the kernels for the scene too"},
+    {"devices", "", 0, 0, ACTION_DEVICES, FOR_DEVICES, "list the OpenCL devices"},
 };
 
-#define ALL_COMMANDS (sizeof command_table / sizeof command_table[0])
+const size_t command_count = sizeof command_table / sizeof command_table[0];
 
-const size_t command_count = ALL_COMMANDS - 4; // options select the last four
-
-const Command *command_of_action(Action action)
+bool command_is_first(const Command *command)
 {
-    for (size_t i = command_count; i < ALL_COMMANDS; i++)
-        if (command_table[i].action == action)
-            return &command_table[i];
-    return NULL;
+    return command == command_table || strcmp(command[-1].name, command->name) != 0;
 }
 
-const Command *command_named(const char *word)
+bool command_takes(const char *name, const Option *option)
 {
+    unsigned uses = 0;
     for (size_t i = 0; i < command_count; i++)
-        if (strcmp(word, command_table[i].name) == 0)
-            return &command_table[i];
-    return NULL;
+        if (strcmp(command_table[i].name, name) == 0)
+            uses |= command_table[i].use;
+    return (option->uses & uses) != 0;
 }
 
-bool command_takes(const Command *command, const Option *option)
+void command_write(const Command *command, char text[COMMAND_TEXT_SIZE])
 {
-    return (option->uses & (command != NULL ? command->use : FOR_PICTURE)) != 0;
-}
-
-void command_list_takers(const Option *option, char *text, size_t size)
-{
-    text[0] = '\0';
-    for (size_t i = 0; i < ALL_COMMANDS; i++) {
-        const size_t length = strlen(text);
-        if (command_takes(&command_table[i], option))
-            snprintf(text + length, size - length, "%sclrt %s", length > 0 ? " or " : "",
-                     command_table[i].name);
-    }
+    const char *name = command->name, *operands = command->operands;
+    snprintf(text, COMMAND_TEXT_SIZE, "clrt%s%s%s%s", name[0] != '\0' ? " " : "", name,
+             operands[0] != '\0' ? " " : "", operands);
 }
