@@ -14,6 +14,12 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
+// Vectors wider than the processor's registers are passed in memory. Only functions of this program
+// call each other, so the calling convention does not matter.
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wpsabi"
+#endif
+
 // Scalar is float, or double with --precision fp64. Both compile the same source for the same
 // scene, which is stored in float. Their pictures therefore differ only by the error of float
 // arithmetic.
