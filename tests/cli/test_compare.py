@@ -13,8 +13,8 @@ from work import EVERY_FEATURE, FORMATS, ROOT, SCENE, SharedWork, main, needs_ex
 BOTH = ["compare", "a.pfm", "b.pfm"]
 LIMITS = "--fail needs limits like rmse=0.01,max=0.1,psnr=40,share1=1%,share4=0,hits=0, not 'mse=1'"
 REFUSALS = [
-    (2, "clrt compare wants the names of two pictures", ["compare", "a.pfm"]),
-    (2, "clrt compare wants the names of two pictures", [*BOTH, "a.pfm"]),
+    (2, "a name is missing", ["compare", "a.pfm"]),
+    (2, "one name too many", [*BOTH, "a.pfm"]),
     (2, "clrt compare takes no --aa", [*BOTH, "--aa"]),
     (2, "--fail is for clrt compare", [SCENE, "-o", "a.png", "--fail", "rmse=1"]),
     (2, LIMITS, [*BOTH, "--fail", "mse=1"]),

@@ -246,7 +246,7 @@ class Parts(SharedWork):
         ):
             self.refuses(2, sentence, *SMALL, "--part", "1/2", *words)
         self.refuses(2, "clrt merge wants the name of the whole picture: -o FILE", "merge", "a.exr")
-        self.refuses(2, "clrt merge wants the names of all parts of a picture", "merge", "-o", "a.exr")
+        self.refuses(2, "a name is missing", "merge", "-o", "a.exr")
 
 
 if __name__ == "__main__":
