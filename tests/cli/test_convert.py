@@ -102,7 +102,7 @@ class Refusals(Convert):
     def test_other_endings_and_counts_of_files_are_usage(self):
         self.refuses(2, "clrt convert writes .scn and .ply, not 'b.obj'", "a.ply", "b.obj")
         self.refuses(2, "a name is missing", "a.ply")
-        self.refuses(2, "clrt convert takes no --aa", "a.ply", "b.ply", "--aa")
+        self.refuses(2, "takes no --aa", "a.ply", "b.ply", "--aa")
 
     def test_a_full_disk_is_one_sentence(self):
         self.write(a_ply=models.ply(POINTS, TRIANGLES))

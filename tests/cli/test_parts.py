@@ -238,11 +238,9 @@ class Parts(SharedWork):
                          *SMALL, "-o", "a.exr", "--part", value)
         for words, sentence in (
             (["-o", "a.png"], "--part needs an EXR file (-o FILE.exr), which clrt merge reads"),
-            (["-o", "a.exr", "--error", "1%"],
-             "--part does not go with --aa-adaptive, --error and --time, which refine the picture as a "
-             "whole: give --aa"),
-            (["-o", "a.exr", "--reference"], "--reference measures whole pictures: leave out --part"),
-            (["-o", "a.exr", "--no-metadata"], "--part needs the metadata: leave out --no-metadata"),
+            (["-o", "a.exr", "--error", "1%"], "--part and --error exclude each other"),
+            (["-o", "a.exr", "--reference"], "--part and --reference exclude each other"),
+            (["-o", "a.exr", "--no-metadata"], "--part and --no-metadata exclude each other"),
         ):
             self.refuses(2, sentence, *SMALL, "--part", "1/2", *words)
         self.refuses(2, "clrt merge wants the name of the whole picture: -o FILE", "merge", "a.exr")
