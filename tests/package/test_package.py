@@ -20,6 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = "share/doc/clrt/examples/reflections.scn"
 INSTALLED = [
     "bin/clrt",
+    "libexec/clrt/clrt-foreign",
     "share/bash-completion/completions/clrt",
     "share/clrt/check.schema.json",
     "share/clrt/compare.schema.json",
@@ -45,7 +46,6 @@ DEVELOPMENT = [
     "libclrt.so",
     "pkgconfig/clrt.pc",
     "doc/clrt/examples/picture.c",
-    "libexec/clrt/clrt-foreign",
 ]
 # CMake uses the architecture's folder for libraries only if the prefix is /usr.
 LINTIAN = ["lintian", "--fail-on", "error,warning"]
@@ -166,7 +166,7 @@ class Package(unittest.TestCase):
                 package, build = (pathlib.Path(picture).read_bytes() for picture in pictures)
                 self.assertEqual(package, build, ending)
 
-    @unittest.skipUnless("CLRT_WITH_ASSIMP:BOOL=1" in CACHE.replace("=ON", "=1"), "this build is without Assimp")
+    @unittest.skipUnless("pkgcfg_lib_ASSIMP_assimp:" in CACHE, "this build is without Assimp")
     def test_it_reads_other_formats(self):
         with tempfile.TemporaryDirectory() as work:
             model = pathlib.Path(work, "a.obj")
