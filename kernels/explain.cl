@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The kernel of clrt explain SCENE X,Y traces one sample with the functions of trace(). A single work-item
-// traces it in its first lane and records the path (shared.h). The kernel is compiled after
-// render.cl, and only if requested.
+// The kernel of clrt explain SCENE X,Y traces one sample with the functions of trace(). A single
+// work-item traces it in its first lane and records the path (shared.h). The kernel is compiled
+// after render.cl, and only if requested.
 
 typedef struct {
     global Scalar *values; // LEVEL_VALUES for each level, then LIGHT_VALUES for each of its lights

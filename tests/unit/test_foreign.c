@@ -71,8 +71,7 @@ TEST(the_stream_is_the_output_of_the_program)
 TEST(a_program_that_crashes_stays_or_gives_up_is_one_sentence)
 {
     const char *late = "Assimp took too long to read it and was stopped";
-    expect_failure("echo part of it; kill -SEGV $$",
-                   "Assimp crashed while reading it (signal 11)");
+    expect_failure("echo part of it; kill -SEGV $$", "Assimp crashed while reading it (signal 11)");
     expect_failure("kill -XCPU $$", late);
     expect_failure("kill -ALRM $$", late);
     expect_failure("exec sleep 60", late);
