@@ -29,19 +29,13 @@ __attribute__((format(printf, 3, 4))) static ScenePart part(const char *name, bo
     return made;
 }
 
-static const FlatScene *flat_of(const Run *run)
-{
-    const NodeLayout layout = run->session.choice.nodes;
-    return &run->session.scene.forms[layout][run->report.tree.node_count > 0].flat;
-}
-
 static ScenePart tree_part(const Run *run, bool is_needed)
 {
-    const uint32_t triangles = flat_of(run)->triangle_count, stored = flat_of(run)->node_count;
+    const uint32_t triangles = run->form->flat.triangle_count, stored = run->form->flat.node_count;
     if (is_needed)
         return part("tree", true, "%u node%s over the triangles, uploaded as %u %s node%s",
-                    run->report.tree.node_count, run->report.tree.node_count == 1 ? "" : "s",
-                    stored, kernel_nodes_name(run->session.choice.nodes), stored == 1 ? "" : "s");
+                    run->form->tree.node_count, run->form->tree.node_count == 1 ? "" : "s", stored,
+                    kernel_nodes_name(run->session.choice.nodes), stored == 1 ? "" : "s");
     if (triangles == 0)
         return part("tree", false, "there are no triangles to find");
     if (run->options->no_bvh)
@@ -51,7 +45,7 @@ static ScenePart tree_part(const Run *run, bool is_needed)
 
 static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
 {
-    const FlatScene *flat = flat_of(run);
+    const FlatScene *flat = &run->form->flat;
     const SceneTraits needed = traits_of(flat, run->options->statistics);
     const ScenePart list[SCENE_PARTS] = {
         needed.spheres ? part("spheres", true, "%u of them", flat->sphere_count)
@@ -128,7 +122,7 @@ static void write_arrays(const Run *run)
 {
     FlatArray arrays[FLAT_ARRAYS];
     int missing = 0;
-    flat_arrays(flat_of(run), arrays);
+    flat_arrays(&run->form->flat, arrays);
     printf("uploaded, %zu bytes\n", run->report.drawn.upload_size);
     for (int i = 0; i < FLAT_ARRAYS; i++)
         if (arrays[i].bytes > 0)
@@ -167,7 +161,7 @@ static json_t *arrays_json(const Run *run)
 {
     FlatArray arrays[FLAT_ARRAYS];
     json_t *object = json_object();
-    flat_arrays(flat_of(run), arrays);
+    flat_arrays(&run->form->flat, arrays);
     for (int i = 0; i < FLAT_ARRAYS; i++)
         json_object_set_new(object, arrays[i].name, json_integer((json_int_t)arrays[i].bytes));
     return object;

@@ -174,12 +174,12 @@ bool run_build_scene(Run *run, Error *error)
 {
     double moment = clock_seconds();
     show_loading(run->options, true);
-    const SceneForm *form = session_own_form(&run->session, error);
+    run->form = session_own_form(&run->session, error);
     show_loading(run->options, false);
     run->report.build += run_lap(&moment);
-    if (form != NULL)
-        run->report.tree = form->tree;
-    return form != NULL;
+    if (run->form != NULL)
+        run->report.tree = run->form->tree;
+    return run->form != NULL;
 }
 
 ExitCode run_start(Run *run, Error *error)

@@ -42,6 +42,7 @@ typedef struct {
     Session session;
     Scene scene;
     RenderSettings settings;
+    const SceneForm *form; // the scene for the picture's kernels, after run_build_scene
     Report report;
 } Run;
 

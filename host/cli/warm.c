@@ -36,7 +36,6 @@ ExitCode warm_kernels(Run *run, Error *error)
         return EXIT_DEVICE;
     if (!has_scene || options->specialization == SPECIALIZE_NEVER)
         return EXIT_DONE;
-    const SceneTraits special =
-        traits_of(&session_own_form(&run->session, error)->flat, options->statistics);
+    const SceneTraits special = traits_of(&run->form->flat, options->statistics);
     return warm_kernel(run, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
 }

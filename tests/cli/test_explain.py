@@ -297,6 +297,11 @@ class Scenes(Explain):
                           lights=(False, False, "all materials in use are silhouettes: no shadow rays"),
                           tree=(False, False, "testing all 10 triangles is faster"))
 
+    def test_spheres_are_there_in_every_layout_of_nodes(self):
+        for nodes in "pair", "wide":
+            found = self.expect_parts(["ball.scn", "--nodes", nodes], spheres=(True, True, "1 of them"))
+            self.assertEqual(found["uploaded_bytes"]["spheres"], 48)
+
     def test_requested_trees_and_kernels_are_there(self):
         words = ["flat.scn", "--bvh", "sah", "--kernel", "ray", "--nodes", "pair"]
         found = self.expect_parts(words)
