@@ -137,6 +137,5 @@ void kernel_set_clear(KernelSet *set)
     }
     free(set->kernels.data);
     free(set->programs.data);
-
     *set = (KernelSet){.source = set->source};
 }

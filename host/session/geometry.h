@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene's triangles and tree on the host, for clients that show or examine them.
+// The parts of accel that clients use: they show and examine triangles and trees, and cast rays.
 #pragma once
 
 #include "accel/flat.h"

@@ -97,8 +97,8 @@ static bool mark_given(Options *options, size_t row, Error *error)
     return true;
 }
 
-// Returns the command that the options and operands select. Of the rows with its name, this is the
-// last one that wants no more than `count` operands, or the first one.
+// Returns the command that the options and operands select: the last row with its name that wants
+// no more than `count` operands, or else the first row with its name.
 static const Command *find_command(const Options *options, const char *name, int count)
 {
     const bool hashes = options->hash || options->expected_hash != NULL;
