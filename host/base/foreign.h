@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Runs clrt-foreign, the program that reads files with Assimp and OpenImageIO. Hostile files can
 // crash these libraries, so clrt-foreign has limited time, memory and file size, and clrt checks
-// every byte of its output. These limits do not confine a library that a file has taken over. The output is a sequence of records, each a head and
-// data. If clrt-foreign crashes, hangs or exhausts memory, clrt prints one error message.
+// every byte of its output. These limits do not confine a library that a file has taken over. The
+// output is a sequence of records, each a head and data. If clrt-foreign crashes, hangs or exhausts
+// memory, clrt prints one error message.
 #pragma once
 
 #include "base/child_process.h"
