@@ -38,9 +38,9 @@ class Resume(Work):
         return self.bytes_of(f"whole-{NAME}")
 
     def stop(self, *words, number=signal.SIGINT):
-        """Sends a signal to a run once its journal has 40 tiles."""
+        """Sends a signal to a run once its journal has 40 tiles and a part of the next."""
         process = self.start(*words, "-o", NAME, "--resume")
-        self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > 40 * TILE * TILE * 12)
+        self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > 41 * TILE * TILE * 12)
                       or process.poll() is not None)
         process.send_signal(number)
         process.communicate(timeout=600)
