@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Reads every #include and reports violations of the layers. A layer ("floor") is a folder of host/.
-# A file may include headers of its own folder and of lower layers, but not in a cycle. A kernel
-# file may include only files that precede it in the list in CMakeLists.txt.
+# A file may include headers of its own folder and of lower layers, but not in a cycle. NAME.c and
+# NAME.h count as one unit there, so two units must not include each other through their .c files. A
+# kernel file may include only files that precede it in the list in CMakeLists.txt.
 import argparse
 import pathlib
 import re
@@ -107,6 +108,24 @@ def find_cycle(graph):
     return next(filter(None, (visit(name, []) for name in graph)), None)
 
 
+def unit_graph(graph):
+    """Joins NAME.c and NAME.h, the units of the host. A header without a .c file of its name
+    declares what other units define, so its own includes count for the files that include it."""
+    units = {}
+    sources = {name.rpartition(".")[0] for name in graph if not name.endswith(".h")}
+
+    def targets(name):
+        for target in graph[name]:
+            unit = target.rpartition(".")[0]
+            yield from [unit] if unit in sources else targets(target)
+
+    for name in graph:
+        unit = name.rpartition(".")[0]
+        if unit in sources:
+            units.setdefault(unit, set()).update(target for target in targets(name) if target != unit)
+    return {unit: sorted(units[unit]) for unit in sorted(units)}
+
+
 def check_host(host):
     files = {
         file.relative_to(host).as_posix(): file
@@ -127,7 +146,7 @@ def check_host(host):
                 yield f"host/{name}:{line}: {problem}"
             elif own:
                 graph[name].append(target)
-    cycle = find_cycle(graph)
+    cycle = find_cycle(graph) or find_cycle(unit_graph(graph))
     if cycle:
         yield "host: a cycle of includes: " + " -> ".join(cycle)
 

@@ -2,7 +2,8 @@
 // Divides the nodes of a tree with one of two functions that choose splits.
 #pragma once
 
-#include "accel/bvh.h"
+#include "accel/bvh_tree.h"
+#include "accel/triangles.h"
 
 // Boxes as a vector of low planes and a vector of negated high planes. The union of two boxes is
 // then one minimum per vector. No plane is -0, so the order of unions does not matter.

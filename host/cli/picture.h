@@ -64,10 +64,6 @@ SessionPicture picture_request(const Picture *picture);
 
 // Reports of a run's costs and results, as text and as JSON.
 
-// Returns the part of the bound that is due to the limit on reflections: 0 unless clrt chose this
-// limit for --error.
-double report_counted_truncation(const Run *run);
-
 // Returns the name of the tree's builder as in --bvh, or "none" without a tree.
 const char *report_tree_name(const Run *run);
 

@@ -35,15 +35,9 @@ const char *report_tree_name(const Run *run)
     return run->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }
 
-double report_counted_truncation(const Run *run)
-{
-    const Options *options = run->options;
-    return options->error_goal > 0 && options->max_level < 0 ? run->report.truncation : 0;
-}
-
 static void write_error(const Run *run, FILE *stream)
 {
-    const double truncation = report_counted_truncation(run);
+    const double truncation = run_counted_truncation(run);
     fprintf(stream, "error: about %.2g %%, at most %.2g %% with 95 %% confidence",
             100 * run->report.drawn.estimate, 100 * run->report.drawn.bound);
     if (truncation > 0)

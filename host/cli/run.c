@@ -5,7 +5,6 @@
 #include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/options/option.h"
-#include "cli/picture.h"
 #include "cli/process.h"
 #include "image/image_file.h"
 #include "scene/scene.h"
@@ -139,11 +138,17 @@ void run_begin(Run *run)
     session_begin(&run->session);
 }
 
+double run_counted_truncation(const Run *run)
+{
+    const Options *options = run->options;
+    return options->error_goal > 0 && options->max_level < 0 ? run->report.truncation : 0;
+}
+
 PictureGoal run_goal(const Run *run)
 {
     const Options *options = run->options;
     return (PictureGoal){options->contrast, options->error_goal, options->time_goal,
-                         report_counted_truncation(run)};
+                         run_counted_truncation(run)};
 }
 
 // Returns a pixel's work, in samples of --aa.

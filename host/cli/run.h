@@ -61,6 +61,10 @@ bool run_load_scene(Run *run, Error *error);
 // exit status.
 ExitCode run_start(Run *run, Error *error);
 
+// Returns the part of the bound that is due to the limit on reflections: 0 unless clrt chose this
+// limit for --error.
+double run_counted_truncation(const Run *run);
+
 // Returns the goal that the options name.
 PictureGoal run_goal(const Run *run);
 

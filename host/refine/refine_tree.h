@@ -7,13 +7,6 @@
 #include "base/array.h"
 #include "refine/seam.h"
 
-#define GROUP_SIDE   3
-#define GROUP_CELLS  9
-#define GROUP_MIDDLE 4
-
-#define REFINE_LEVELS 4  // the deepest level; pixels have level 0
-#define REFINE_GRID   81 // cells of the last level along a pixel's side
-
 #define REFINE_PIXELS_MOST ((uint64_t)1 << 31)
 
 // Cells are numbered row by row.

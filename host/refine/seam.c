@@ -4,8 +4,6 @@
 // around in unsigned sums, and the final sums are correct.
 #include "refine/seam.h"
 
-#include "refine/refine_tree.h"
-
 float seam_contrast(const Seam *seam)
 {
     const int area = (seam->high - seam->low) * seam->side;

@@ -9,6 +9,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+// The tree of cells (refine_tree.h): its groups and its levels.
+#define GROUP_SIDE   3
+#define GROUP_CELLS  9
+#define GROUP_MIDDLE 4
+
+#define REFINE_LEVELS 4  // the deepest level; pixels have level 0
+#define REFINE_GRID   81 // cells of the last level along a pixel's side
+
 typedef enum { SEAM_END_FIRST, SEAM_END_LAST, SEAM_ENDS } SeamEnd;
 
 // A line crosses the three cells of a row or a column of a group. Positions along the line are in

@@ -5,7 +5,22 @@
 #include "base/file.h"
 #include "mesh/mesh.h"
 #include "mesh/ply.h"
-#include "scene/scn.h"
+#include "scene/scene.h"
+
+typedef enum {
+    NORMALS_AUTO,  // as NORMALS_SMOOTH with CREASE_BY_SHAPE
+    NORMALS_FLAT,  // ignore the file's normals
+    NORMALS_SMOOTH // compute the normals that the file lacks
+} Normals;
+
+// The choices of scn_load. {0} suits most callers. Scene text chooses up and normals itself, so
+// scn_load rejects other values than zero for scene text.
+typedef struct {
+    bool is_tolerant;      // reads PLY meshes with ply_parse_tolerantly
+    UpAxis up;             // of a lone mesh file
+    Normals normals;       // of a lone mesh file
+    double crease_degrees; // of NORMALS_SMOOTH, or CREASE_BY_SHAPE
+} SceneLoadOptions;
 
 #define NO_CREASE (-2)
 

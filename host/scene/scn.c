@@ -7,7 +7,6 @@
 #include "base/limits.h"
 #include "base/word.h"
 #include "mesh/foreign_stream.h"
-#include "scene/mesh_load.h"
 #include "scene/statements.h"
 #include "scene/tokens.h"
 

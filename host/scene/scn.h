@@ -3,31 +3,13 @@
 // scn.c defines the grammar: the course's four statements and clrt's extensions.
 #pragma once
 
-#include "base/error.h"
-#include "base/file.h"
-#include "mesh/ply.h"
-#include "scene/scene.h"
+#include "scene/mesh_load.h"
 
 #include <stdio.h>
 
 // Parses the `size` bytes of a scene file. Mesh paths are relative to the folder of the file called
 // name. Returns false at the first error, with "name:line:column: ..." if the text itself is wrong.
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
-
-typedef enum {
-    NORMALS_AUTO,  // as NORMALS_SMOOTH with CREASE_BY_SHAPE
-    NORMALS_FLAT,  // ignore the file's normals
-    NORMALS_SMOOTH // compute the normals that the file lacks
-} Normals;
-
-// The choices of scn_load. {0} suits most callers. Scene text chooses up and normals itself, so
-// scn_load rejects other values than zero for scene text.
-typedef struct {
-    bool is_tolerant;      // reads PLY meshes with ply_parse_tolerantly
-    UpAxis up;             // of a lone mesh file
-    Normals normals;       // of a lone mesh file
-    double crease_degrees; // of NORMALS_SMOOTH, or CREASE_BY_SHAPE
-} SceneLoadOptions;
 
 // Loads a scene file or a lone mesh file (mesh_load.h).
 bool scn_load(Scene *scene, const char *path, const SceneLoadOptions *options, Error *error);
