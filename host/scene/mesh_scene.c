@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/limits.h"
+#include "scene/scn.h"
 
 #include <stdlib.h>
 #include <string.h>
