@@ -12,5 +12,6 @@
 #define FOV_MOST        179.9999
 #define FACTOR_MOST     1000 // kd and ks
 #define SHININESS_MOST  1e9
+#define CREASE_MOST     180 // degrees
 
 #define MESH_COUNT_MOST INT64_C(2147483647) // vertices or triangles in one mesh

@@ -44,9 +44,28 @@ typedef struct {
 
 typedef struct ClrtScene ClrtScene;
 
+// The axis of a mesh file that points up in the scene, as --up.
+typedef enum {
+    CLRT_UP_AUTO, // by the file's format and the mesh's shape
+    CLRT_UP_X,
+    CLRT_UP_Y,
+    CLRT_UP_Z,
+    CLRT_UP_MINUS_X,
+    CLRT_UP_MINUS_Y,
+    CLRT_UP_MINUS_Z
+} ClrtUp;
+
+// How to read a mesh file. Scene files choose these settings themselves and accept only defaults.
+typedef struct {
+    size_t size;
+    ClrtUp up;
+    bool flat;             // ignores the file's normals; otherwise, missing normals are computed
+    double crease_degrees; // larger angles stay sharp; in [0, 180]; 0: 33 or 70, by the shape
+} ClrtLoad;
+
 // Reads a scene file (man 5 clrt-scene) or a mesh file, as `clrt` does. For mesh files other than
-// PLY, the call starts clrt's program clrt-foreign.
-CLRT_API ClrtScene *clrt_scene_load(const char *path, ClrtError *error);
+// PLY, the call starts clrt's program clrt-foreign. load may be NULL.
+CLRT_API ClrtScene *clrt_scene_load(const char *path, const ClrtLoad *load, ClrtError *error);
 
 // Returns an empty scene with a white background, ambient light of 0.05 and the materials below.
 CLRT_API ClrtScene *clrt_scene_create(ClrtError *error);
@@ -96,6 +115,8 @@ typedef struct {
     uint32_t material;
     bool two_sided; // also visible from behind
     bool flat;      // ignores the normals
+    bool smooth;    // computes the normals that are missing, as `normals smooth` in scene files
+    double crease_degrees; // of smooth: larger angles stay sharp; in [0, 180]; 0 means 33
 } ClrtMesh;
 
 CLRT_API bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtError *error);
@@ -112,12 +133,18 @@ CLRT_API bool clrt_scene_add_colored_light(ClrtScene *scene, const double positi
 typedef struct {
     size_t size;
     double eye[3], look_at[3];
-    double up[3];       // 0 0 0 selects 0 0 1
-    double fov_degrees; // vertical, in [1e-6, 179.9999]
+    double up[3];         // 0 0 0 selects 0 0 1
+    double fov_degrees;   // vertical, in [1e-6, 179.9999]
+    double width_degrees; // at least this wide in narrow pictures, in [0, 179.9999]
 } ClrtCamera;
 
 // Appends a view to the scene.
 CLRT_API bool clrt_scene_add_camera(ClrtScene *scene, const ClrtCamera *camera, ClrtError *error);
+
+// Describes a view of the scene, from 1, in the first camera->size bytes of *camera. The caller
+// sets camera->size.
+CLRT_API bool clrt_scene_get_camera(const ClrtScene *scene, uint32_t view, ClrtCamera *camera,
+                                    ClrtError *error);
 
 // Sets the color of rays that hit nothing: R G B in [0, 1].
 CLRT_API bool clrt_scene_set_background(ClrtScene *scene, const double color[3], ClrtError *error);
@@ -138,28 +165,79 @@ typedef struct {
 // Describes the scene in the first info->size bytes of *info. The caller sets info->size.
 CLRT_API bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError *error);
 
+// Devices
+
+typedef struct {
+    size_t size;
+    char device[32];               // for ClrtSettings::device: PLATFORM:DEVICE, such as "0:0"
+    char type[16];                 // cpu, gpu, accelerator or other
+    char platform[256], name[256]; // as the driver reports them
+    char driver[256];              // the driver's version
+    uint32_t compute_units;
+    uint64_t largest_allocation; // bytes
+    bool fp64;                   // has double arithmetic
+    bool correctly_rounded;      // offers division and square roots with the same bits as others
+} ClrtDevice;
+
+// Stores the number of OpenCL devices, at most 64. Fails if there are none.
+CLRT_API bool clrt_device_count(uint32_t *count, ClrtError *error);
+
+// Describes a device, from 0, in the first device->size bytes of *device. The caller sets
+// device->size.
+CLRT_API bool clrt_device_get(uint32_t number, ClrtDevice *device, ClrtError *error);
+
 // Renderers
 
 typedef struct ClrtRenderer ClrtRenderer;
 
-// Opens an OpenCL device and compiles the kernels, which takes seconds unless the driver has cached
-// them. device has the syntax of `clrt --device`: PLATFORM:DEVICE, a type (cpu, gpu, accelerator,
-// all) or part of a name. NULL selects the first GPU or, without a GPU, the first device.
+typedef enum { CLRT_FP32, CLRT_FP64 } ClrtPrecision;
+typedef enum { CLRT_KERNEL_AUTO, CLRT_KERNEL_RAY, CLRT_KERNEL_PACKET } ClrtKernel;
+typedef enum { CLRT_NODES_AUTO, CLRT_NODES_PAIR, CLRT_NODES_WIDE } ClrtNodes;
+typedef enum {
+    CLRT_SPECIALIZE_AUTO, // if compiled already, or if it saves more time than compiling takes
+    CLRT_SPECIALIZE_ALWAYS,
+    CLRT_SPECIALIZE_NEVER
+} ClrtSpecialize;
+typedef enum {
+    CLRT_TREE_AUTO, // the surface area heuristic, or no tree for few triangles
+    CLRT_TREE_SAH,
+    CLRT_TREE_MIDPOINT,
+    CLRT_TREE_NONE
+} ClrtTree;
+
+typedef struct {
+    size_t size;
+    // As `clrt --device`: PLATFORM:DEVICE, a type (cpu, gpu, accelerator, all) or part of a name.
+    // NULL selects the first GPU or, without a GPU, the first device.
+    const char *device;
+    uint32_t threads; // that build trees and refine pictures; 0: as many as the process may use
+    ClrtPrecision precision; // of the arithmetic; error goals below 1.6e-4 need fp64
+
+    // For experiments. These settings change no bit of a picture.
+    ClrtKernel kernel;
+    ClrtNodes nodes; // the children of a node: 2 or 8
+    uint32_t lanes;  // width of vectors: 4, 8 or 16; 0: the device's
+    ClrtSpecialize specialize;
+    ClrtTree tree;
+    uint32_t group_width, group_height; // of work-groups, each at most 1024; 0: 8 x 8, wide 2 x 2
+} ClrtSettings;
+
+// Opens an OpenCL device and compiles the kernels, which takes seconds unless they are cached.
+// settings may be NULL.
 //
-// threads is the number of threads that build trees. 0 selects as many as the affinity mask and the
-// control groups' quotas allow. The driver sets the number of threads that draw on a CPU device. To
-// limit PoCL's threads, the program sets POCL_MAX_PTHREAD_COUNT (later versions:
-// POCL_CPU_MAX_CU_COUNT) before PoCL's first call.
+// The driver sets the number of threads that draw on a CPU device. To limit PoCL's threads, the
+// program sets POCL_MAX_PTHREAD_COUNT (later versions: POCL_CPU_MAX_CU_COUNT) before PoCL's first
+// call.
 //
-// The call reads environment variables, and PoCL sets some in the first call. Other threads of the
-// program must not use the environment meanwhile, because most versions of getenv and setenv do not
-// allow it. No other function of the library uses the program's environment.
+// This call and the functions above for devices read environment variables, and PoCL sets some in
+// its first call. Other threads of the program must not use the environment meanwhile, because most
+// versions of getenv and setenv do not allow it. No other function uses the environment.
 //
 // The library stores compiled kernels with checksums in clrt, a subfolder of $POCL_CACHE_DIR,
 // $XDG_CACHE_HOME or ~/.cache, and compiles damaged ones again. A lock there keeps processes that
 // compile concurrently from losing PoCL's own files. PoCL finds no device unless it can write these
 // files, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
-CLRT_API ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error);
+CLRT_API ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *error);
 
 // Frees the renderer. Stores its kernels if they are new, which takes up to a second. Accepts NULL.
 CLRT_API void clrt_renderer_free(ClrtRenderer *renderer);

@@ -29,6 +29,10 @@ bool check_color(ClrtError *error, const char *what, const double color[3]);
 // become zero. Additional members of the given struct must be zero.
 bool check_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size);
 
+// Copies the members that the given struct has from a filled struct of `size` bytes. check_struct
+// has accepted the given struct.
+void fill_struct(void *given, const void *filled, size_t size);
+
 struct ClrtScene {
     Scene scene;
     uint64_t state; // a number unique to the scene and its latest change

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
-// All scenes use the general kernels, so that a renderer compiles kernels only once.
+// The caller's settings -> a device, its kernels and, later, a scene in their layouts.
 #include "library/handles.h"
 
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+#define GROUP_SIDE_MOST 1024
+
+// Held by the calls that open drivers. PoCL 3.1 crashes if two threads make the first OpenCL calls
+// concurrently. These calls may change the environment, which cache_open_for_library reads.
+static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
 
 static bool make_kernel(Session *session, Error *cause)
 {
@@ -12,11 +20,8 @@ static bool make_kernel(Session *session, Error *cause)
     return session_kernel(session, &use, &traits, cause) != NULL;
 }
 
-// Opens the device in one thread at a time. PoCL 3.1 crashes if two threads make the first OpenCL
-// calls concurrently. These calls may change the environment, which cache_open_for_library reads.
 static bool open_session(Session *session, Error *cause)
 {
-    static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
     pthread_mutex_lock(&opening);
     cache_open_for_library(&session->cache);
     const bool ok = session_open(session, cause) && make_kernel(session, cause);
@@ -24,13 +29,60 @@ static bool open_session(Session *session, Error *cause)
     return ok;
 }
 
-ClrtRenderer *clrt_renderer_create(const char *device, uint32_t threads, ClrtError *error)
+static bool check_settings(const ClrtSettings *given, const KernelRequest *kernel, ClrtError *error)
+{
+    Error unused = {0};
+    const bool known_lanes =
+        given->lanes == 0 || given->lanes == 4 || given->lanes == 8 || given->lanes == 16;
+    if (!check_number(error, "the precision", given->precision, 0, CLRT_FP64) ||
+        !check_number(error, "the kernel", given->kernel, 0, CLRT_KERNEL_PACKET) ||
+        !check_number(error, "the nodes", given->nodes, 0, CLRT_NODES_WIDE) ||
+        !check_number(error, "specialize", given->specialize, 0, CLRT_SPECIALIZE_NEVER) ||
+        !check_number(error, "the tree", given->tree, 0, CLRT_TREE_NONE) ||
+        !check_number(error, "the group's width", given->group_width, 0, GROUP_SIDE_MOST) ||
+        !check_number(error, "the group's height", given->group_height, 0, GROUP_SIDE_MOST))
+        return false;
+    if (!known_lanes)
+        return check_fail(error, CLRT_ARGUMENT, "the lanes are %u, not 4, 8 or 16", given->lanes);
+    return kernel_check_request(kernel, &unused) ||
+           check_fail(error, CLRT_ARGUMENT,
+                      "precision, kernel, nodes and lanes contradict each other: packets use wide "
+                      "nodes, pair nodes use no lanes, and fp64 uses rays and pair nodes");
+}
+
+static bool take_settings(SessionSettings *settings, const ClrtSettings *given, ClrtError *error)
+{
+    ClrtSettings wanted = {.size = sizeof wanted};
+    if (given != NULL && !check_struct(error, "the settings", given, &wanted, sizeof wanted))
+        return false;
+    static const TreeUse uses[] = {TREE_AUTO, TREE_ALWAYS, TREE_ALWAYS, TREE_NEVER};
+    const KernelRequest kernel = {.family = (int)wanted.kernel,
+                                  .nodes = (int)wanted.nodes,
+                                  .lanes = wanted.lanes == 16 ? 3 : (int)wanted.lanes / 4,
+                                  .precision = (Precision)wanted.precision};
+    if (!check_settings(&wanted, &kernel, error))
+        return false;
+    *settings =
+        (SessionSettings){.device = wanted.device,
+                          .threads = wanted.threads,
+                          .kernel = kernel,
+                          .specialization = (Specialization)wanted.specialize,
+                          .builder = wanted.tree == CLRT_TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH,
+                          .tree = uses[wanted.tree],
+                          .group_width = wanted.group_width,
+                          .group_height = wanted.group_height};
+    return true;
+}
+
+ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *error)
 {
     Error cause = {0};
+    SessionSettings wanted;
+    if (!take_settings(&wanted, settings, error))
+        return NULL;
     ClrtRenderer *renderer = memory_zeroed(1, sizeof *renderer, &cause);
     if (renderer != NULL) {
-        renderer->session.settings = (SessionSettings){
-            .device = device, .threads = threads, .specialization = SPECIALIZE_NEVER};
+        renderer->session.settings = wanted;
         if (open_session(&renderer->session, &cause)) {
             renderer->session.settings.device = NULL; // the caller's
             return renderer;
@@ -63,5 +115,48 @@ bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtEr
     if (!session_prepare(session, &(SessionPicture){0}, &unused, &cause))
         return check_fail_for(error, CLRT_DEVICE, &cause);
     renderer->state = scene->state;
+    return true;
+}
+
+static bool list_devices(DeviceList *list, ClrtError *error)
+{
+    Error cause = {0};
+    pthread_mutex_lock(&opening);
+    const bool ok = device_list(list, &cause);
+    pthread_mutex_unlock(&opening);
+    return ok || check_fail_for(error, CLRT_DEVICE, &cause);
+}
+
+bool clrt_device_count(uint32_t *count, ClrtError *error)
+{
+    DeviceList list;
+    if (!check_given(error, "the count", count) || !list_devices(&list, error))
+        return false;
+    *count = list.count;
+    return true;
+}
+
+bool clrt_device_get(uint32_t number, ClrtDevice *device, ClrtError *error)
+{
+    DeviceList list;
+    ClrtDevice filled;
+    if (!check_struct(error, "the device", device, &filled, sizeof filled) ||
+        !list_devices(&list, error))
+        return false;
+    if (number >= list.count)
+        return check_fail(error, CLRT_ARGUMENT, "device %u does not exist: there are %u", number,
+                          list.count);
+    const Device *found = &list.devices[number];
+    filled = (ClrtDevice){.size = filled.size,
+                          .compute_units = found->compute_units,
+                          .largest_allocation = found->largest_allocation,
+                          .fp64 = found->has_fp64,
+                          .correctly_rounded = found->correct_division};
+    snprintf(filled.device, sizeof filled.device, "%u:%u", found->platform_number, found->number);
+    snprintf(filled.type, sizeof filled.type, "%s", device_type_name(found));
+    memcpy(filled.platform, found->platform, sizeof filled.platform);
+    memcpy(filled.name, found->name, sizeof filled.name);
+    memcpy(filled.driver, found->version, sizeof filled.driver);
+    fill_struct(device, &filled, sizeof filled);
     return true;
 }

@@ -82,16 +82,26 @@ bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, Cl
         !check_vector(error, "the eye", given.eye, COORDINATE_MOST) ||
         !check_vector(error, "the point looked at", given.look_at, COORDINATE_MOST) ||
         !check_vector(error, "the camera's 'up'", given.up, COORDINATE_MOST) ||
-        !check_number(error, "the field of view", given.fov_degrees, FOV_LEAST, FOV_MOST))
+        !check_number(error, "the field of view", given.fov_degrees, FOV_LEAST, FOV_MOST) ||
+        !check_number(error, "the horizontal field of view", given.width_degrees, 0, FOV_MOST))
         return false;
     *viewpoint = (Viewpoint){.eye = vec3_of_doubles(given.eye),
                              .look_at = vec3_of_doubles(given.look_at),
                              .up = vec3_of_doubles(given.up),
-                             .fov_degrees = given.fov_degrees};
+                             .fov_degrees = given.fov_degrees,
+                             .width_degrees = given.width_degrees};
     if (!(vec3_extent(viewpoint->up) > 0))
         viewpoint->up = vec3(0, 0, 1);
     const char *fault = viewpoint_fault(viewpoint);
     return fault == NULL || check_fail(error, CLRT_ARGUMENT, "%s", fault);
+}
+
+static bool check_view(const ClrtScene *scene, uint32_t view, ClrtError *error)
+{
+    const size_t count = scene->scene.viewpoints.count;
+    return (view >= 1 && view <= count) ||
+           check_fail(error, CLRT_ARGUMENT, "view %u does not exist: the scene has %zu", view,
+                      count);
 }
 
 bool clrt_scene_add_camera(ClrtScene *scene, const ClrtCamera *camera, ClrtError *error)
@@ -103,6 +113,31 @@ bool clrt_scene_add_camera(ClrtScene *scene, const ClrtCamera *camera, ClrtError
         return false;
     const bool ok = array_push(&scene->scene.viewpoints, viewpoint, &cause);
     return scene_handle_changed(scene, ok, &cause, error);
+}
+
+static void copy_vector(double copy[3], Vec3 vector)
+{
+    copy[0] = vector.x;
+    copy[1] = vector.y;
+    copy[2] = vector.z;
+}
+
+bool clrt_scene_get_camera(const ClrtScene *scene, uint32_t view, ClrtCamera *camera,
+                           ClrtError *error)
+{
+    ClrtCamera filled;
+    if (!check_given(error, "the scene", scene) ||
+        !check_struct(error, "the camera", camera, &filled, sizeof filled) ||
+        !check_view(scene, view, error))
+        return false;
+    const Viewpoint *viewpoint = &scene->scene.viewpoints.data[view - 1];
+    filled = (ClrtCamera){.fov_degrees = viewpoint->fov_degrees,
+                          .width_degrees = viewpoint->width_degrees};
+    copy_vector(filled.eye, viewpoint->eye);
+    copy_vector(filled.look_at, viewpoint->look_at);
+    copy_vector(filled.up, viewpoint->up);
+    fill_struct(camera, &filled, sizeof filled);
+    return true;
 }
 
 bool clrt_scene_set_background(ClrtScene *scene, const double color[3], ClrtError *error)

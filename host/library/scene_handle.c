@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A ClrtScene is a Scene with a state number. Every change gives the scene a new, higher number.
+#include "base/limits.h"
 #include "library/handles.h"
 
 #include "scene/scn.h"
@@ -89,6 +90,14 @@ bool check_struct(ClrtError *error, const char *what, const void *given, void *c
                       clrt_version());
 }
 
+void fill_struct(void *given, const void *filled, size_t size)
+{
+    size_t given_size;
+    memcpy(&given_size, given, sizeof given_size);
+    memcpy(given, filled, given_size < size ? given_size : size);
+    memcpy(given, &given_size, sizeof given_size);
+}
+
 // CMakeLists.txt defines the version.
 const char *clrt_version(void)
 {
@@ -113,27 +122,36 @@ bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtEr
 }
 
 // Returns a scene read from path, or an empty scene if path is NULL. Returns NULL on failure.
-static ClrtScene *make(const char *path, ClrtError *error)
+static ClrtScene *make(const char *path, const SceneLoadOptions *load, ClrtError *error)
 {
     Error cause = {0};
     ClrtScene *scene = memory_zeroed(1, sizeof *scene, &cause);
-    const bool ok = scene != NULL &&
-                    (path != NULL ? scn_load(&scene->scene, path, &(SceneLoadOptions){0}, &cause)
-                                  : scene_init(&scene->scene, &cause));
+    const bool ok = scene != NULL && (path != NULL ? scn_load(&scene->scene, path, load, &cause)
+                                                   : scene_init(&scene->scene, &cause));
     if (scene_handle_changed(scene, ok, &cause, error))
         return scene;
     clrt_scene_free(scene);
     return NULL;
 }
 
-ClrtScene *clrt_scene_load(const char *path, ClrtError *error)
+ClrtScene *clrt_scene_load(const char *path, const ClrtLoad *load, ClrtError *error)
 {
-    return check_given(error, "the path", path) ? make(path, error) : NULL;
+    ClrtLoad given = {.size = sizeof given};
+    if (!check_given(error, "the path", path) ||
+        (load != NULL && !check_struct(error, "the load", load, &given, sizeof given)) ||
+        !check_number(error, "the up axis", given.up, 0, CLRT_UP_MINUS_Z) ||
+        !check_number(error, "the crease angle", given.crease_degrees, 0, CREASE_MOST))
+        return NULL;
+    const Normals computed = given.crease_degrees > 0 ? NORMALS_SMOOTH : NORMALS_AUTO;
+    const SceneLoadOptions options = {.up = (UpAxis)given.up,
+                                      .normals = given.flat ? NORMALS_FLAT : computed,
+                                      .crease_degrees = given.crease_degrees};
+    return make(path, &options, error);
 }
 
 ClrtScene *clrt_scene_create(ClrtError *error)
 {
-    return make(NULL, error);
+    return make(NULL, NULL, error);
 }
 
 void clrt_scene_free(ClrtScene *scene)
@@ -151,8 +169,7 @@ bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError 
         !check_struct(error, "the info", info, &filled, sizeof filled))
         return false;
     const Scene *inside = &scene->scene;
-    filled = (ClrtSceneInfo){.size = filled.size,
-                             .width = inside->width,
+    filled = (ClrtSceneInfo){.width = inside->width,
                              .height = inside->height,
                              .max_level = inside->max_level,
                              .view_count = (uint32_t)inside->viewpoints.count,
@@ -161,6 +178,6 @@ bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError 
                              .sphere_count = (uint32_t)inside->spheres.count,
                              .triangle_count = scene_triangle_count(inside),
                              .dropped_triangle_count = scene_dropped_count(inside)};
-    memcpy(info, &filled, filled.size < sizeof filled ? filled.size : sizeof filled);
+    fill_struct(info, &filled, sizeof filled);
     return true;
 }

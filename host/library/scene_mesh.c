@@ -66,7 +66,10 @@ static bool check_triangles(const Mesh *mesh, ClrtError *error)
 
 static bool check_mesh(const ClrtScene *scene, const ClrtMesh *mesh, ClrtError *error)
 {
-    return check_array("positions", mesh->positions, mesh->vertex_count, error) &&
+    if (mesh->flat && mesh->smooth)
+        return check_fail(error, CLRT_ARGUMENT, "the mesh is flat and smooth");
+    return check_number(error, "the crease angle", mesh->crease_degrees, 0, CREASE_MOST) &&
+           check_array("positions", mesh->positions, mesh->vertex_count, error) &&
            check_array("triangles", mesh->triangles, mesh->triangle_count, error) &&
            scene_handle_check_material(scene, mesh->material, error);
 }
@@ -96,7 +99,9 @@ bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtError *erro
         !check_struct(error, "the mesh", mesh, &given, sizeof given) ||
         !check_mesh(scene, &given, error) || !take_mesh(&object, &given, error))
         return false;
+    const double crease = given.crease_degrees > 0 ? given.crease_degrees : CREASE_DEGREES;
     const bool ok = mesh_drop_triangles(&object.mesh, &cause) &&
+                    (!given.smooth || mesh_compute_normals(&object.mesh, crease, &cause)) &&
                     array_push(&scene->scene.objects, object, &cause);
     if (!ok)
         mesh_free(&object.mesh);

@@ -222,8 +222,8 @@ class Normals(Work):
             self.refuses(2, f"--normals smooth= wants degrees from 0 to 180, not '{degrees}'", "a.ply",
                          f"--normals=smooth={degrees}", "-o", "a.png")
         for words, statement in ("flat", "flat"), ("smooth=50", "smooth"):
-            self.refuses(3, f"a.scn: --normals is for lone mesh files; in a scene, write 'normals {statement}' before "
-                         "the mesh", "a.scn", "--normals", words, "-o", "a.png")
+            self.refuses(3, "a.scn: only lone mesh files leave their normals open; in a scene, write "
+                         f"'normals {statement}' before the mesh", "a.scn", "--normals", words, "-o", "a.png")
 
 
 class Antialiasing(Work):

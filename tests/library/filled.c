@@ -45,7 +45,7 @@ static const float roof_normals[][3] = {
     {0, -1, 1}, {0, 0, 2.5f}, {0, 0.1f, 1}, {0, -1, 0.9f}, {0, 0, 0}};
 static const uint32_t roof_triangles[][3] = {{0, 3, 2}, {0, 2, 1}, {1, 2, 4}};
 
-static const ClrtMesh meshes[2] = {
+const ClrtMesh filled_meshes[2] = {
     {.size = sizeof(ClrtMesh),
      .positions = floor_positions[0],
      .triangles = floor_triangles[0],
@@ -79,7 +79,7 @@ ClrtScene *filled_make(void)
     for (int i = 0; i < 2; i++) {
         assert_true(
             clrt_scene_add_sphere(scene, spheres[i], spheres[i][3], sphere_materials[i], NULL));
-        assert_true(clrt_scene_add_mesh(scene, &meshes[i], NULL));
+        assert_true(clrt_scene_add_mesh(scene, &filled_meshes[i], NULL));
     }
     return scene;
 }

@@ -6,5 +6,6 @@
 #include <clrt.h>
 
 extern const ClrtCamera filled_cameras[2];
+extern const ClrtMesh filled_meshes[2];
 
 ClrtScene *filled_make(void);

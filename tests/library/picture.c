@@ -18,8 +18,8 @@ int main(void)
     const ClrtCamera camera = {.size = sizeof camera, .eye = {3, -5, 3}, .fov_degrees = 45};
     const ClrtPicture picture = {.size = sizeof picture, .width = 320, .height = 240, .samples = 2};
     ClrtError error = {0};
-    ClrtScene *scene = clrt_scene_create(&error); // or clrt_scene_load("reflections.scn", &error)
-    ClrtRenderer *renderer = scene == NULL ? NULL : clrt_renderer_create(NULL, 0, &error);
+    ClrtScene *scene = clrt_scene_create(&error); // or clrt_scene_load(path, NULL, &error)
+    ClrtRenderer *renderer = scene == NULL ? NULL : clrt_renderer_create(NULL, &error);
     const bool ok = renderer != NULL &&
                     clrt_scene_add_sphere(scene, ball, 1, CLRT_MATERIAL_BLINN_PHONG, &error) &&
                     clrt_scene_add_mesh(scene, &ground, &error) &&

@@ -16,6 +16,13 @@ const char *program_file(const char *name)
     return path;
 }
 
+ClrtRenderer *program_renderer(uint32_t threads)
+{
+    const ClrtSettings settings = {
+        .size = sizeof settings, .device = getenv("CLRT_DEVICE"), .threads = threads};
+    return clrt_renderer_create(&settings, NULL);
+}
+
 // The file's rows start at the bottom.
 static float *read_pfm(const char *path, uint32_t width, uint32_t height)
 {

@@ -12,5 +12,8 @@ float *program_draw(const char *scene, const char *options, uint32_t width, uint
 bool program_agrees(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtPicture *picture,
                     const float *expected);
 
+// Opens a renderer for the device that CLRT_DEVICE names. Returns NULL on failure.
+ClrtRenderer *program_renderer(uint32_t threads);
+
 // Returns the path of a file of the source tree.
 const char *program_file(const char *name);

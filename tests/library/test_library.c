@@ -13,7 +13,7 @@ static ClrtRenderer *renderer; // shared by most tests
 
 SET_UP(open_all)
 {
-    renderer = clrt_renderer_create(getenv("CLRT_DEVICE"), 0, NULL);
+    renderer = program_renderer(0);
     return renderer == NULL;
 }
 
@@ -26,7 +26,7 @@ TEAR_DOWN(close_all)
 static ClrtScene *load(const char *path)
 {
     ClrtError error;
-    ClrtScene *scene = clrt_scene_load(path, &error);
+    ClrtScene *scene = clrt_scene_load(path, NULL, &error);
     if (scene == NULL)
         fail_msg("%s", error.text);
     return scene;

@@ -4,6 +4,7 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include "library/faults.h"
 #include "library/filled.h"
+#include "library/program.h"
 #include "unit/cmocka_all.h"
 
 #include <CL/cl.h>
@@ -51,12 +52,18 @@ static void open_driver(void)
         clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, 1, &device, NULL);
 }
 
+static ClrtRenderer *open_named(const char *device, ClrtError *error)
+{
+    const ClrtSettings settings = {.size = sizeof settings, .device = device};
+    return clrt_renderer_create(&settings, error);
+}
+
 SET_UP(open_stage)
 {
     open_driver();
     stage.environment = copy_environment();
     stage.scene = filled_make();
-    stage.renderer = clrt_renderer_create(getenv("CLRT_DEVICE"), 0, NULL);
+    stage.renderer = program_renderer(0);
     return stage.renderer == NULL;
 }
 
@@ -174,9 +181,9 @@ TEST(a_light_too_far_away_is_reported)
 TEST(missing_devices_are_reported)
 {
     ClrtError error = faults_blank();
-    faults_assert(clrt_renderer_create("no such device %s", 0, &error) != NULL, &error, CLRT_DEVICE,
+    faults_assert(open_named("no such device %s", &error) != NULL, &error, CLRT_DEVICE,
                   "no device matches 'no such device %s'");
-    assert_null(clrt_renderer_create("99:99", UINT32_MAX, NULL));
+    assert_null(open_named("99:99", NULL));
 }
 
 static bool draw_again(void *user, uint64_t tiles_done, uint64_t tiles)
@@ -201,12 +208,12 @@ TEST(a_renderer_that_draws_refuses_another_picture)
 static void use_everything(void)
 {
     const ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
-    ClrtRenderer *renderer = clrt_renderer_create(getenv("CLRT_DEVICE"), 1, NULL);
+    ClrtRenderer *renderer = program_renderer(1);
     clrt_render(renderer, stage.scene, &picture, stage.rgb, NULL);
     clrt_render(renderer, stage.scene, NULL, stage.rgb, NULL);
     clrt_renderer_free(renderer);
-    clrt_renderer_free(clrt_renderer_create("nothing", 1, NULL));
-    clrt_scene_free(clrt_scene_load("/nowhere", NULL));
+    clrt_renderer_free(open_named("nothing", NULL));
+    clrt_scene_free(clrt_scene_load("/nowhere", NULL, NULL));
 }
 
 TEST(nothing_is_printed_and_the_environment_stays)

@@ -39,7 +39,7 @@ TEST(null_arguments_are_named)
     const ClrtMaterial matte = {.size = sizeof matte};
     ClrtSceneInfo info = {.size = sizeof info};
     uint32_t number;
-    REFUSES(clrt_scene_load(NULL, &error) != NULL, "the path is NULL");
+    REFUSES(clrt_scene_load(NULL, NULL, &error) != NULL, "the path is NULL");
     REFUSES(clrt_scene_add_material(NULL, &matte, &number, &error), "the scene is NULL");
     REFUSES(clrt_scene_add_material(scene, NULL, &number, &error), "the material is NULL");
     REFUSES(clrt_scene_add_material(scene, &matte, NULL, &error), "the number is NULL");
@@ -195,7 +195,7 @@ TEST(impossible_cameras_are_refused)
 TEST(missing_files_are_reported)
 {
     ClrtError error = faults_blank();
-    faults_assert(clrt_scene_load("/nowhere/at all.scn", &error) != NULL, &error, CLRT_SCENE,
+    faults_assert(clrt_scene_load("/nowhere/at all.scn", NULL, &error) != NULL, &error, CLRT_SCENE,
                   "/nowhere/at all.scn");
-    assert_null(clrt_scene_load("", NULL));
+    assert_null(clrt_scene_load("", NULL, NULL));
 }

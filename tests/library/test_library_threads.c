@@ -28,7 +28,7 @@ static void *draw_thrice(void *context)
 {
     Job *job = context;
     pthread_barrier_wait(job->start);
-    ClrtRenderer *own = clrt_renderer_create(getenv("CLRT_DEVICE"), 1, NULL);
+    ClrtRenderer *own = program_renderer(1);
     job->agrees = own != NULL;
     for (int round = 0; round < 3 && job->agrees; round++)
         job->agrees = program_agrees(own, job->scene, &picture, job->expected);
@@ -57,7 +57,7 @@ TEST(several_threads_create_renderers_and_draw_concurrently)
 {
     const char *options = "--aa=2 --max-level 5";
     ClrtScene *scenes[2] = {filled_make(),
-                            clrt_scene_load(program_file("scenes/reflections.scn"), NULL)};
+                            clrt_scene_load(program_file("scenes/reflections.scn"), NULL, NULL)};
     float *expected[2] = {
         program_draw(program_file("tests/library/filled.scn"), options, WIDTH, HEIGHT),
         program_draw(program_file("scenes/reflections.scn"), options, WIDTH, HEIGHT)};
