@@ -280,8 +280,8 @@ static bool check_for_text(const SceneLoadOptions *options, const char *name, Er
             name, up_axis_names[options->up]);
     return options->normals == NORMALS_AUTO ||
            error_set(error,
-                     "%s: only lone mesh files leave their normals open; in a scene, write 'normals "
-                     "%s' before the mesh",
+                     "%s: only lone mesh files leave their normals open; in a scene, write "
+                     "'normals %s' before the mesh",
                      name, options->normals == NORMALS_FLAT ? "flat" : "smooth");
 }
 
