@@ -6,91 +6,23 @@
 
 #include <math.h>
 
-#define SCHEMA_VERSION 1
-
 static const char *mesh_path(const Check *check, size_t object)
 {
     const Scene *scene = &check->scene;
     return scene->inputs.data[scene->objects.data[object].input];
 }
 
-// Writes the findings from index *next on that are about this object, and advances *next.
-static void write_findings(const Check *check, size_t object, size_t *next, FILE *stream)
-{
-    for (; *next < check->findings.count; ++*next) {
-        const Finding *finding = &check->findings.data[*next];
-        if (finding->object != object)
-            return;
-        fprintf(stream, "  %s: %s\n", finding->fails ? "FAULT" : "note", finding->text);
-    }
-}
-
-static void write_leaks(const Check *check, size_t object, FILE *stream)
-{
-    const LeakCount *leaks = &check->leaks[object];
-    fprintf(stream, "  %zu rays at %zu of its %zu edges and points", leaks->rays, leaks->aimed,
-            leaks->total);
-    if (leaks->total > LEAKS_AIMS)
-        fprintf(stream, " (at most %d are aimed at)", LEAKS_AIMS);
-    const bool is_closed = check->census.meshes[object].closedness.is_closed;
-    fprintf(stream, ": %zu hidden by other parts, %zu pass through%s\n", leaks->hidden,
-            leaks->leaks.count,
-            leaks->leaks.count > 0 && !is_closed ? ", because it is not closed" : "");
-}
-
-static void write_mesh(const Check *check, size_t object, size_t *next, FILE *stream)
-{
-    const Mesh *mesh = &check->scene.objects.data[object].mesh;
-    const MeshCensus *census = &check->census.meshes[object];
-    const Features *features = &census->features;
-    const Closedness *closedness = &census->closedness;
-    fprintf(stream, "%s: %zu triangles, %zu vertices, %s\n", mesh_path(check, object),
-            mesh->triangle_count, mesh->vertex_count,
-            closedness->is_closed ? "closed" : "not closed");
-    if (mesh->triangle_count > 0)
-        fprintf(stream, "  shortest edge %.3g, lowest height %.3g: %.3g and %.3g steps of float\n",
-                features->edge.size, features->height.size, features->edge.steps,
-                features->height.steps);
-    if (mesh->triangle_count > 0 && check->leaks != NULL)
-        write_leaks(check, object, stream);
-    write_findings(check, object, next, stream);
-}
-
-void check_report_write_text(const Check *check, FILE *stream)
-{
-    const Scene *scene = &check->scene;
-    size_t next = 0; // findings are in the order of the objects
-    for (size_t object = 0; object < scene->objects.count; object++)
-        write_mesh(check, object, &next, stream);
-    fprintf(stream, "%s: %zu meshes, %zu triangles, %zu spheres, %zu lights\n", check->scene_path,
-            scene->objects.count, scene_triangle_count(scene), scene->spheres.count,
-            scene->lights.count);
-    write_findings(check, FINDING_SCENE, &next, stream);
-    if (check->leaks != NULL)
-        fprintf(stream, "  rays were traced on %s\n", check->device);
-    else if (check->device_fault.text[0] != '\0')
-        fprintf(stream, "  leaks were not tested: %s\n", check->device_fault.text);
-    const size_t failing = check_count_failing(check), all = check->findings.count;
-    if (all == 0)
-        fputs("fine\n", stream);
-    else if (failing == 0)
-        fprintf(stream, "no faults, %zu note%s\n", all, all == 1 ? "" : "s");
-    else
-        fprintf(stream, "%zu of %zu findings are faults\n", failing, all);
-}
-
 static json_t *fault_json(MeshFault fault)
 {
-    return json_pack("{s:o, s:o}", "count", json_count(fault.count), "first",
-                     fault.count > 0 ? json_count(fault.first) : json_null());
+    return JSON(FIELD("count", fault.count),
+                FIELD("first", fault.count > 0 ? json_count(fault.first) : json_null()));
 }
 
 static json_t *feature_json(const Feature *feature)
 {
     const bool found = isfinite(feature->steps);
-    return json_pack("{s:o, s:o, s:o}", "size", found ? json_finite(feature->size) : json_null(),
-                     "steps", json_finite(feature->steps), "triangle",
-                     found ? json_count(feature->triangle) : json_null());
+    return JSON(FIELD("size", found ? feature->size : (double)NAN), FIELD("steps", feature->steps),
+                FIELD("triangle", found ? json_count(feature->triangle) : json_null()));
 }
 
 static json_t *leaks_json(const Check *check, size_t object)
@@ -98,10 +30,9 @@ static json_t *leaks_json(const Check *check, size_t object)
     if (check->leaks == NULL)
         return json_null();
     const LeakCount *leaks = &check->leaks[object];
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "leaks", fault_json(leaks->leaks), "rays",
-                     json_count(leaks->rays), "aims", json_count(leaks->total), "aimed_at",
-                     json_count(leaks->aimed), "hidden", json_count(leaks->hidden), "cap",
-                     json_count(LEAKS_AIMS));
+    return JSON(FIELD("leaks", fault_json(leaks->leaks)), FIELD("rays", leaks->rays),
+                FIELD("aims", leaks->total), FIELD("aimed_at", leaks->aimed),
+                FIELD("hidden", leaks->hidden), FIELD("cap", json_count(LEAKS_AIMS)));
 }
 
 // Omits leaks, which "leak_test" contains.
@@ -121,17 +52,19 @@ static json_t *mesh_json(const Check *check, size_t object)
     const Mesh *mesh = &check->scene.objects.data[object].mesh;
     const MeshCensus *census = &check->census.meshes[object];
     const Features *features = &census->features;
-    return json_pack("{s:o, s:o, s:o, s:o, s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b}",
-                     "path", json_file_path(mesh_path(check, object)), "triangles",
-                     json_count(mesh->triangle_count), "vertices", json_count(mesh->vertex_count),
-                     "edges", json_count(census->closedness.edge_count), "closed",
-                     census->closedness.is_closed, "inside_out", census->closedness.is_inside_out,
-                     "unused_vertices", json_count(census->unused_vertices), "repeated_vertices",
-                     json_count(census->repeated_vertices), "faults", faults_json(check, object),
-                     "shortest_edge", feature_json(&features->edge), "lowest_height",
-                     feature_json(&features->height), "shortest_written_edge",
-                     feature_json(&features->written_edge), "leak_test", leaks_json(check, object),
-                     "holds_floats", features->holds_floats);
+    return JSON(FIELD("path", mesh_path(check, object)), FIELD("triangles", mesh->triangle_count),
+                FIELD("vertices", mesh->vertex_count),
+                FIELD("edges", census->closedness.edge_count),
+                FIELD("closed", census->closedness.is_closed),
+                FIELD("inside_out", census->closedness.is_inside_out),
+                FIELD("unused_vertices", census->unused_vertices),
+                FIELD("repeated_vertices", census->repeated_vertices),
+                FIELD("faults", faults_json(check, object)),
+                FIELD("shortest_edge", feature_json(&features->edge)),
+                FIELD("lowest_height", feature_json(&features->height)),
+                FIELD("shortest_written_edge", feature_json(&features->written_edge)),
+                FIELD("leak_test", leaks_json(check, object)),
+                FIELD("holds_floats", features->holds_floats));
 }
 
 static json_t *meshes_json(const Check *check)
@@ -147,12 +80,11 @@ static json_t *findings_json(const Check *check)
     json_t *list = json_array();
     for (size_t i = 0; i < check->findings.count; i++) {
         const Finding *finding = &check->findings.data[i];
+        const bool is_of_mesh = finding->object != FINDING_SCENE;
         json_array_append_new(
-            list,
-            json_pack("{s:s, s:b, s:o, s:o, s:s}", "kind", finding->kind, "fails", finding->fails,
-                      "mesh",
-                      finding->object == FINDING_SCENE ? json_null() : json_count(finding->object),
-                      "count", json_count(finding->count), "text", finding->text));
+            list, JSON(FIELD("kind", finding->kind), FIELD("fails", finding->fails),
+                       FIELD("mesh", is_of_mesh ? json_count(finding->object) : json_null()),
+                       FIELD("count", finding->count), FIELD("text", finding->text)));
     }
     return list;
 }
@@ -161,23 +93,89 @@ static json_t *scene_json(const Check *check)
 {
     const Scene *scene = &check->scene;
     const Census *census = &check->census;
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "path",
-                     json_file_path(check->scene_path), "lights", json_count(scene->lights.count),
-                     "spheres", json_count(scene->spheres.count), "empty_meshes",
-                     json_count(census->empty_meshes), "duplicate_meshes",
-                     json_count(census->duplicate_meshes), "duplicate_spheres",
-                     json_count(census->duplicate_spheres), "duplicate_lights",
-                     json_count(census->duplicate_lights), "unused_materials",
-                     json_count(census->unused_materials));
+    return JSON(FIELD("path", check->scene_path), FIELD("lights", scene->lights.count),
+                FIELD("spheres", scene->spheres.count), FIELD("empty_meshes", census->empty_meshes),
+                FIELD("duplicate_meshes", census->duplicate_meshes),
+                FIELD("duplicate_spheres", census->duplicate_spheres),
+                FIELD("duplicate_lights", census->duplicate_lights),
+                FIELD("unused_materials", census->unused_materials));
+}
+
+static json_t *report_json(const Check *check)
+{
+    return REPORT(1, FIELD("fine", (bool)(check_count_failing(check) == 0)),
+                  FIELD("device", check->device), FIELD("scene", scene_json(check)),
+                  FIELD("meshes", meshes_json(check)), FIELD("findings", findings_json(check)),
+                  FIELD("seconds", check->seconds));
 }
 
 bool check_report_write_json(const Check *check, const char *path, Error *error)
 {
-    json_t *device = check->device != NULL ? json_file_path(check->device) : json_null();
-    json_t *root =
-        json_pack("{s:i, s:s, s:b, s:o, s:o, s:o, s:o, s:f}", "schema", SCHEMA_VERSION, "version",
-                  CLRT_VERSION, "fine", check_count_failing(check) == 0, "device", device, "scene",
-                  scene_json(check), "meshes", meshes_json(check), "findings", findings_json(check),
-                  "seconds", check->seconds);
-    return json_file_write(root, path, error);
+    return json_file_write(report_json(check), path, error);
+}
+
+// Writes the findings from index *next on that are about this object, and advances *next.
+static void write_findings(const Check *check, size_t object, size_t *next, FILE *stream)
+{
+    for (; *next < check->findings.count; ++*next) {
+        const Finding *finding = &check->findings.data[*next];
+        if (finding->object != object)
+            return;
+        fprintf(stream, "  %s: %s\n", finding->fails ? "FAULT" : "note", finding->text);
+    }
+}
+
+static void write_mesh(const Check *check, const json_t *mesh, size_t object, FILE *stream)
+{
+    const LeakCount *leaks = check->leaks == NULL ? NULL : &check->leaks[object];
+    const bool is_closed = check->census.meshes[object].closedness.is_closed;
+    json_print(mesh, "{path}: {triangles} triangles, {vertices} vertices, ", stream);
+    fputs(is_closed ? "closed\n" : "not closed\n", stream);
+    if (check->scene.objects.data[object].mesh.triangle_count == 0)
+        return;
+    json_print(mesh,
+               "  shortest edge {shortest_edge.size .3g}, lowest height {lowest_height.size .3g}: "
+               "{shortest_edge.steps .3g} and {lowest_height.steps .3g} steps of float\n",
+               stream);
+    if (leaks == NULL)
+        return;
+    json_print(
+        mesh,
+        leaks->total > LEAKS_AIMS
+            ? "  {leak_test.rays} rays at {leak_test.aimed_at} of its {leak_test.aims} edges "
+              "and points (at most {leak_test.cap} are aimed at)"
+            : "  {leak_test.rays} rays at {leak_test.aimed_at} of its {leak_test.aims} edges "
+              "and points",
+        stream);
+    json_print(mesh,
+               ": {leak_test.hidden} hidden by other parts, {leak_test.leaks.count} pass through",
+               stream);
+    fputs(leaks->leaks.count > 0 && !is_closed ? ", because it is not closed\n" : "\n", stream);
+}
+
+void check_report_write_text(const Check *check, FILE *stream)
+{
+    const Scene *scene = &check->scene;
+    size_t next = 0; // findings are in the order of the objects
+    json_t *json = report_json(check);
+    for (size_t object = 0; object < scene->objects.count; object++) {
+        write_mesh(check, json_array_get(json_object_get(json, "meshes"), object), object, stream);
+        write_findings(check, object, &next, stream);
+    }
+    fprintf(stream, "%s: %zu meshes, %zu triangles, %zu spheres, %zu lights\n", check->scene_path,
+            scene->objects.count, scene_triangle_count(scene), scene->spheres.count,
+            scene->lights.count);
+    write_findings(check, FINDING_SCENE, &next, stream);
+    json_decref(json);
+    if (check->leaks != NULL)
+        fprintf(stream, "  rays were traced on %s\n", check->device);
+    else if (check->device_fault.text[0] != '\0')
+        fprintf(stream, "  leaks were not tested: %s\n", check->device_fault.text);
+    const size_t failing = check_count_failing(check), all = check->findings.count;
+    if (all == 0)
+        fputs("fine\n", stream);
+    else if (failing == 0)
+        fprintf(stream, "no faults, %zu note%s\n", all, all == 1 ? "" : "s");
+    else
+        fprintf(stream, "%zu of %zu findings are faults\n", failing, all);
 }

@@ -7,18 +7,16 @@
 
 #include <stdio.h>
 
-#define SCHEMA_VERSION 1
-
 static json_t *device_json(const Device *device)
 {
     char specification[32];
     snprintf(specification, sizeof specification, "%u:%u", device->platform_number, device->number);
-    return json_pack("{s:s, s:o, s:o, s:o, s:s, s:i, s:I, s:b, s:b}", "device", specification,
-                     "platform", json_file_path(device->platform), "name",
-                     json_file_path(device->name), "driver", json_file_path(device->version),
-                     "type", device_type_name(device), "compute_units", (int)device->compute_units,
-                     "largest_allocation", (json_int_t)device->largest_allocation, "fp64",
-                     device->has_fp64, "correctly_rounded", device->correct_division);
+    return JSON(
+        FIELD("device", specification), FIELD("platform", device->platform),
+        FIELD("name", device->name), FIELD("driver", device->version),
+        FIELD("type", device_type_name(device)), FIELD("compute_units", device->compute_units),
+        FIELD("largest_allocation", device->largest_allocation), FIELD("fp64", device->has_fp64),
+        FIELD("correctly_rounded", device->correct_division));
 }
 
 static json_t *list_json(const DeviceList *list)
@@ -26,8 +24,7 @@ static json_t *list_json(const DeviceList *list)
     json_t *devices = json_array();
     for (unsigned i = 0; i < list->count; i++)
         json_array_append_new(devices, device_json(&list->devices[i]));
-    return json_pack("{s:i, s:s, s:o}", "schema", SCHEMA_VERSION, "version", CLRT_VERSION,
-                     "devices", devices);
+    return REPORT(1, FIELD("devices", devices));
 }
 
 static ExitCode write(const DeviceList *list, const Options *options, Error *error)

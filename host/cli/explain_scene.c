@@ -93,17 +93,41 @@ static const char *scene_program_reason(const Run *run)
                : "special kernels are not compiled yet, and would save less than compiling costs";
 }
 
-#define SCHEMA_VERSION 2
+static json_t *parts_json(const Run *run)
+{
+    ScenePart parts[SCENE_PARTS];
+    json_t *list = json_array();
+    scene_parts_list(run, parts);
+    for (const ScenePart *part = parts; part < parts + SCENE_PARTS; part++)
+        json_array_append_new(
+            list, JSON(FIELD("name", part->name), FIELD("needed", part->is_needed),
+                       FIELD("compiled", part->is_compiled), FIELD("reason", part->reason)));
+    return list;
+}
 
-static void write_kernels(const Run *run)
+static json_t *arrays_json(const Run *run)
+{
+    FlatArray arrays[FLAT_ARRAYS];
+    json_t *object = json_object();
+    flat_arrays(&run->form->flat, arrays);
+    for (int i = 0; i < FLAT_ARRAYS; i++)
+        json_object_set_new(object, arrays[i].name, json_count(arrays[i].bytes));
+    return object;
+}
+
+static json_t *report_json(const Run *run)
 {
     const KernelChoice *choice = &run->session.choice;
-    printf("%s on %s\n", run->options->scene_path, run->session.device.name);
-    printf("  %-11s %s over %s nodes in %s: %s\n", "kernels", kernel_family_name(choice->family),
-           kernel_nodes_name(choice->nodes), kernel_precision_name(choice->precision),
-           scene_family_reason(run));
-    printf("  %-11s %s: %s\n", "program", run->report.drawn.is_special ? "special" : "general",
-           scene_program_reason(run));
+    json_t *kernels = JSON(FIELD("family", kernel_family_name(choice->family)),
+                           FIELD("nodes", kernel_nodes_name(choice->nodes)),
+                           FIELD("precision", kernel_precision_name(choice->precision)),
+                           FIELD("reason", scene_family_reason(run)));
+    json_t *program = JSON(FIELD("special", run->report.drawn.is_special),
+                           FIELD("reason", scene_program_reason(run)));
+    return REPORT(2, FIELD("scene", run->options->scene_path),
+                  FIELD("device", run->session.device.name), FIELD("kernels", kernels),
+                  FIELD("program", program), FIELD("parts", parts_json(run)),
+                  FIELD("uploaded_bytes", arrays_json(run)));
 }
 
 // Prints the features with these properties below the heading, if there are any.
@@ -137,47 +161,21 @@ static void write_arrays(const Run *run)
 static void write_text(const Run *run)
 {
     ScenePart parts[SCENE_PARTS];
+    json_t *json = report_json(run);
     scene_parts_list(run, parts);
-    write_kernels(run);
+    json_print(json,
+               "{scene} on {device}\n"
+               "  kernels     {kernels.family} over {kernels.nodes} nodes in {kernels.precision}: "
+               "{kernels.reason}\n"
+               "  program     ",
+               stdout);
+    fputs(run->report.drawn.is_special ? "special" : "general", stdout);
+    json_print(json, ": {program.reason}\n", stdout);
+    json_decref(json);
     write_parts(parts, "compiled in\n", true, true);
     write_parts(parts, "compiled in but idle, because the program is general\n", false, true);
     write_parts(parts, "left out\n", false, false);
     write_arrays(run);
-}
-
-static json_t *parts_json(const Run *run)
-{
-    ScenePart parts[SCENE_PARTS];
-    json_t *list = json_array();
-    scene_parts_list(run, parts);
-    for (int i = 0; i < SCENE_PARTS; i++)
-        json_array_append_new(list, json_pack("{s:s, s:b, s:b, s:s}", "name", parts[i].name,
-                                              "needed", parts[i].is_needed, "compiled",
-                                              parts[i].is_compiled, "reason", parts[i].reason));
-    return list;
-}
-
-static json_t *arrays_json(const Run *run)
-{
-    FlatArray arrays[FLAT_ARRAYS];
-    json_t *object = json_object();
-    flat_arrays(&run->form->flat, arrays);
-    for (int i = 0; i < FLAT_ARRAYS; i++)
-        json_object_set_new(object, arrays[i].name, json_integer((json_int_t)arrays[i].bytes));
-    return object;
-}
-
-static json_t *whole_json(const Run *run)
-{
-    const KernelChoice *choice = &run->session.choice;
-    return json_pack(
-        "{s:i, s:s, s:o, s:s, s:{s:s, s:s, s:s, s:s}, s:{s:b, s:s}, s:o, s:o}", "schema",
-        SCHEMA_VERSION, "version", CLRT_VERSION, "scene", json_file_path(run->options->scene_path),
-        "device", run->session.device.name, "kernels", "family", kernel_family_name(choice->family),
-        "nodes", kernel_nodes_name(choice->nodes), "precision",
-        kernel_precision_name(choice->precision), "reason", scene_family_reason(run), "program",
-        "special", run->report.drawn.is_special, "reason", scene_program_reason(run), "parts",
-        parts_json(run), "uploaded_bytes", arrays_json(run));
 }
 
 ExitCode explain_scene(Run *run, Error *error)
@@ -192,8 +190,8 @@ ExitCode explain_scene(Run *run, Error *error)
     if (!session_prepare(&run->session, &request, &run->report.drawn, error))
         return EXIT_DEVICE;
     if (options->json_path != NULL)
-        return json_file_write(whole_json(run), options->json_path, error) ? EXIT_DONE
-                                                                           : EXIT_OUTPUT;
+        return json_file_write(report_json(run), options->json_path, error) ? EXIT_DONE
+                                                                            : EXIT_OUTPUT;
     write_text(run);
     return EXIT_DONE;
 }

@@ -236,7 +236,8 @@ static ExitCode prepare(Run *run, Error *error)
     const SessionPicture request = picture_request(&(Picture){.run = run});
     if (!session_prepare(&run->session, &request, &run->report.drawn, error))
         return EXIT_DEVICE;
-    picture_print_setup(run);
+    if (run->options->verbose)
+        report_write_setup(run, stderr);
     return EXIT_DONE;
 }
 

@@ -29,8 +29,7 @@ void picture_warn_of_goal(const Options *options);
 // Prints a note if the parts have so few tiles that their times may differ much.
 void picture_warn_of_few_tiles(const Run *run);
 
-// With --verbose, print the scene, the device and the kernels, and the start of each picture.
-void picture_print_setup(const Run *run);
+// With --verbose, prints the start of each picture.
 void picture_print_beginning(const Picture *picture);
 
 // On a terminal, prints the file's name, the picture's size and the seconds since picture->moment.
@@ -69,6 +68,9 @@ const char *report_tree_name(const Run *run);
 
 // Prints the error against the reference, if one was drawn.
 void report_write_error(const Run *run, FILE *stream);
+
+// Prints the scene, the tree, the device and the kernels, before the picture is drawn.
+void report_write_setup(const Run *run, FILE *stream);
 
 // Prints time, samples, rays and tests, like the course's program.
 void report_write_text(const Run *run, FILE *stream);

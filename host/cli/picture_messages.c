@@ -34,28 +34,6 @@ void picture_warn_of_few_tiles(const Run *run)
                 PART_TILES, tiles, most);
 }
 
-void picture_print_setup(const Run *run)
-{
-    const Report *report = &run->report;
-    if (!run->options->verbose)
-        return;
-    fprintf(stderr, "scene: %zu triangles, %zu spheres, %zu lights; %zu triangles dropped\n",
-            scene_triangle_count(&run->scene), run->scene.spheres.count, run->scene.lights.count,
-            scene_dropped_count(&run->scene));
-    fprintf(stderr, "tree: %u nodes, %u leaves of at most %u triangles, %u levels\n",
-            report->tree.node_count, report->tree.leaf_count, report->tree.largest_leaf,
-            report->tree.depth);
-    const Device *device = &run->session.device;
-    fprintf(stderr, "device: %s, driver %s, %u compute units\n", device->name, device->version,
-            device->compute_units);
-    const KernelChoice *choice = &run->session.choice;
-    fprintf(stderr, "kernels: %s, %s nodes, %s, %s, ready in %.3f s; uploaded %zu bytes\n",
-            kernel_family_name(choice->family), kernel_nodes_name(choice->nodes),
-            kernel_precision_name(choice->precision),
-            report->drawn.is_special ? "specialized" : "general", report->drawn.build_seconds,
-            report->drawn.upload_size);
-}
-
 void picture_print_beginning(const Picture *picture)
 {
     const Run *run = picture->run;

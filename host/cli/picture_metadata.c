@@ -9,11 +9,6 @@
 #include <string.h>
 #include <strings.h>
 
-static json_t *pair_json(uint32_t one, uint32_t other)
-{
-    return json_pack("[oo]", json_count(one), json_count(other));
-}
-
 static json_t *samples_json(const Run *run)
 {
     return options_are_adaptive(run->options) ? json_string("adaptive")
@@ -55,9 +50,9 @@ static json_t *settings_json(const Run *run)
     if (options->time_goal > 0)
         json_object_set_new(json, "time", json_real(options->time_goal));
     if (settings->parts > 0)
-        json_object_set_new(json, "part", pair_json(settings->part + 1, settings->parts));
+        json_object_set_new(json, "part", json_pair(settings->part + 1, settings->parts));
     if (settings->parts > 0 || is_unfinished)
-        json_object_set_new(json, "tile", pair_json(settings->tile_width, settings->tile_height));
+        json_object_set_new(json, "tile", json_pair(settings->tile_width, settings->tile_height));
     if (is_unfinished)
         json_object_set_new(json, "tiles_done", json_count(run->report.drawn.progress.tiles_done));
     return json;

@@ -8,20 +8,6 @@
 #include <jansson.h>
 #include <stdio.h>
 
-// A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and
-// number in that file.
-typedef struct {
-    bool is_sphere;
-    size_t number;    // spheres from 1, triangles from 0
-    const char *path; // of the triangle's mesh; NULL for a sphere
-} PrimitiveName;
-
-PrimitiveName name_primitive(const Scene *scene, uint32_t id);
-
-// Returns the name of a defined or imported material, or the number of a material of the course.
-// The string belongs to the scene or is static.
-const char *name_material(const Scene *scene, uint32_t material);
-
 typedef struct {
     const char *scene_path;
     const Scene *scene;

@@ -1,19 +1,57 @@
 // SPDX-License-Identifier: MIT
-// Writes JSON values to files.
+// Reports as JSON and text. A report is described once, as a list of fields, and is then a JSON
+// object. Its text is a template that names fields of this object, so both always agree.
 #pragma once
 
 #include "base/error.h"
 
 #include <jansson.h>
 #include <stdint.h>
+#include <stdio.h>
 
-// Returns path as a JSON string. In a path that is not UTF-8, bytes beyond ASCII become '?'.
+// Returns path as a JSON string, or null for NULL. In a path that is not UTF-8, bytes beyond ASCII
+// become '?'.
 json_t *json_file_path(const char *path);
 
 json_t *json_count(uint64_t count);
+json_t *json_pair(uint32_t one, uint32_t other);
 
 // Returns null if value is not finite, because JSON has no infinity.
 json_t *json_finite(double value);
+
+json_t *json_flag(bool value);
+json_t *json_itself(json_t *value);
+
+typedef struct {
+    const char *name;
+    json_t *value; // a new reference
+} JsonField;
+
+// A field whose value has any of these types.
+#define FIELD(name, value)                                                                         \
+    ((JsonField){name, _Generic((value),                                                           \
+                     bool: json_flag,                                                              \
+                     uint32_t: json_count,                                                         \
+                     uint64_t: json_count,                                                         \
+                     double: json_finite,                                                          \
+                     char *: json_file_path,                                                       \
+                     const char *: json_file_path,                                                 \
+                     json_t *: json_itself)(value)})
+
+// Returns an object with these fields, or NULL if memory runs out.
+#define JSON(...)                                                                                  \
+    json_of((const JsonField[]){__VA_ARGS__},                                                      \
+            sizeof((const JsonField[]){__VA_ARGS__}) / sizeof(JsonField))
+json_t *json_of(const JsonField *fields, size_t count);
+
+// Returns a whole report, which begins with the versions of its schema and of clrt.
+#define REPORT(schema, ...)                                                                        \
+    JSON(FIELD("schema", json_integer(schema)), FIELD("version", CLRT_VERSION), __VA_ARGS__)
+
+// Prints text with the report's values: {GROUP.NAME} for integers and strings, {NAME .3f} or {NAME
+// .3g} for reals, {NAME .3g%} for shares in percent, and {NAME .3v} for arrays of reals. A null
+// value prints as infinity. A null report prints nothing.
+void json_print(const json_t *report, const char *text, FILE *stream);
 
 // Writes root with sorted keys to path ("-": standard output), and releases root.
 bool json_file_write(json_t *root, const char *path, Error *error);

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+// Describes each sample as JSON. The text, a paragraph for each ray with a line for each of its
+// lights, names fields of the JSON. Primitive ids equal the values of the --aov channel
+// "primitive", which count from 0.
+#include "explain/report.h"
+
+#include "image/json_file.h"
+
+#include <assert.h>
+#include <string.h>
+
+// Brief reports omit rays of less weight, because such rays hardly change a color of 8 bits.
+#define BRIEF_WEIGHT (1 / 255.0)
+
+// A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and
+// number in that file.
+typedef struct {
+    bool is_sphere;
+    size_t number;    // spheres from 1, triangles from 0
+    const char *path; // of the triangle's mesh; NULL for a sphere
+} PrimitiveName;
+
+// Ids number the spheres first, then the triangles, mesh after mesh.
+static PrimitiveName name_primitive(const Scene *scene, uint32_t id)
+{
+    if (id < scene->spheres.count)
+        return (PrimitiveName){.is_sphere = true, .number = (size_t)id + 1};
+    size_t number = id - scene->spheres.count, object = 0;
+    while (number >= scene->objects.data[object].mesh.triangle_count) {
+        number -= scene->objects.data[object++].mesh.triangle_count;
+        assert(object < scene->objects.count);
+    }
+    const MeshObject *found = &scene->objects.data[object];
+    return (PrimitiveName){.number = number_in_file(found, number),
+                           .path = scene->inputs.data[found->input]};
+}
+
+// Returns the name of a defined or imported material, or the number of a material of the course.
+static const char *name_material(const Scene *scene, uint32_t material)
+{
+    static const char *const courses[] = {"0", "1", "2", "3"};
+    for (size_t i = 0; i < scene->material_names.list.count; i++)
+        if (scene->material_names.list.data[i].material == material)
+            return scene->material_names.list.data[i].name;
+    assert(material < sizeof courses / sizeof *courses);
+    return courses[material];
+}
+
+static json_t *vector_json(Vec3 v)
+{
+    return json_pack("[f, f, f]", v.x, v.y, v.z);
+}
+
+static json_t *color_json(const float color[3])
+{
+    return vector_json(vec3_of_floats(color));
+}
+
+static json_t *primitive_json(const Scene *scene, uint32_t id)
+{
+    const PrimitiveName name = name_primitive(scene, id);
+    return JSON(FIELD("kind", name.is_sphere ? "sphere" : "triangle"), FIELD("number", name.number),
+                FIELD("file", name.path), FIELD("id", id));
+}
+
+static json_t *light_json(const ExplainReport *report, const ExplainedRay *ray, size_t index)
+{
+    static const char *const states[] = {"behind", "reaches", "blocked", "behind_face"};
+    const ExplainedLight *light = &ray->lights[index];
+    const Light *source = &report->scene->lights.data[index];
+    const Material *material = &report->scene->materials.data[ray->material];
+    const bool blocked = light->state == LIGHT_BLOCKED;
+    json_t *blocker = blocked ? primitive_json(report->scene, light->blocker) : json_null();
+    return JSON(FIELD("state", states[light->state]), FIELD("cosine", light->cosine),
+                FIELD("distance", light->distance), FIELD("blocker", blocker),
+                FIELD("blocker_distance", blocked ? light->blocker_distance : (double)NAN),
+                FIELD("intensity", source->intensity),
+                FIELD("diffuse", light->diffuse * (double)material->kd),
+                FIELD("shine", light->shine),
+                FIELD("highlight", light->specular * (double)material->ks),
+                FIELD("color", vector_json(source->color)));
+}
+
+static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; ray->uses_lights && i < report->scene->lights.count; i++)
+        json_array_append_new(list, light_json(report, ray, i));
+    return list;
+}
+
+// The factors of the surface's color besides the lights. Shaders that lack highlights ignore the
+// material's ks.
+static json_t *factors_json(const Scene *scene, const Material *material)
+{
+    static const char *const shaders[] = {"silhouette", "matte", "blinn_phong"};
+    return JSON(FIELD("shader", shaders[material->shader]), FIELD("ambient", scene->ambient),
+                FIELD("diffuse_color", color_json(material->diffuse)),
+                FIELD("kd", (double)material->kd),
+                FIELD("specular_color", color_json(material->specular)),
+                FIELD("ks", (double)material->ks), FIELD("shininess", (double)material->shininess));
+}
+
+static json_t *hit_json(const ExplainReport *report, const ExplainedRay *ray)
+{
+    const Scene *scene = report->scene;
+    if (ray->primitive == NOTHING)
+        return json_null();
+    const Material *material = &scene->materials.data[ray->material];
+    return JSON(
+        FIELD("primitive", primitive_json(scene, ray->primitive)),
+        FIELD("material", name_material(scene, ray->material)), FIELD("distance", ray->distance),
+        FIELD("distance_error", ray->error), FIELD("point", vector_json(ray->point)),
+        FIELD("normal", vector_json(ray->normal)), FIELD("lights", lights_json(report, ray)),
+        FIELD("factors", factors_json(scene, material)), FIELD("color", vector_json(ray->shaded)),
+        FIELD("share", ray->share), FIELD("reflectivity", (double)material->reflectivity));
+}
+
+static json_t *sample_json(const ExplainReport *report, const ExplainedSample *sample)
+{
+    const double *steps = sample->steps;
+    json_t *rays = json_array();
+    for (uint32_t level = 0; level < sample->ray_count; level++) {
+        const ExplainedRay *ray = &sample->rays[level];
+        json_array_append_new(rays, JSON(FIELD("kind", level == 0 ? "camera" : "reflected"),
+                                         FIELD("origin", vector_json(ray->origin)),
+                                         FIELD("direction", vector_json(ray->direction)),
+                                         FIELD("weight", ray->weight),
+                                         FIELD("hit", hit_json(report, ray))));
+    }
+    return JSON(
+        FIELD("rays", rays), FIELD("background_weight", sample->background_weight),
+        FIELD("color", vector_json(vec3_scale(vec3(steps[0], steps[1], steps[2]), 0x1p-32))));
+}
+
+// Prints the text for full or for brief reports.
+static void print(const ExplainReport *report, const json_t *json, const char *full,
+                  const char *brief, FILE *stream)
+{
+    json_print(json, report->is_brief ? brief : full, stream);
+}
+
+static void print_primitive(const ExplainReport *report, const json_t *primitive, FILE *stream)
+{
+    const char *path = json_string_value(json_object_get(primitive, "file"));
+    const char *slash = path == NULL ? NULL : strrchr(path, '/');
+    json_print(primitive, "{kind} {number}", stream);
+    if (path != NULL)
+        fprintf(stream, " of %s", report->is_brief && slash != NULL ? slash + 1 : path);
+}
+
+// Prints what the surface receives from a light that reaches it.
+static void print_received(const ExplainReport *report, const json_t *light, const Light *source,
+                           bool shines, FILE *stream)
+{
+    print(report, light, "; intensity {intensity .6g}; diffuse {diffuse .6g}",
+          "; diffuse {diffuse .3g}", stream);
+    if (shines)
+        print(report, light, "; shine {shine .6g}; highlight {highlight .6g}",
+              "; highlight {highlight .3g}", stream);
+    if (source->color.x < 1 || source->color.y < 1 || source->color.z < 1)
+        print(report, light, "; light color {color .6v}", "; light color {color .3v}", stream);
+}
+
+static void print_light(const ExplainReport *report, const ExplainedRay *ray, size_t index,
+                        const json_t *light, FILE *stream)
+{
+    const LightState state = ray->lights[index].state;
+    const bool shines = report->scene->materials.data[ray->material].shader == SHADER_BLINN_PHONG;
+    fprintf(stream, "    light %-4zu ", index + 1);
+    switch (state) {
+    case LIGHT_BEHIND:
+        fputs("does not reach it: the normal is turned away", stream);
+        break;
+    case LIGHT_BEHIND_FACE:
+        fputs("does not reach it: the face is turned away", stream);
+        break;
+    case LIGHT_BLOCKED:
+        fputs("is blocked by ", stream);
+        print_primitive(report, json_object_get(light, "blocker"), stream);
+        print(report, light, ", {blocker_distance .6g} away; the light is {distance .6g} away", "",
+              stream);
+        break;
+    case LIGHT_SEEN:
+        print(report, light, "reaches it from {distance .6g} away", "reaches it", stream);
+        break;
+    }
+    print(report, light, "; cosine {cosine .6g}", "", stream);
+    if (state == LIGHT_SEEN)
+        print_received(report, light, &report->scene->lights.data[index], shines, stream);
+    fputs("\n", stream);
+}
+
+// Prints the other factors of the surface's color.
+static void print_factors(const json_t *factors, Shader shader, FILE *stream)
+{
+    json_print(factors, "    factors    diffuse color {diffuse_color .6v}", stream);
+    if (shader != SHADER_SILHOUETTE)
+        json_print(factors, ", kd {kd .6g}; ambient {ambient .6g}", stream);
+    if (shader == SHADER_BLINN_PHONG)
+        json_print(factors,
+                   "; specular color {specular_color .6v}, ks {ks .6g}, shininess {shininess .6g}",
+                   stream);
+    fputs("\n", stream);
+}
+
+static void print_hit(const ExplainReport *report, const ExplainedRay *ray, const json_t *hit,
+                      FILE *stream)
+{
+    const Material *material = &report->scene->materials.data[ray->material];
+    print_primitive(report, json_object_get(hit, "primitive"), stream);
+    print(report, hit,
+          ", material {material}\n"
+          "    distance   {distance .9g}, off by at most {distance_error .2g}\n"
+          "    point      {point .6v}, normal {normal .6v}\n",
+          ", material {material}\n"
+          "    distance   {distance .3g}\n"
+          "    point      {point .3v}, normal {normal .3v}\n",
+          stream);
+    for (size_t i = 0; ray->uses_lights && i < report->scene->lights.count; i++)
+        print_light(report, ray, i, json_array_get(json_object_get(hit, "lights"), i), stream);
+    if (!report->is_brief)
+        print_factors(json_object_get(hit, "factors"), material->shader, stream);
+    print(report, hit, "    color      {color .6v}", "    color      {color .3v}", stream);
+    json_print(hit, ", weight {share .6g} in the sample", stream);
+    if (material->reflectivity > 0)
+        json_print(hit, "; reflectivity {reflectivity .6g}", stream);
+    fputs("\n", stream);
+}
+
+static void print_ray(const ExplainReport *report, const ExplainedRay *ray, const json_t *json,
+                      FILE *stream)
+{
+    print(report, json, "    from       {origin .6v} along {direction .6v}\n", "", stream);
+    fputs(ray->primitive == NOTHING ? "    meets      nothing\n" : "    meets      ", stream);
+    if (ray->primitive != NOTHING)
+        print_hit(report, ray, json_object_get(json, "hit"), stream);
+}
+
+static void print_sample(const ExplainReport *report, const ExplainedSample *sample,
+                         const json_t *json, FILE *stream)
+{
+    const double least = report->is_brief ? BRIEF_WEIGHT : 0;
+    const json_t *rays = json_object_get(json, "rays");
+    for (uint32_t level = 0; level < sample->ray_count; level++) {
+        const json_t *ray = json_array_get(rays, level);
+        if (sample->rays[level].weight < least)
+            continue;
+        if (level == 0)
+            fputs("  the camera's ray\n", stream);
+        else {
+            fprintf(stream, "  reflected ray %u", level);
+            json_print(ray, ", weight {weight .6g} in the sample\n", stream);
+        }
+        print_ray(report, &sample->rays[level], ray, stream);
+    }
+    if (sample->background_weight > least) {
+        json_t *background = JSON(FIELD("color", vector_json(report->scene->background)));
+        print(report, background, "  the background {color .6v}", "  the background {color .3v}",
+              stream);
+        json_print(json, ", weight {background_weight .6g} in the sample\n", stream);
+        json_decref(background);
+    }
+    print(report, json, "  the sample's color {color .6v}\n", "", stream);
+}
+
+// Traces the samples. Adds them to list, and prints them unless stream is NULL.
+static bool explain_samples(const ExplainReport *report, Explainer *explainer, json_t *list,
+                            FILE *stream, Error *error)
+{
+    ExplainedSample sample;
+    const uint32_t count = report->settings->samples * report->settings->samples;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!explainer_trace(explainer, report->pixel, i, &sample, error))
+            return false;
+        json_t *json = sample_json(report, &sample);
+        const bool is_printed = stream != NULL && (i == 0 || !report->is_brief);
+        if (is_printed && count > 1)
+            fprintf(stream, "sample %u of %u\n", i + 1, count);
+        if (is_printed)
+            print_sample(report, &sample, json, stream);
+        json_array_append_new(list, json);
+    }
+    return true;
+}
+
+// Returns the whole report, or NULL if the device fails. Prints the samples unless stream is NULL.
+static json_t *report_json(const ExplainReport *report, Explainer *explainer, FILE *stream,
+                           Error *error)
+{
+    float color[3];
+    unsigned char bytes[3];
+    const RenderSettings *settings = report->settings;
+    json_t *samples = json_array();
+    if (!explain_samples(report, explainer, samples, stream, error)) {
+        json_decref(samples);
+        return NULL;
+    }
+    explainer_mix(explainer, color);
+    encode_channels(color, 3, report->encoding, 1, bytes);
+    return REPORT(1, FIELD("scene", report->scene_path),
+                  FIELD("pixel", json_pair(report->pixel[0], report->pixel[1])),
+                  FIELD("size", json_pair(settings->width, settings->height)),
+                  FIELD("view", report->view),
+                  FIELD("background", vector_json(report->scene->background)),
+                  FIELD("samples", samples), FIELD("color", color_json(color)),
+                  FIELD("bytes", json_pack("[i, i, i]", bytes[0], bytes[1], bytes[2])));
+}
+
+json_t *explain_json(const ExplainReport *report, Explainer *explainer, Error *error)
+{
+    return report_json(report, explainer, NULL, error);
+}
+
+bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
+                        Error *error)
+{
+    fprintf(stream, "pixel %u,%u of %u x %u", report->pixel[0], report->pixel[1],
+            report->settings->width, report->settings->height);
+    if (!report->is_brief)
+        fprintf(stream, ", view %u of %s", report->view, report->scene_path);
+    fputs("\n", stream);
+    json_t *json = report_json(report, explainer, stream, error);
+    if (json != NULL)
+        print(report, json,
+              "the pixel's color {color .9v}, in 8 bits {bytes.0} {bytes.1} {bytes.2}\n",
+              "the pixel's color {color .3v}, in 8 bits {bytes.0} {bytes.1} {bytes.2}\n", stream);
+    json_decref(json);
+    return json != NULL;
+}
