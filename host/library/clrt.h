@@ -242,28 +242,101 @@ CLRT_API ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtEr
 // Frees the renderer. Stores its kernels if they are new, which takes up to a second. Accepts NULL.
 CLRT_API void clrt_renderer_free(ClrtRenderer *renderer);
 
-// A function that clrt_render calls in the caller's thread after every finished tile. It returns
-// whether to continue. It must not free the renderer or call clrt_render with the same renderer.
+// Pictures
+
+// A function that the calls below call in the caller's thread after every finished tile. It returns
+// whether to continue. It must not free the renderer or use it for another call. Channels, and each
+// pass of a goal or reference, may count tiles of their own, so tiles_done may start again.
 typedef bool ClrtProgress(void *user, uint64_t tiles_done, uint64_t tiles);
+
+// A channel of pixels beside their colors. This struct never grows.
+typedef struct {
+    const char *name; // see clrt_channel_get
+    void *values;     // receives components * width * height floats or uint32_t, by pixels
+} ClrtChannel;
 
 typedef struct {
     size_t size;
-    uint32_t width, height; // in pixels, each in [1, 131072]
-    uint32_t view;          // number of the scene's view, from 1; 0 means 1
-    uint32_t samples;       // N for N x N samples per pixel, at most 64; 0 means 1
-    uint32_t max_level; // rays of this level return the background; at most 1000; 0: the scene's
-    const ClrtCamera *camera; // used instead of view; may be NULL
-    ClrtProgress *progress;   // may be NULL
-    void *user;               // passed to progress
+    char name[16];       // as in `clrt --aov`
+    uint32_t components; // values per pixel
+    bool is_integer;     // values are uint32_t; otherwise float
+    char help[192];      // the meaning of the values
+} ClrtChannelInfo;
+
+// Describes a kind of channel, from 0, in the first info->size bytes of *info. The caller sets
+// info->size. The number of kinds is clrt_channel_count().
+CLRT_API uint32_t clrt_channel_count(void);
+CLRT_API bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError *error);
+
+// The results of a call besides its pixels. Costs cover the colors, not the channels.
+typedef struct {
+    size_t size;
+    uint32_t width, height;    // of the drawn pixels
+    uint32_t samples;          // per pixel and axis; 1 with a goal
+    uint32_t max_level;        // at which rays end
+    double truncation;         // bound on the error of every color because rays end there
+    bool goal_missed;          // the picture has a larger error than requested
+    double error, error_bound; // RMSE of goals: estimated, and with 95 % confidence
+    uint64_t sample_count;     // samples taken
+    uint64_t pixels_open, pixels_repaired, pixels_certified; // of the channel certainty
+    double seconds;                                          // for colors and channels
+
+    // Zero without ClrtPicture::statistics.
+    uint64_t camera_rays, shadow_rays, reflected_rays, camera_hits, shaded_points;
+    uint64_t triangle_tests, box_tests, sphere_tests;
+} ClrtResult;
+
+// The rays of this max_level see only the background.
+enum { CLRT_LEVEL_NONE = -1 };
+
+// A request for a picture. The zero value draws the scene's first view as `clrt SCENE -o FILE`.
+// At most one of contrast, error and seconds is above 0. They choose the samples, so they exclude
+// samples, a crop, a tile size and the channels boxtests, tritests and certainty.
+typedef struct {
+    size_t size;
+    uint32_t width, height;                      // in pixels, each at most 131072; 0: the scene's
+    uint32_t left, top, crop_width, crop_height; // draws only this rectangle; 0, 0, 0, 0: all
+    uint32_t view;                               // number of the scene's view, from 1; 0 means 1
+    const ClrtCamera *camera;                    // used instead of view; may be NULL
+    double turn_degrees; // turns the eye about the point looked at, as --turntable
+
+    uint32_t samples; // N for N x N samples per pixel, at most 64; 0: 3 for mesh files, otherwise 1
+    double contrast;  // adds samples until neighbors differ by at most this; at most 1
+    double error;     // adds samples until the RMSE is at most this; at most 1
+    double seconds;   // adds samples for this time; at most 1e6
+    int32_t max_level; // rays of this level see the background; at most 1000; 0: the scene's, or
+                       // chosen by error; CLRT_LEVEL_NONE: camera rays see the background
+    double truncation; // if above 0: the smallest max_level whose error is at most this
+    uint32_t reference_samples; // of clrt_reference, per pixel: even, at most 65536; 0: 256
+
+    uint32_t tile_width, tile_height; // the steps of progress, which change no bit; 0: 128
+    bool statistics;                  // counts rays and tests
+    ClrtProgress *progress;           // may be NULL
+    void *user;                       // passed to progress
+
+    // Outputs besides the colors.
+    const ClrtChannel *channels; // channel_count elements with different names
+    uint32_t channel_count;
+    ClrtResult *result; // may be NULL; the caller sets result->size
 } ClrtPicture;
 
 // Draws the scene into rgb, an array of 3 * width * height floats: R G B in [0, 1], top row first.
-// Unless the renderer's previous picture shows the same unchanged scene, the call also builds a
-// tree. A new size or camera needs none. Returns false with CLRT_STOPPED if progress stops the
-// picture before its last tile. Then, or if the device fails, rgb contains complete tiles of up to
-// 128 x 128 pixels, and its other values are unchanged.
+// With a crop, width and height are the crop's. Unless the renderer's previous picture shows the
+// same unchanged scene, the call also builds a tree. A new size or camera needs none. Returns false
+// with CLRT_STOPPED if progress stops the picture before its last tile. Then, or if the device
+// fails, rgb contains complete tiles, and its other values are unchanged; pictures with a goal
+// leave rgb undefined. The channel certainty replaces the colors of pixels repaired in fp64.
 CLRT_API bool clrt_render(ClrtRenderer *renderer, const ClrtScene *scene,
                           const ClrtPicture *picture, float *rgb, ClrtError *error);
+
+// Draws the reference of the picture: the same picture with picture->reference_samples samples per
+// pixel and the accuracy of fp64. result->error is the reference's own RMSE. Takes no channels.
+CLRT_API bool clrt_reference(ClrtRenderer *renderer, const ClrtScene *scene,
+                             const ClrtPicture *picture, float *rgb, ClrtError *error);
+
+// Writes 32 hexadecimal digits and a zero, which identify a picture's size and exact bits, as
+// `clrt --hash`.
+CLRT_API void clrt_hash(const float *rgb, uint32_t width, uint32_t height, char hash[33]);
 
 #ifdef __cplusplus
 }

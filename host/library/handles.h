@@ -48,6 +48,9 @@ bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtEr
 // Fails with CLRT_ARGUMENT if the camera is invalid.
 bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, ClrtError *error);
 
+// Fails with CLRT_ARGUMENT if the scene has no view with this number, from 1.
+bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *error);
+
 // The inside of a ClrtRenderer.
 struct ClrtRenderer {
     Session session;

@@ -1,101 +1,184 @@
 // SPDX-License-Identifier: MIT
-// Renderer, scene and the caller's settings -> the caller's floats, written tile by tile.
-#include "library/handles.h"
+// Renderer, scene and the caller's request -> the caller's pixels, channels and results.
+#include "library/drawing.h"
 
-// The side of a tile in pixels, which does not affect the picture.
-#define TILE 128
+#include "base/clock.h"
+#include "scene/camera.h"
+#include "session/reference.h"
 
-// Copies the caller's settings into wanted, fills in defaults and checks the numbers.
-static bool take_settings(ClrtPicture *wanted, const ClrtPicture *picture, const Scene *scene,
-                          ClrtError *error)
-{
-    if (!check_struct(error, "the picture", picture, wanted, sizeof *wanted))
-        return false;
-    if (wanted->samples == 0)
-        wanted->samples = 1;
-    if (wanted->view == 0)
-        wanted->view = 1;
-    if (wanted->max_level == 0)
-        wanted->max_level = scene->max_level;
-    return check_number(error, "the width", wanted->width, 1, PICTURE_SIZE_MAX) &&
-           check_number(error, "the height", wanted->height, 1, PICTURE_SIZE_MAX) &&
-           check_number(error, "the number of samples", wanted->samples, 1, SAMPLES_MAX) &&
-           check_number(error, "max_level", wanted->max_level, 0, MAX_LEVEL_LIMIT);
-}
+#include <stdlib.h>
+#include <string.h>
 
-static bool take_viewpoint(Viewpoint *viewpoint, const ClrtPicture *wanted, const Scene *scene,
-                           ClrtError *error)
-{
-    const size_t count = scene->viewpoints.count;
-    if (wanted->camera != NULL)
-        return scene_handle_take_camera(viewpoint, wanted->camera, error);
-    if (wanted->view > count)
-        return check_fail(error, CLRT_ARGUMENT, "view %u does not exist: the scene has %zu",
-                          wanted->view, count);
-    *viewpoint = scene->viewpoints.data[wanted->view - 1];
-    return true;
-}
-
-// Fails if the caller's camera is too far from the scene. The scene's own cameras have been
-// checked.
-static bool check_distance(const ClrtRenderer *renderer, Viewpoint *viewpoint, ClrtError *error)
+static bool draw_colors(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};
-    const Scene alone = {.viewpoints = {.data = viewpoint, .count = 1}};
-    return normalization_check(&renderer->session.scene.normalization, &alone, &cause) ||
-           check_fail_for(error, CLRT_ARGUMENT, &cause);
+    const RenderObserver observer = {drawing_continues, drawing};
+    return session_draw(&drawing->renderer->session, &drawing->request, &observer,
+                        &drawing->framebuffer, &drawing->drawn, &cause) ||
+           check_fail_for(error, CLRT_DEVICE, &cause);
 }
 
-static bool report_progress(void *context, const RenderProgress *progress)
-{
-    const ClrtPicture *wanted = context;
-    return wanted->progress == NULL ||
-           wanted->progress(wanted->user, progress->tiles_done, progress->tiles);
-}
-
-static bool draw(ClrtRenderer *renderer, const Viewpoint *viewpoint, ClrtPicture *wanted,
-                 float *rgb, ClrtError *error)
+// Certifies the picture if a channel needs it.
+static bool certify(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};
-    PictureResult drawn = {0};
-    Framebuffer framebuffer = {(float(*)[3])rgb, wanted->width, wanted->height};
-    const RenderObserver observer = {report_progress, wanted};
-    const SessionPicture request = {.settings = {.width = wanted->width,
-                                                 .height = wanted->height,
-                                                 .samples = wanted->samples,
-                                                 .max_level = wanted->max_level,
-                                                 .tile_width = TILE,
-                                                 .tile_height = TILE},
-                                    .viewpoint = *viewpoint};
-    if (!session_draw(&renderer->session, &request, &observer, &framebuffer, &drawn, &cause))
-        return check_fail_for(error, CLRT_DEVICE, &cause);
-    return drawn.is_complete ||
+    const RenderObserver observer = {drawing_continues, drawing};
+    const CertifiedPicture certified = {&drawing->framebuffer, &drawing->certainty};
+    if (drawing->is_stopped || !aov_needs(drawing->channels, AOV_NEEDS_CERTAINTY))
+        return true;
+    return (certainty_map_make(&drawing->certainty, drawing->framebuffer.width,
+                               drawing->framebuffer.height, &cause) &&
+            session_certify(&drawing->renderer->session, &drawing->request, &observer, &certified,
+                            &cause)) ||
+           check_fail_for(error, CLRT_DEVICE, &cause);
+}
+
+// Copies the values of the channel in row `row` of aov_table. Returns the number of its components.
+static uint32_t copy_channel(const Drawing *drawing, const Layers *layers, size_t row,
+                             uint32_t first)
+{
+    const uint32_t components = drawing_components(row);
+    const size_t pixels = (size_t)layers->width * layers->height;
+    for (uint32_t i = 0; i < drawing->wanted.channel_count; i++) {
+        const ClrtChannel *channel = &drawing->wanted.channels[i];
+        uint32_t *values = channel->values;
+        for (size_t pixel = 0; pixel < pixels && strcmp(channel->name, aov_table[row].name) == 0;
+             pixel++)
+            memcpy(values + pixel * components, layers->values + pixel * layers->count + first,
+                   components * sizeof *values);
+    }
+    return components;
+}
+
+static bool draw_channels(Drawing *drawing, ClrtError *error)
+{
+    Error cause = {0};
+    Layers layers = {0};
+    const RenderObserver observer = {drawing_continues, drawing};
+    const ChannelRequest channels = {drawing->channels, drawing->drawn.pixel_samples,
+                                     drawing->certainty.marks != NULL ? &drawing->certainty : NULL};
+    if (drawing->is_stopped || drawing->channels == 0)
+        return true;
+    aov_name_layers(drawing->channels, &layers);
+    const bool ok =
+        layers_make(&layers, drawing->framebuffer.width, drawing->framebuffer.height, &cause) &&
+        session_draw_channels(&drawing->renderer->session, &drawing->request, &channels, &observer,
+                              &layers, &cause);
+    uint32_t first = 0;
+    for (size_t row = 0; ok && !drawing->is_stopped && row < aov_count; row++)
+        if ((drawing->channels >> row & 1) != 0)
+            first += copy_channel(drawing, &layers, row, first);
+    layers_free(&layers);
+    return ok || check_fail_for(error, CLRT_DEVICE, &cause);
+}
+
+static bool check_stopped(const Drawing *drawing, ClrtError *error)
+{
+    return !drawing->is_stopped ||
            check_fail(error, CLRT_STOPPED, "the picture was stopped after %llu of %llu tiles",
-                      (unsigned long long)drawn.progress.tiles_done,
-                      (unsigned long long)drawn.progress.tiles);
+                      (unsigned long long)drawing->tiles_done, (unsigned long long)drawing->tiles);
 }
 
-static bool render(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtPicture *picture,
-                   float *rgb, ClrtError *error)
+static bool draw(Drawing *drawing, ClrtError *error)
 {
-    ClrtPicture wanted;
-    Viewpoint viewpoint;
-    return take_settings(&wanted, picture, &scene->scene, error) &&
-           take_viewpoint(&viewpoint, &wanted, &scene->scene, error) &&
-           renderer_handle_take(renderer, scene, error) &&
-           check_distance(renderer, &viewpoint, error) &&
-           draw(renderer, &viewpoint, &wanted, rgb, error);
+    const double start = clock_seconds();
+    drawing->request.keeps_samples = drawing->channels != 0;
+    const bool ok = draw_colors(drawing, error) && certify(drawing, error) &&
+                    draw_channels(drawing, error) && check_stopped(drawing, error);
+    drawing->seconds = clock_seconds() - start;
+    return ok;
+}
+
+static bool draw_reference(Drawing *drawing, ClrtError *error)
+{
+    Error cause = {0};
+    ReferencePicture reference;
+    const ClrtPicture *wanted = &drawing->wanted;
+    const double start = clock_seconds();
+    const RenderObserver observer = {drawing_continues, drawing};
+    const Framebuffer *frame = &drawing->framebuffer;
+    if (drawing->channels != 0)
+        return check_fail(error, CLRT_ARGUMENT, "a reference has no channels");
+    drawing->request.settings.max_level = request_reference_level(wanted, drawing->scene);
+    const bool ok = reference_draw(&drawing->renderer->session, &drawing->request,
+                                   wanted->reference_samples > 0 ? wanted->reference_samples
+                                                                 : REFERENCE_SAMPLES,
+                                   &observer, &reference, &cause) ||
+                    check_fail_for(error, CLRT_DEVICE, &cause);
+    if (ok && !drawing->is_stopped)
+        memcpy(frame->pixels, reference.picture.pixels,
+               (size_t)frame->width * frame->height * sizeof *frame->pixels);
+    drawing->drawn.estimate = reference.own_error;
+    drawing->seconds = clock_seconds() - start;
+    framebuffer_free(&reference.picture);
+    return ok && check_stopped(drawing, error);
+}
+
+static void fill_result(const Drawing *drawing)
+{
+    const RenderSettings *settings = &drawing->request.settings;
+    const PictureResult *drawn = &drawing->drawn;
+    const uint64_t *tallies = drawn->progress.tallies, *marks = drawing->certainty.counts;
+    const ClrtResult filled = {
+        .width = settings->width,
+        .height = settings->height,
+        .samples = settings->samples,
+        .max_level = settings->max_level,
+        .truncation = truncation_bound(drawing->scene, settings->max_level),
+        .goal_missed = drawn->goal_missed,
+        .error = drawn->estimate,
+        .error_bound = drawn->bound,
+        .sample_count = drawn->samples,
+        .pixels_open = marks[CERTAINTY_OPEN],
+        .pixels_repaired = marks[CERTAINTY_REPAIRED],
+        .pixels_certified = marks[CERTAINTY_CERTIFIED],
+        .seconds = drawing->seconds,
+        .camera_rays = tallies[TALLY_CAMERA_RAYS],
+        .shadow_rays = tallies[TALLY_SHADOW_RAYS],
+        .reflected_rays = tallies[TALLY_REFLECTED_RAYS],
+        .camera_hits = tallies[TALLY_CAMERA_HITS],
+        .shaded_points = tallies[TALLY_SHADED_POINTS],
+        .triangle_tests = tallies[TALLY_TRIANGLE_TESTS],
+        .box_tests = tallies[TALLY_BOX_TESTS],
+        .sphere_tests = tallies[TALLY_SPHERE_TESTS],
+    };
+    if (drawing->wanted.result != NULL)
+        fill_struct(drawing->wanted.result, &filled, sizeof filled);
+}
+
+// Prepares the request, calls `perform`, and fills the caller's result.
+static bool perform_drawing(Drawing *drawing, const ClrtPicture *picture, float *rgb,
+                            bool perform(Drawing *, ClrtError *), ClrtError *error)
+{
+    if (!check_given(error, "the picture's memory", rgb) || !drawing_begin(drawing, picture, error))
+        return false;
+    drawing->framebuffer = (Framebuffer){(float(*)[3])rgb, drawing->request.settings.width,
+                                         drawing->request.settings.height};
+    const bool ok = drawing_take_scene(drawing, error) && perform(drawing, error);
+    if (ok)
+        fill_result(drawing);
+    certainty_map_free(&drawing->certainty);
+    free(drawing->drawn.pixel_samples);
+    drawing_end(drawing);
+    return ok;
 }
 
 bool clrt_render(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtPicture *picture,
                  float *rgb, ClrtError *error)
 {
-    if (!check_given(error, "the renderer", renderer) || !check_given(error, "the scene", scene) ||
-        !check_given(error, "the picture's memory", rgb))
-        return false;
-    if (atomic_exchange(&renderer->is_busy, true))
-        return check_fail(error, CLRT_ARGUMENT, "the renderer is drawing another picture");
-    const bool ok = render(renderer, scene, picture, rgb, error);
-    atomic_store(&renderer->is_busy, false);
-    return ok;
+    Drawing drawing = {.renderer = renderer, .handle = scene};
+    return perform_drawing(&drawing, picture, rgb, draw, error);
+}
+
+bool clrt_reference(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtPicture *picture,
+                    float *rgb, ClrtError *error)
+{
+    Drawing drawing = {.renderer = renderer, .handle = scene};
+    return perform_drawing(&drawing, picture, rgb, draw_reference, error);
+}
+
+void clrt_hash(const float *rgb, uint32_t width, uint32_t height, char hash[33])
+{
+    const Framebuffer framebuffer = {(float(*)[3])rgb, width, height};
+    framebuffer_hash(&framebuffer, hash);
 }

@@ -96,7 +96,7 @@ bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, Cl
     return fault == NULL || check_fail(error, CLRT_ARGUMENT, "%s", fault);
 }
 
-static bool check_view(const ClrtScene *scene, uint32_t view, ClrtError *error)
+bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *error)
 {
     const size_t count = scene->scene.viewpoints.count;
     return (view >= 1 && view <= count) ||
@@ -128,7 +128,7 @@ bool clrt_scene_get_camera(const ClrtScene *scene, uint32_t view, ClrtCamera *ca
     ClrtCamera filled;
     if (!check_given(error, "the scene", scene) ||
         !check_struct(error, "the camera", camera, &filled, sizeof filled) ||
-        !check_view(scene, view, error))
+        !scene_handle_check_view(scene, view, error))
         return false;
     const Viewpoint *viewpoint = &scene->scene.viewpoints.data[view - 1];
     filled = (ClrtCamera){.fov_degrees = viewpoint->fov_degrees,

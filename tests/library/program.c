@@ -24,7 +24,7 @@ ClrtRenderer *program_renderer(uint32_t threads)
 }
 
 // The file's rows start at the bottom.
-static float *read_pfm(const char *path, uint32_t width, uint32_t height)
+float *program_read(const char *path, uint32_t width, uint32_t height)
 {
     uint32_t size[2];
     FILE *file = fopen(path, "rb");
@@ -51,7 +51,7 @@ float *program_draw(const char *scene, const char *options, uint32_t width, uint
     snprintf(command, sizeof command, "'%s' '%s' -q -s %ux%u %s -o %s", CLRT_PROGRAM, scene, width,
              height, options, path);
     assert_int_equal(system(command), 0);
-    float *pixels = read_pfm(path, width, height);
+    float *pixels = program_read(path, width, height);
     unlink(path);
     return pixels;
 }

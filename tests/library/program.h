@@ -8,6 +8,9 @@
 // the top row first. The caller frees it.
 float *program_draw(const char *scene, const char *options, uint32_t width, uint32_t height);
 
+// Reads a PFM file of this size. The caller frees the floats.
+float *program_read(const char *path, uint32_t width, uint32_t height);
+
 // Returns whether the library draws the expected picture, bit for bit.
 bool program_agrees(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtPicture *picture,
                     const float *expected);

@@ -65,7 +65,7 @@ TEST(a_loaded_scene_or_mesh_is_the_programs_picture)
                                         "scenes/blinn_phong.scn", "tests/image/every_feature.scn",
                                         "scenes/tetrahedron.ply"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        expect_program(load(program_file(names[i])), names[i], "--aa=1",
+        expect_program(load(program_file(names[i])), names[i], "",
                        (ClrtPicture){.width = 150, .height = 131});
 }
 

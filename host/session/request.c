@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// The rules and defaults of ClrtPicture.
+#include "session/request.h"
+
+#include "scene/camera.h"
+
+#include <math.h>
+
+// The truncation of reflections may use this fraction of the error goal. The fraction is small
+// because more levels cost less than more samples.
+#define TRUNCATION_PART 0.25
+
+// The samples per pixel and axis of a lone mesh.
+#define MESH_SAMPLES 3
+
+// The side of a tile in pixels.
+#define TILE 128
+
+// Half of the difference of neighboring floats just below 1.
+#define FLOAT_HALF_STEP 0x1p-25
+
+#define TURN_MOST 1e9 // degrees
+
+static bool check_numbers(const ClrtPicture *wanted, RequestFault *fault)
+{
+    const RequestFault ranges[] = {
+        {REQUEST_NUMBER, "width", NULL, wanted->width, 0, PICTURE_SIZE_MAX},
+        {REQUEST_NUMBER, "height", NULL, wanted->height, 0, PICTURE_SIZE_MAX},
+        {REQUEST_NUMBER, "turn_degrees", NULL, wanted->turn_degrees, -TURN_MOST, TURN_MOST},
+        {REQUEST_NUMBER, "samples", NULL, wanted->samples, 0, SAMPLES_MAX},
+        {REQUEST_NUMBER, "contrast", NULL, wanted->contrast, 0, 1},
+        {REQUEST_NUMBER, "error", NULL, wanted->error, 0, 1},
+        {REQUEST_NUMBER, "seconds", NULL, wanted->seconds, 0, TIME_GOAL_MOST},
+        {REQUEST_NUMBER, "max_level", NULL, wanted->max_level, CLRT_LEVEL_NONE, MAX_LEVEL_LIMIT},
+        {REQUEST_NUMBER, "truncation", NULL, wanted->truncation, 0, 1},
+        {REQUEST_NUMBER, "reference_samples", NULL, wanted->reference_samples, 0,
+         REFERENCE_SAMPLES_MAX},
+        {REQUEST_NUMBER, "tile_width", NULL, wanted->tile_width, 0, PICTURE_SIZE_MAX},
+        {REQUEST_NUMBER, "tile_height", NULL, wanted->tile_height, 0, PICTURE_SIZE_MAX},
+    };
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++)
+        if (!(ranges[i].value >= ranges[i].low && ranges[i].value <= ranges[i].high)) {
+            *fault = ranges[i];
+            return false;
+        }
+    *fault = (RequestFault){.rule = REQUEST_EVEN, .setting = "reference_samples"};
+    return wanted->reference_samples % 2 == 0;
+}
+
+static bool has_crop(const ClrtPicture *wanted)
+{
+    return wanted->left > 0 || wanted->top > 0 || wanted->crop_width > 0 || wanted->crop_height > 0;
+}
+
+static bool check_conflicts(const ClrtPicture *wanted, AovSet channels, Precision precision,
+                            RequestFault *fault)
+{
+    const char *goal = wanted->error > 0 ? "error" : wanted->seconds > 0 ? "seconds" : "contrast";
+    const bool refines = wanted->error > 0 || wanted->seconds > 0 || wanted->contrast > 0;
+    const bool is_certain = aov_needs(channels, AOV_NEEDS_CERTAINTY);
+    const struct {
+        bool is_broken;
+        const char *setting, *other;
+    } rules[] = {
+        {wanted->contrast > 0 && wanted->error > 0, "contrast", "error"},
+        {wanted->contrast > 0 && wanted->seconds > 0, "contrast", "seconds"},
+        {wanted->error > 0 && wanted->seconds > 0, "error", "seconds"},
+        {refines && wanted->samples > 0, "samples", goal},
+        {refines && has_crop(wanted), "crop", goal},
+        {refines && (wanted->tile_width > 0 || wanted->tile_height > 0), "tile", goal},
+        {refines && aov_needs(channels, AOV_NEEDS_TESTS), "boxtests or tritests", goal},
+        {refines && is_certain, "certainty", goal},
+        {is_certain && precision != PRECISION_FP32, "certainty", "fp64"},
+        {wanted->truncation > 0 && wanted->max_level != 0, "truncation", "max_level"},
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        if (rules[i].is_broken) {
+            *fault = (RequestFault){
+                .rule = REQUEST_CONFLICT, .setting = rules[i].setting, .other = rules[i].other};
+            return false;
+        }
+    return true;
+}
+
+bool request_check(const ClrtPicture *wanted, AovSet channels, Precision precision,
+                   RequestFault *fault)
+{
+    return check_numbers(wanted, fault) && check_conflicts(wanted, channels, precision, fault);
+}
+
+// Returns whether an error bound chooses the picture's level.
+static bool chooses_level(const ClrtPicture *wanted)
+{
+    return wanted->max_level == 0 && (wanted->truncation > 0 || wanted->error > 0);
+}
+
+static uint32_t max_level_of(const ClrtPicture *wanted, const Scene *scene)
+{
+    if (chooses_level(wanted))
+        return truncation_level(scene, wanted->truncation > 0 ? wanted->truncation
+                                                              : wanted->error * TRUNCATION_PART);
+    if (wanted->max_level == CLRT_LEVEL_NONE)
+        return 0;
+    return wanted->max_level > 0 ? (uint32_t)wanted->max_level : scene->max_level;
+}
+
+uint32_t request_reference_level(const ClrtPicture *wanted, const Scene *scene)
+{
+    const uint32_t level = chooses_level(wanted) ? truncation_level(scene, FLOAT_HALF_STEP)
+                                                 : max_level_of(wanted, scene);
+    return level > scene->max_level ? level : scene->max_level;
+}
+
+static uint32_t samples_of(const ClrtPicture *wanted, const Scene *scene, const PictureGoal *goal)
+{
+    if (wanted->samples > 0 || goal_is_given(goal))
+        return wanted->samples > 0 ? wanted->samples : 1;
+    return scene->mesh_up == UP_AUTO ? 1 : MESH_SAMPLES;
+}
+
+// Replaces the settings of a whole picture by the crop's settings.
+static bool crop_settings(RenderSettings *settings, const ClrtPicture *wanted)
+{
+    const uint32_t width = settings->width, height = settings->height;
+    if (!has_crop(wanted))
+        return true;
+    settings->whole_width = width;
+    settings->whole_height = height;
+    settings->left = wanted->left;
+    settings->top = wanted->top;
+    settings->width = wanted->crop_width;
+    settings->height = wanted->crop_height;
+    return wanted->crop_width > 0 && wanted->crop_width <= width &&
+           wanted->left <= width - wanted->crop_width && wanted->crop_height > 0 &&
+           wanted->crop_height <= height && wanted->top <= height - wanted->crop_height;
+}
+
+bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpoint *camera,
+                     SessionPicture *picture)
+{
+    const uint32_t level = max_level_of(wanted, scene);
+    const double truncated =
+        wanted->error > 0 && wanted->max_level == 0 ? truncation_bound(scene, level) : 0;
+    *picture =
+        (SessionPicture){.goal = {wanted->contrast, wanted->error, wanted->seconds, truncated},
+                         .counts = wanted->statistics};
+    picture->settings =
+        (RenderSettings){.width = wanted->width > 0 ? wanted->width : scene->width,
+                         .height = wanted->height > 0 ? wanted->height : scene->height,
+                         .samples = samples_of(wanted, scene, &picture->goal),
+                         .max_level = level,
+                         .tile_width = wanted->tile_width > 0 ? wanted->tile_width : TILE,
+                         .tile_height = wanted->tile_height > 0 ? wanted->tile_height : TILE};
+    const size_t view = wanted->view > 0 ? wanted->view - 1 : 0;
+    picture->viewpoint =
+        turn_viewpoint(camera != NULL ? camera : &scene->viewpoints.data[view],
+                       camera == NULL && scene->has_course_views, wanted->turn_degrees);
+    return crop_settings(&picture->settings, wanted);
+}
