@@ -11,17 +11,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static bool count_leaks(Check *check, const Options *options, RayCaster *caster, Error *error)
+static bool count_leaks(Check *check, const SessionSettings *settings, RayCaster *caster,
+                        Error *error)
 {
-    ThreadPool *pool = thread_pool_open(threads_allowed(options->threads));
+    ThreadPool *pool = thread_pool_open(threads_allowed(settings->threads));
     bool ok = true;
     for (size_t object = 0; ok && object < check->scene.objects.count; object++) {
         const LeakSetting setting = {
             .normalization = &check->normalization,
             .closedness = &check->census.meshes[object].closedness,
             .pool = pool,
-            .builder = options->builder,
-            .uses_bvh = !options->no_bvh,
+            .builder = settings->builder,
+            .uses_bvh = settings->tree != TREE_NEVER,
         };
         const MeshObject *given = &check->scene.objects.data[object];
         if (given->mesh.triangle_count > 0)
@@ -37,7 +38,7 @@ static bool trace_leaks(Check *check, Run *run, Error *error)
     check->leaks = memory_zeroed(check->scene.objects.count, sizeof *check->leaks, error);
     if (check->leaks == NULL || !ray_caster_open(&caster, &run->session, error))
         return false;
-    const bool ok = count_leaks(check, run->options, &caster, error);
+    const bool ok = count_leaks(check, &run->session.settings, &caster, error);
     ray_caster_close(&caster);
     return ok;
 }

@@ -38,8 +38,8 @@ static ScenePart tree_part(const Run *run, bool is_needed)
                     kernel_nodes_name(run->session.choice.nodes), stored == 1 ? "" : "s");
     if (triangles == 0)
         return part("tree", false, "there are no triangles to find");
-    if (run->options->no_bvh)
-        return part("tree", false, "--no-bvh: every triangle is tested");
+    if (run->options->bvh == TUNE_BVH_NONE)
+        return part("tree", false, "--tune bvh=none: every triangle is tested");
     return part("tree", false, "testing all %u triangles is faster", triangles);
 }
 
@@ -72,10 +72,8 @@ static const char *scene_family_reason(const Run *run)
     const KernelRequest *request = &run->options->kernel;
     if (request->precision == PRECISION_FP64)
         return "--precision fp64 traces rays one by one";
-    if (request->family > 0)
-        return "--kernel requests it";
-    if (request->nodes == 1 + NODES_PAIR)
-        return "--nodes pair has no packets";
+    if (request->form != KERNEL_AUTO)
+        return "--tune kernel requests it";
     if (run->session.is_quick)
         return "packets are not compiled yet, and compiling takes longer than they would save";
     if (kernel_suits_packets(&run->session.device))
@@ -87,7 +85,7 @@ static const char *scene_program_reason(const Run *run)
 {
     const bool is_special = run->report.drawn.is_special;
     if (run->options->specialization != SPECIALIZE_AUTO)
-        return is_special ? "--specialize always" : "--specialize never";
+        return is_special ? "--tune specialize=always" : "--tune specialize=never";
     return is_special
                ? "the kernels are compiled already, or save more than compiling costs"
                : "special kernels are not compiled yet, and would save less than compiling costs";

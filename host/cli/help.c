@@ -39,8 +39,11 @@ static void write_option(FILE *stream, const Option *option)
     if (option->letter != 0)
         snprintf(letter, sizeof letter, "-%c, ", option->letter);
     const bool separate = option->argument != NULL && !option_argument_is_optional(option);
-    snprintf(name, sizeof name, "  %s--%s%s%s", letter, option->name, separate ? " " : "",
-             option->argument == NULL ? "" : option->argument);
+    if (option_key(option) != NULL)
+        snprintf(name, sizeof name, "        %s=%s", option_key(option), option->argument);
+    else
+        snprintf(name, sizeof name, "  %s--%s%s%s", letter, option->name, separate ? " " : "",
+                 option->argument == NULL ? "" : option->argument);
     snprintf(text, sizeof text, option->class == CLASS_NONE ? "%s" : "%s [%s]", option->help,
              option_class_names[option->class]);
     write_item(stream, name, text);

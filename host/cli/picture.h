@@ -63,7 +63,7 @@ SessionPicture picture_request(const Picture *picture);
 
 // Reports of a run's costs and results, as text and as JSON.
 
-// Returns the name of the tree's builder as in --bvh, or "none" without a tree.
+// Returns the name of the tree's builder as in --tune bvh, or "none" without a tree.
 const char *report_tree_name(const Run *run);
 
 // Prints the error against the reference, if one was drawn.

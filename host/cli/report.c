@@ -20,7 +20,7 @@ const char *report_tree_name(const Run *run)
 {
     if (run->report.tree.node_count == 0)
         return "none";
-    return run->options->builder == BVH_MIDPOINT ? "midpoint" : "sah";
+    return run->session.settings.builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }
 
 static json_t *frames_json(const Report *report)

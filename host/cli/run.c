@@ -58,14 +58,15 @@ static uint32_t samples_of(const Options *options, const Scene *scene)
 static RenderSettings settings_of(const Options *options, const Scene *scene)
 {
     const bool sized = options->width > 0;
-    const bool small = options->parts > 0 && !option_is_given(options, "tile");
+    const bool has_tile = options->tile_width > 0;
+    const uint32_t side = options->parts > 0 ? OPTIONS_PART_TILE : OPTIONS_TILE;
     return (RenderSettings){
         .width = sized ? options->width : scene->width,
         .height = sized ? options->height : scene->height,
         .samples = samples_of(options, scene),
         .max_level = max_level_of(options, scene),
-        .tile_width = small ? OPTIONS_PART_TILE : options->tile_width,
-        .tile_height = small ? OPTIONS_PART_TILE : options->tile_height,
+        .tile_width = has_tile ? options->tile_width : side,
+        .tile_height = has_tile ? options->tile_height : side,
         .part = options->parts > 0 ? options->part - 1 : 0,
         .parts = options->parts,
     };
@@ -112,22 +113,16 @@ static void show_loading(const Options *options, bool begins)
         progress_show_loading(begins);
 }
 
-static TreeUse tree_use(const Options *options)
-{
-    if (options->no_bvh)
-        return TREE_NEVER;
-    return option_is_given(options, "bvh") ? TREE_ALWAYS : TREE_AUTO;
-}
-
 SessionSettings run_session_settings(const Options *options)
 {
+    static const TreeUse trees[] = {TREE_AUTO, TREE_ALWAYS, TREE_ALWAYS, TREE_NEVER}; // by TuneBvh
     return (SessionSettings){.device = options->device,
                              .threads = options->threads,
                              .kernel_folder = getenv("CLRT_KERNEL_DIR"),
                              .kernel = options->kernel,
                              .specialization = options->specialization,
-                             .builder = options->builder,
-                             .tree = tree_use(options),
+                             .builder = options->bvh == TUNE_BVH_MIDPOINT ? BVH_MIDPOINT : BVH_SAH,
+                             .tree = trees[options->bvh],
                              .group_width = options->group_width,
                              .group_height = options->group_height};
 }

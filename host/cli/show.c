@@ -40,7 +40,7 @@ ExitCode show_scene(Run *run, Error *error)
                                      .samples = options->samples > 1 ? options->samples : 2,
                                      .smooth =
                                          options->samples > 1 || !option_is_given(options, "aa"),
-                                     .uses_bvh = !options->no_bvh,
+                                     .uses_bvh = options->bvh != TUNE_BVH_NONE,
                                      .encoding = options->encoding,
                                      .exposure = (int)lround(2 * options->exposure),
                                      .tracer = {.session = run_session_settings(options),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compiles the general kernels and, with a scene, its specialized kernels. With a scene,
-// "--specialize always" omits the general and "--specialize never" the specialized kernels.
+// "--tune specialize=always" omits the general kernels, and "specialize=never" the
+// specialized ones.
 #include "cli/commands.h"
 
 #include <stdio.h>

@@ -23,32 +23,13 @@ void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTION
                  choice->lanes);
 }
 
-static bool wants_family(const KernelRequest *request, KernelFamily family)
+bool kernel_is_valid(const KernelRequest *request)
 {
-    return request->family == 1 + (int)family;
-}
-
-static bool wants_nodes(const KernelRequest *request, NodeLayout nodes)
-{
-    return request->nodes == 1 + (int)nodes;
-}
-
-bool kernel_check_request(const KernelRequest *request, Error *error)
-{
-    const bool is_fp64 = request->precision == PRECISION_FP64;
-    const bool wants_packets = wants_family(request, FAMILY_PACKET);
-    if (is_fp64 && wants_packets)
-        return error_set(error, "--precision fp64 traces rays one by one: leave out --kernel "
-                                "packet");
-    if (is_fp64 && wants_nodes(request, NODES_WIDE))
-        return error_set(error, "--precision fp64 uses binary nodes: leave out --nodes "
-                                "wide");
-    if (request->lanes > 0 && (is_fp64 || wants_nodes(request, NODES_PAIR)))
-        return error_set(error, "%s has no vectors: leave out --lanes",
-                         is_fp64 ? "--precision fp64" : "--nodes pair");
-    if (wants_packets && wants_nodes(request, NODES_PAIR))
-        return error_set(error, "--kernel packet uses wide nodes: leave out --nodes pair");
-    return true;
+    const uint32_t lanes = request->lanes;
+    const bool has_lanes = lanes == 4 || lanes == 8 || lanes == 16;
+    return request->form >= KERNEL_WIDE
+               ? request->precision == PRECISION_FP32 && (lanes == 0 || has_lanes)
+               : lanes == 0;
 }
 
 // CPU platforms on which packets compile or trace so slowly that single rays are faster in
@@ -65,20 +46,13 @@ bool kernel_suits_packets(const Device *device)
 
 KernelChoice kernel_choose(const KernelRequest *request, const Device *device)
 {
-    const bool suits_packets = kernel_suits_packets(device);
-    if (request->precision == PRECISION_FP64)
-        return (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
-    const bool wants_pairs = wants_nodes(request, NODES_PAIR);
-    KernelChoice choice = {.family = suits_packets && !wants_pairs ? FAMILY_PACKET : FAMILY_RAY,
-                           .nodes = suits_packets ? NODES_WIDE : NODES_PAIR,
-                           .lanes = request->lanes > 0 ? 2u << request->lanes : 0};
-    if (request->family > 0)
-        choice.family = (KernelFamily)(request->family - 1);
-    if (request->nodes > 0)
-        choice.nodes = (NodeLayout)(request->nodes - 1);
-    if (choice.family == FAMILY_PACKET)
-        choice.nodes = NODES_WIDE;
-    return choice;
+    KernelForm form = request->form;
+    if (form == KERNEL_AUTO && request->precision == PRECISION_FP32 && kernel_suits_packets(device))
+        form = KERNEL_PACKET;
+    return (KernelChoice){.family = form == KERNEL_PACKET ? FAMILY_PACKET : FAMILY_RAY,
+                          .nodes = form <= KERNEL_PAIR ? NODES_PAIR : NODES_WIDE,
+                          .lanes = request->lanes,
+                          .precision = request->precision};
 }
 
 uint32_t kernel_group_side(const KernelChoice *choice)
@@ -88,9 +62,6 @@ uint32_t kernel_group_side(const KernelChoice *choice)
 
 bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error)
 {
-    if (choice->lanes > 0 && choice->nodes == NODES_PAIR)
-        return error_set(error, "on %s, --lanes needs --nodes wide or --kernel packet",
-                         device->name);
     return choice->precision == PRECISION_FP32 || device->has_fp64 ||
            error_set(error, "%s has no double arithmetic, which --precision fp64 needs",
                      device->name);

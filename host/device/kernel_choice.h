@@ -24,19 +24,24 @@ typedef struct {
     Precision precision;
 } KernelChoice;
 
-// The user's request. For family, nodes and lanes, 0 leaves the choice to the device.
+typedef enum {
+    KERNEL_AUTO,  // packets if kernel_suits_packets, otherwise KERNEL_PAIR
+    KERNEL_PAIR,  // single rays, pair nodes
+    KERNEL_WIDE,  // single rays, wide nodes
+    KERNEL_PACKET // packets, wide nodes
+} KernelForm;
+
+// The user's request.
 typedef struct {
-    int family; // 1 + a KernelFamily
-    int nodes;  // 1 + a NodeLayout
-    int lanes;  // 1, 2 or 3 for 4, 8 or 16
+    KernelForm form;
+    uint32_t lanes; // as in KernelChoice
     Precision precision;
 } KernelRequest;
 
-// Returns false, with a message, if the request contradicts itself.
-bool kernel_check_request(const KernelRequest *request, Error *error);
+// Returns whether the number of lanes is possible, only wide nodes have lanes, and fp64 has none of
+// them.
+bool kernel_is_valid(const KernelRequest *request);
 
-// Returns the request, completed by fixed rules. The default is packets if kernel_suits_packets,
-// otherwise single rays with pair nodes. fp64 always uses single rays with pair nodes.
 KernelChoice kernel_choose(const KernelRequest *request, const Device *device);
 
 // Returns whether packets finish most pictures sooner than single rays, including compilation.

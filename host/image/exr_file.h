@@ -10,7 +10,8 @@
 #include <openexr.h>
 #include <stdio.h>
 
-// The side, in pixels, of a whole picture's tiles. The tiles of a part have the size of --tile.
+// The side, in pixels, of a whole picture's tiles. The tiles of a part have the size of --tune
+// tile.
 #define EXR_TILE 64
 
 typedef struct {

@@ -191,8 +191,12 @@ CLRT_API bool clrt_device_get(uint32_t number, ClrtDevice *device, ClrtError *er
 typedef struct ClrtRenderer ClrtRenderer;
 
 typedef enum { CLRT_FP32, CLRT_FP64 } ClrtPrecision;
-typedef enum { CLRT_KERNEL_AUTO, CLRT_KERNEL_RAY, CLRT_KERNEL_PACKET } ClrtKernel;
-typedef enum { CLRT_NODES_AUTO, CLRT_NODES_PAIR, CLRT_NODES_WIDE } ClrtNodes;
+typedef enum {
+    CLRT_KERNEL_AUTO,
+    CLRT_KERNEL_PAIR,  // single rays through nodes of two children
+    CLRT_KERNEL_WIDE,  // single rays through nodes of eight
+    CLRT_KERNEL_PACKET // packets of rays through nodes of eight
+} ClrtKernel;
 typedef enum {
     CLRT_SPECIALIZE_AUTO, // if compiled already, or if it saves more time than compiling takes
     CLRT_SPECIALIZE_ALWAYS,
@@ -215,8 +219,7 @@ typedef struct {
 
     // For experiments. These settings change no bit of a picture.
     ClrtKernel kernel;
-    ClrtNodes nodes; // the children of a node: 2 or 8
-    uint32_t lanes;  // width of vectors: 4, 8 or 16; 0: the device's
+    uint32_t lanes; // width of vectors for CLRT_KERNEL_WIDE or _PACKET: 4, 8 or 16; 0: the device's
     ClrtSpecialize specialize;
     ClrtTree tree;
     uint32_t group_width, group_height; // of work-groups, each at most 1024; 0: 8 x 8, wide 2 x 2

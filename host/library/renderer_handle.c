@@ -31,23 +31,17 @@ static bool open_session(Session *session, Error *cause)
 
 static bool check_settings(const ClrtSettings *given, const KernelRequest *kernel, ClrtError *error)
 {
-    Error unused = {0};
-    const bool known_lanes =
-        given->lanes == 0 || given->lanes == 4 || given->lanes == 8 || given->lanes == 16;
     if (!check_number(error, "the precision", given->precision, 0, CLRT_FP64) ||
         !check_number(error, "the kernel", given->kernel, 0, CLRT_KERNEL_PACKET) ||
-        !check_number(error, "the nodes", given->nodes, 0, CLRT_NODES_WIDE) ||
         !check_number(error, "specialize", given->specialize, 0, CLRT_SPECIALIZE_NEVER) ||
         !check_number(error, "the tree", given->tree, 0, CLRT_TREE_NONE) ||
         !check_number(error, "the group's width", given->group_width, 0, GROUP_SIDE_MOST) ||
         !check_number(error, "the group's height", given->group_height, 0, GROUP_SIDE_MOST))
         return false;
-    if (!known_lanes)
-        return check_fail(error, CLRT_ARGUMENT, "the lanes are %u, not 4, 8 or 16", given->lanes);
-    return kernel_check_request(kernel, &unused) ||
+    return kernel_is_valid(kernel) ||
            check_fail(error, CLRT_ARGUMENT,
-                      "precision, kernel, nodes and lanes contradict each other: packets use wide "
-                      "nodes, pair nodes use no lanes, and fp64 uses rays and pair nodes");
+                      "precision, kernel and lanes contradict each other: the wide and packet "
+                      "kernels have 4, 8 or 16 lanes and no fp64");
 }
 
 static bool take_settings(SessionSettings *settings, const ClrtSettings *given, ClrtError *error)
@@ -56,10 +50,8 @@ static bool take_settings(SessionSettings *settings, const ClrtSettings *given, 
     if (given != NULL && !check_struct(error, "the settings", given, &wanted, sizeof wanted))
         return false;
     static const TreeUse uses[] = {TREE_AUTO, TREE_ALWAYS, TREE_ALWAYS, TREE_NEVER};
-    const KernelRequest kernel = {.family = (int)wanted.kernel,
-                                  .nodes = (int)wanted.nodes,
-                                  .lanes = wanted.lanes == 16 ? 3 : (int)wanted.lanes / 4,
-                                  .precision = (Precision)wanted.precision};
+    const KernelRequest kernel = {(KernelForm)wanted.kernel, wanted.lanes,
+                                  (Precision)wanted.precision};
     if (!check_settings(&wanted, &kernel, error))
         return false;
     *settings =

@@ -44,9 +44,8 @@ static bool leaves_kernels_open(const Session *session)
 {
     const SessionSettings *settings = &session->settings;
     const KernelRequest *request = &settings->kernel;
-    return request->family == 0 && request->nodes == 0 && request->lanes == 0 &&
-           request->precision == PRECISION_FP32 && settings->tree != TREE_NEVER &&
-           settings->specialization != SPECIALIZE_ALWAYS;
+    return request->form == KERNEL_AUTO && request->precision == PRECISION_FP32 &&
+           settings->tree != TREE_NEVER && settings->specialization != SPECIALIZE_ALWAYS;
 }
 
 static bool is_compiled(const Session *session, const KernelEntry *entry, KernelChoice choice)

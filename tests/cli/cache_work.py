@@ -9,7 +9,7 @@ import tempfile
 from work import SCENE, Work
 
 # The picture uses the kernels that compile fastest.
-PICTURE = [SCENE, "-s", "48x32", "-q", "--kernel=ray", "--nodes=pair", "--specialize=never"]
+PICTURE = [SCENE, "-s", "48x32", "-q", "--tune=kernel=pair,specialize=never"]
 CHOSEN = ("POCL_CACHE_DIR", "XDG_CACHE_HOME", "TMPDIR", "CLRT_KERNEL_DIR")
 
 

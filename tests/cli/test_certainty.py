@@ -39,7 +39,8 @@ class Certainty(SharedWork):
         self.assertTrue(certain != plain)
 
     def test_certainty_is_the_same_in_every_form(self):
-        for form in "-j 1", "--tile 16x8", "--kernel ray", "--nodes pair", "--bvh midpoint", "--no-bvh":
+        for form in "-j 1", "--tune tile=16x8", "--tune kernel=wide", "--tune kernel=pair", "--tune bvh=midpoint", \
+                    "--tune bvh=none":
             talk = self.run_clrt(*PICTURE, "form.exr", *CERTAIN, "--stats", *form.split()).stderr
             self.assertRegex(talk, "pixels certified, [0-9]* repaired, [0-9]* open")
             self.assert_same_bytes("certain.exr", "form.exr", form)

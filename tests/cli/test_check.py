@@ -23,8 +23,8 @@ CRACK = tuple(0.49 * a + 0.49 * b + 0.02 * c for a, b, c in zip(KNOT[A], KNOT[B]
 MESHES |= {"knot": (KNOT, TUBE), "gap": (KNOT, TUBE[:-1]),
            "crack": ([*KNOT, CRACK], [*TUBE[:200], (A, len(KNOT), C), (len(KNOT), B, C), *TUBE[201:]]),
            "away": ([(x + 1024, y - 2048, z + 4096) for x, y, z in KNOT], [(a, c, b) for a, b, c in TUBE])}
-FORMS = ["--kernel ray --nodes pair", "--kernel ray --nodes wide", "--kernel packet", "--precision fp64",
-         "--bvh midpoint", "--no-bvh"]
+FORMS = ["--tune kernel=pair", "--tune kernel=wide", "--tune kernel=packet", "--precision fp64",
+         "--tune bvh=midpoint", "--tune bvh=none"]
 SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine red matte\n",
           "mixed": "ply_file closed.ply\nmesh closed.ply scale 1e8\n",
           # The first camera is outside the balls, the others are inside.

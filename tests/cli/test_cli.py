@@ -38,7 +38,8 @@ REFUSALS = [
     (2, SIZE.format("640") + ", perhaps 640x640", ["a.scn", "-s", "640"]),
     (2, SIZE.format("0"), ["a.scn", "-s", "0"]),
     (2, SIZE.format("640x"), ["a.scn", "-s", "640x"]),
-    (2, "--tile wants WIDTHxHEIGHT, each between 1 and 131072, not '64', perhaps 64x64", [*FILE, "--tile", "64"]),
+    (2, "--tune tile wants WIDTHxHEIGHT, each between 1 and 131072, not '64', perhaps 64x64",
+     [*FILE, "--tune", "tile=64"]),
     (2, "unknown option '--samples=4', perhaps --aa=N", [*FILE, "--samples=4"]),
     (2, "unknown option '--width', perhaps --size=WxH", [*FILE, "--width", "640"]),
     (2, "unknown option '--bounces', perhaps --max-level", [*FILE, "--bounces", "4"]),
@@ -50,10 +51,15 @@ REFUSALS = [
     (2, "--time wants seconds above 0 and up to 1000000, not '0'", [*FILE, "--time", "0"]),
     (2, "--max-level wants auto or an integer between 0 and 1000, not 'all'", [*FILE, "--max-level", "all"]),
     (2, "--precision wants fp32 or fp64, not 'fp16'", [*FILE, "--precision", "fp16"]),
-    (2, "--precision fp64 traces rays one by one: leave out --kernel packet",
-     [*FILE, "--kernel", "packet", "--precision", "fp64"]),
-    (2, "--precision fp64 uses binary nodes: leave out --nodes wide",
-     [*FILE, "--precision", "fp64", "--nodes", "wide"]),
+    *((2, "--precision fp64 traces rays one by one through pair nodes: leave out --tune kernel",
+       [*FILE, "--precision", "fp64", "--tune", f"kernel={form}"]) for form in ("packet", "wide", "wide:8")),
+    *((2, "--tune kernel wants auto, pair, wide or packet", [*FILE, "--tune", f"kernel={form}"])
+      for form in ("", "ray", "pair:4", "auto:8", "wide:5", "packet:2", "packet:", "wide:8:8", "wide ")),
+    *((2, "--tune wants KEY=VALUE, where KEY is one of kernel, tile, group, specialize, bvh", [*FILE, f"--tune={text}"])
+      for text in ("", "kernel", "nodes=wide", "bvh=sah,", ",", "bvh=sah,,", "tile=" + 99 * "0")),
+    (2, "--tune bvh wants auto, sah, midpoint or none, not 'both'", [*FILE, "--tune", "tile=8x8,bvh=both"]),
+    (2, "unknown option '--nodes', perhaps --tune kernel=FORM", [*FILE, "--nodes", "wide"]),
+    (2, "unknown option '--work-group=8x8', perhaps --tune group=WxH", [*FILE, "--work-group=8x8"]),
     (3, f"none.scn: {NO_FILE}", ["none.scn", "-o", "a.pfm"]),
     (3, f"none.scn: {NO_FILE}", ["warm", "none.scn"]),
     (3, f"{ROOT}: cannot be read: it is not a file", [str(ROOT), "-o", "a.pfm"]),
@@ -64,10 +70,11 @@ REFUSALS = [
     (5, "no/a.pfm: cannot be written: No such file or directory", ["none.scn", "-o", "no/a.pfm"]),
 ]
 # Options that change no bit of the picture, each with the statistics that it sets.
-SAME = {"-q": None, "-j 1": None, "-j 2": None, "--bvh sah": None, "--specialize never": None,
-        "--no-bvh": {"tests__box": 0, "bvh__builder": "none"}, "--bvh midpoint": {"bvh__builder": "midpoint"},
-        "--tile 16x8 --work-group 4x2": {"settings__tile": [16, 8], "settings__work_group": [4, 2]},
-        "--specialize always": {"settings__specialized": True},
+SAME = {"-q": None, "-j 1": None, "-j 2": None, "--tune bvh=sah": None, "--tune specialize=never": None,
+        "--tune bvh=none": {"tests__box": 0, "bvh__builder": "none"},
+        "--tune bvh=midpoint": {"bvh__builder": "midpoint"},
+        "--tune tile=16x8,group=4x2": {"settings__tile": [16, 8], "settings__work_group": [4, 2]},
+        "--tune specialize=always": {"settings__specialized": True},
         "--precision fp32": {"settings__precision": "fp32"}, "--device 0:0": None, "--device cpu": None}
 
 
@@ -145,9 +152,9 @@ class SamePictures(SharedWork):
         self.clrt("check", CUBE, "--precision", "fp64", code=4, **NO_FP64)
 
     def test_few_triangles_have_no_tree_unless_one_is_requested(self):
-        words = [CUBE, "-s", "16x16", "--kernel", "packet", "-o"]
+        words = [CUBE, "-s", "16x16", "--tune", "kernel=packet", "-o"]
         self.expect(self.statistics(*words, "none.pfm"), tests__box=0, bvh__builder="none")
-        self.expect(self.statistics(*words, "tree.pfm", "--bvh", "sah"), bvh__builder="sah")
+        self.expect(self.statistics(*words, "tree.pfm", "--tune", "bvh=sah"), bvh__builder="sah")
         self.assert_same_bytes("none.pfm", "tree.pfm")
 
     def test_repeated_pictures_are_timed_each_and_counted_once(self):
@@ -185,7 +192,7 @@ class Samples(Work):
         total = found["samples"]["total"]
         self.assertGreater(total, 1536)
         self.expect(found, rays__camera=total, samples__contrast=0.001, samples__per_pixel=total / 1536)
-        self.clrt(*SMALL, "b.pfm", "--aa-adaptive=0.001", "-j", "1", "--kernel", "ray", "--nodes", "pair")
+        self.clrt(*SMALL, "b.pfm", "--aa-adaptive=0.001", "-j", "1", "--tune", "kernel=pair")
         self.assert_same_bytes("a.pfm", "b.pfm")
 
     def test_an_error_is_held_within_its_estimate_with_enough_levels(self):
@@ -260,13 +267,13 @@ class Compiled(Work):
             (["--precision", "fp64"], "general kernels, ray, pair nodes, fp64: compiled in"),
             ([], "general kernels, ray, .* nodes, fp32: already compiled, ready in"),
         ):
-            self.assertRegex(self.clrt("warm", "--kernel", "ray", *words, **self.cache), f"(?m)^{line}")
-        found = self.statistics(*SMALL, "a.pfm", "--kernel", "ray", **self.cache)
+            self.assertRegex(self.clrt("warm", "--tune", "kernel=pair", *words, **self.cache), f"(?m)^{line}")
+        found = self.statistics(*SMALL, "a.pfm", "--tune", "kernel=pair", **self.cache)
         self.expect(found, settings__specialized=True)
 
     def test_small_pictures_use_the_kernels_that_compile_sooner(self):
         self.draws_by("ray, pair")
-        expected = self.run_clrt(*SMALL, "b.pfm", "--kernel", "packet")
+        expected = self.run_clrt(*SMALL, "b.pfm", "--tune", "kernel=packet")
         self.assertEqual(expected.returncode, 0)
         self.assert_same_bytes("a.pfm", "b.pfm")
         # A run affects the next run's choice only if both runs may use the same compiled kernels.

@@ -40,8 +40,8 @@ class Crop(Work):
         self.expect_parts(CROPS)
 
     def test_crops_are_exact_with_all_kernels_tiles_and_samples(self):
-        for words in (["--aa=3"], ["--kernel", "ray"], ["--kernel", "packet", "--tile", "7x9"],
-                      ["--precision", "fp64"], ["--no-bvh", "-j", "1"], ["--view", "3"]):
+        for words in (["--aa=3"], ["--tune", "kernel=wide"], ["--tune", "kernel=packet,tile=7x9"],
+                      ["--precision", "fp64"], ["--tune=bvh=none", "-j", "1"], ["--view", "3"]):
             self.expect_parts([(13, 5, 50, 38)], *words)
 
     def test_parts_of_the_sides_fit_together(self):
@@ -72,7 +72,7 @@ class Crop(Work):
     def test_channels_are_cropped_and_exr_has_the_position(self):
         crop = (13, 5, 50, 38)
         channels = "depth,normal,position,primitive,material,shadow,bounces,samples,boxtests,certainty"
-        words = [*WHOLE, "--aa", "--aov", channels, "--bvh", "sah"]
+        words = [*WHOLE, "--aa", "--aov", channels, "--tune", "bvh=sah"]
         self.clrt(*words, "-o", "whole.exr")
         self.clrt(*words, "-o", "part.exr", "--crop", ",".join(map(str, crop)))
         whole, _, display = channels_in_rows(self.work / "whole.exr")

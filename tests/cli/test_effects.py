@@ -17,7 +17,7 @@ from work import CLRT, ROOT, SCENE, main
 
 PLAIN = [SCENE, "-s", "24x16", "-o", "a.pfm"]
 # With "auto", the cache would decide whether the kernels are specialized.
-PICTURE = PLAIN + ["--stats=a.json", "--specialize", "never"]
+PICTURE = PLAIN + ["--stats=a.json", "--tune", "specialize=never"]
 FLAT = "flat.ply"
 CHECK = ["check", FLAT]
 MESH = [FLAT, "-s", "24x16", "-o", "a.pfm"]
@@ -46,18 +46,16 @@ TRIALS = {
     "error": (PLAIN, PLAIN + ["--error", "0.1%"]),
     "time": (PLAIN, PLAIN + ["--time", "0.1"]),
     "precision": (PLAIN, PLAIN + ["--precision", "fp64"]),
-    "bvh": (PICTURE, PICTURE + ["--bvh", "midpoint"]),
-    "no-bvh": (PICTURE + ["--bvh", "sah"], PICTURE + ["--no-bvh"]),
-    "tile": (PICTURE, PICTURE + ["--tile", "16x8"]),
-    "work-group": (PICTURE, PICTURE + ["--work-group", "4x2"]),
-    "specialize": (PICTURE, PICTURE + ["--specialize", "always"]),
-    "kernel": (PICTURE + ["--kernel", "packet"], PICTURE + ["--kernel", "ray"]),
-    "nodes": (PICTURE + ["--kernel", "ray", "--nodes", "wide"], PICTURE + ["--kernel", "ray", "--nodes", "pair"]),
-    "lanes": (PICTURE + ["--lanes", "8"], PICTURE + ["--lanes", "4"]),
+    "tune": (PICTURE + ["--tune", "kernel=wide:8"], PICTURE + ["--tune", "kernel=wide:4"]),
+    "tune kernel": (PICTURE + ["--tune", "kernel=packet"], PICTURE + ["--tune", "kernel=wide"]),
+    "tune tile": (PICTURE, PICTURE + ["--tune", "tile=16x8"]),
+    "tune group": (PICTURE, PICTURE + ["--tune", "group=4x2"]),
+    "tune specialize": (PICTURE, PICTURE + ["--tune", "specialize=always"]),
+    "tune bvh": (PICTURE, PICTURE + ["--tune", "bvh=midpoint"]),
     "turntable": (PLAIN, PLAIN + ["--turntable", "2"]),
     "frames": (PLAIN, PLAIN + ["--frames", "2-3"]),
-    "part": (PLAIN + ["--format", "exr", "--tile", "8x8"],
-             PLAIN + ["--format", "exr", "--tile", "8x8", "--part", "2/3"]),
+    "part": (PLAIN + ["--format", "exr", "--tune", "tile=8x8"],
+             PLAIN + ["--format", "exr", "--tune", "tile=8x8", "--part", "2/3"]),
     "resume": (PLAIN + ["-v"], PLAIN + ["-v", "--resume"]),
     "device": (PICTURE, PICTURE + ["--device", "no such device"]),
     "threads": (PICTURE + ["-v", "-j", "2"], PICTURE + ["-v", "-j", "1"]),
@@ -83,7 +81,8 @@ MEASURED = ("seconds", "frame_seconds", "bytes")
 
 def listed_options():
     text = subprocess.run([CLRT, "--help"], capture_output=True, text=True, check=True).stdout
-    return re.findall(r"^  (?:-\w, |    )--([a-z-]+)", text, re.MULTILINE)
+    options = re.findall(r"^  (?:-\w, |    )--([a-z-]+)", text, re.MULTILINE)
+    return options + [f"tune {key}" for key in re.findall(r"^        ([a-z]+)=", text, re.MULTILINE)]
 
 
 def statistics(path):
@@ -128,7 +127,7 @@ def add_trial(name, without, with_it):
     def test(self):
         self.assertNotEqual(observe(without), observe(with_it))
 
-    setattr(Effects, f"test_{name.replace('-', '_')}_has_an_effect", test)
+    setattr(Effects, "test_" + re.sub("[- ]", "_", name) + "_has_an_effect", test)
 
 
 for trial, (without_option, with_option) in TRIALS.items():

@@ -97,8 +97,8 @@ BY_HAND = [
      {"color": [0.08] * 3}),
 ]
 PIXEL = ["explain", "mirrors.scn", "2,2"]
-FORMS = ["", "--aa=3", "--kernel ray --nodes pair", "--kernel ray --nodes wide", "--kernel packet --lanes 4",
-         "--precision fp64", "--precision fp64 --aa", "--no-bvh", "--max-level 1", "--max-level 0", "-j 1"]
+FORMS = ["", "--aa=3", "--tune kernel=pair", "--tune kernel=wide", "--tune kernel=packet:4",
+         "--precision fp64", "--precision fp64 --aa", "--tune bvh=none", "--max-level 1", "--max-level 0", "-j 1"]
 
 
 NUMBER = r"(-?[\d.]+(?:e[-+]\d+)?)"
@@ -272,7 +272,7 @@ class Scenes(Explain):
         return found
 
     def test_the_text_lists_compiled_and_omitted_features_and_uploads(self):
-        told = self.clrt("explain", "ball.scn", "--specialize", "always")
+        told = self.clrt("explain", "ball.scn", "--tune", "specialize=always")
         left_out = told.split("\nleft out\n")[1].split("\nuploaded")[0]
         self.assertEqual(left_out.count("\n  ") + 1, 4, told)
         self.assertIn("  tree        there are no triangles to find", left_out)
@@ -281,34 +281,34 @@ class Scenes(Explain):
             self.assertIn(part, told)
 
     def test_special_kernels_have_only_the_features_of_the_scene(self):
-        found = self.expect_parts(["ball.scn", "--specialize", "always"],
+        found = self.expect_parts(["ball.scn", "--tune", "specialize=always"],
                                   spheres=(True, True, "1 of them"), triangles=(False, False, "there are none"),
                                   mirrors=(False, False, "no material in use reflects: no reflected rays"))
-        self.assertEqual(found["program"], {"special": True, "reason": "--specialize always"})
+        self.assertEqual(found["program"], {"special": True, "reason": "--tune specialize=always"})
 
     def test_general_kernels_have_all_but_counters_that_nobody_requests(self):
-        general = ["ball.scn", "--specialize", "never"]
+        general = ["ball.scn", "--tune", "specialize=never"]
         self.expect_parts(general, triangles=(False, True, "there are none"),
                           statistics=(False, False, "not requested: no --stats"))
         self.expect_parts([*general, "--stats"], statistics=(True, True, "--stats counts rays and tests"))
 
     def test_silhouettes_are_not_lit_and_few_triangles_get_no_tree(self):
-        self.expect_parts(["flat.scn", "--specialize", "always"],
+        self.expect_parts(["flat.scn", "--tune", "specialize=always"],
                           lights=(False, False, "all materials in use are silhouettes: no shadow rays"),
                           tree=(False, False, "testing all 10 triangles is faster"))
 
     def test_spheres_are_there_in_every_layout_of_nodes(self):
         for nodes in "pair", "wide":
-            found = self.expect_parts(["ball.scn", "--nodes", nodes], spheres=(True, True, "1 of them"))
+            found = self.expect_parts(["ball.scn", "--tune", f"kernel={nodes}"], spheres=(True, True, "1 of them"))
             self.assertEqual(found["uploaded_bytes"]["spheres"], 48)
 
     def test_requested_trees_and_kernels_are_there(self):
-        words = ["flat.scn", "--bvh", "sah", "--kernel", "ray", "--nodes", "pair"]
+        words = ["flat.scn", "--tune", "bvh=sah,kernel=pair"]
         found = self.expect_parts(words)
         self.assertTrue(next(part for part in found["parts"] if part["name"] == "tree")["needed"])
         self.assertGreater(found["uploaded_bytes"]["nodes"], 0)
         self.assertEqual(found["kernels"], {"family": "ray", "nodes": "pair", "precision": "fp32",
-                                            "reason": "--kernel requests it"})
+                                            "reason": "--tune kernel requests it"})
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main,
 FAIL_MEMORY, FAIL_DEVICE, SET_ENVIRONMENT = (os.path.abspath(word) for word in sys.argv[3:6])
 # LARGE's picture does not fit on a disk of DISK_SIZE in any format. The kernels are the same in
 # every run.
-LARGE = [SCENE, "-s", "400x300", "-q", "--kernel=ray", "--specialize=never"]
+LARGE = [SCENE, "-s", "400x300", "-q", "--tune=kernel=wide,specialize=never"]
 DISK_SIZE = 8192
 
 
@@ -182,7 +182,7 @@ class Sizes(Faults):
 
 
 class Device(Faults):
-    TILES = [SCENE, "-s", "64x48", "--tile", "16x16", "-q", "--kernel=ray", "--specialize=never"]
+    TILES = [SCENE, "-s", "64x48", "-q", "--tune=tile=16x16,kernel=wide,specialize=never"]
 
     def fail(self, name, call, *words):
         return self.run_clrt(*words, LD_PRELOAD=FAIL_DEVICE, CLRT_FAIL_NAME=name, CLRT_FAIL_CALL=str(call))
@@ -214,7 +214,7 @@ class Device(Faults):
         words = [*self.TILES, "-o", "a.pfm", "--resume"]
         self.clrt(*self.TILES, "-o", "whole.pfm")
         self.assert_fails(self.fail("clWaitForEvents", 9, *words), 4, "cannot trace a tile: ")
-        talk = self.run_clrt(*words[:5], *words[6:], "-v").stderr
+        talk = self.run_clrt(*words[:3], *words[4:], "-v").stderr
         self.assertIn("resumed: 8 of 12 tiles were finished before", talk)
         self.assert_same_bytes("a.pfm", "whole.pfm")
 

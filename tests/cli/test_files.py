@@ -115,7 +115,7 @@ class Files(SharedWork):
 @needs_exr
 class Channels(SharedWork):
     def prepare(self):
-        self.clrt(*SMALL, "all.exr", "--aa", "--bvh", "sah", "--aov", CHANNELS)
+        self.clrt(*SMALL, "all.exr", "--aa", "--tune", "bvh=sah", "--aov", CHANNELS)
         type(self).types, type(self).all = read_exr(self.work / "all.exr")
 
     def draw(self, *words):

@@ -30,7 +30,7 @@ class Frames(Work):
 
     @needs_exr
     def test_channels_are_each_frame_s_own(self):
-        words = [*SMALL, "--bvh", "sah", "--aov", "depth,normal,samples,certainty", "--reference-samples", "2"]
+        words = [*SMALL, "--tune", "bvh=sah", "--aov", "depth,normal,samples,certainty", "--reference-samples", "2"]
         self.clrt(*words, "--frames", "2-4", "-o", "a.exr")
         for view in "2", "3", "4":
             self.clrt(*words, "--view", view, "-o", "one.exr")
@@ -112,7 +112,7 @@ class Frames(Work):
 
     @needs_exr
     def test_a_signal_ends_the_series_with_the_picture_it_meets(self):
-        words = [SCENE, "-s", "400x300", "--aa=16", "--tile", "400x20", "-j", "1", "--turntable", "99"]
+        words = [SCENE, "-s", "400x300", "--aa=16", "--tune", "tile=400x20", "-j", "1", "--turntable", "99"]
         for _ in range(9):  # repeats until a signal interrupts a picture
             process = self.start(*words, "-q", "-o", "a.exr")
             self.wait_for((self.work / "a.0001.exr").exists)
@@ -143,7 +143,7 @@ class Frames(Work):
             self.assertEqual([self.bytes_of(name) for name in names], [*whole[:2], b"kept"])
 
     def test_a_stopped_series_that_resumes_holds_whole_pictures(self):
-        words = [SCENE, "-s", "100x75", "--aa=16", "--tile", "100x5", "-j", "1", "--turntable", "6", "-o", "a.pfm"]
+        words = [SCENE, "-s", "100x75", "--aa=16", "--tune", "tile=100x5", "-j", "1", "--turntable", "6", "-o", "a.pfm"]
         whole = self.clrt(*words, "--hash")
         for path in self.work.glob("a.*"):
             path.unlink()

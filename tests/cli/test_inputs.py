@@ -29,7 +29,7 @@ COMMANDS = [
     ["-o", "a.#.pfm", "--frames", "1-2", "--aa-adaptive", *REFERENCE],
     ["-o", "a.pfm", "--turntable", "2", "--error", "5%", *REFERENCE],
     ["-o", "a.pfm", "--resume", "--crop", "3,5,40,30", "--stats"],
-    ["-o", "-", "--format", "pfm", "--no-bvh", *REFERENCE],
+    ["-o", "-", "--format", "pfm", "--tune=bvh=none", *REFERENCE],
     ["explain", "20,20"],
     ["explain"],
     ["warm", "-q"],

@@ -110,7 +110,7 @@ class Upright(Random):
 
     def test_parts_of_another_axis_do_not_merge(self):
         self.write(a_ply=models.ply(KNOT, TRIANGLES))
-        words = "-s", "32x32", "--tile", "16x16", "-q"
+        words = "-s", "32x32", "--tune", "tile=16x16", "-q"
         self.clrt("a.ply", *words, "--part", "1/2", "--up", "x", "-o", "1.exr")
         self.clrt("a.ply", *words, "--part", "2/2", "--up", "y", "-o", "2.exr")
         self.assertIn("another scene", self.clrt("merge", "1.exr", "2.exr", "-o", "3.exr", code=3))
@@ -209,7 +209,7 @@ class Normals(Work):
 
     def test_parts_with_other_normals_do_not_merge(self):
         self.write(a_ply=models.ply(KNOT, TRIANGLES))
-        words = "-s", "32x32", "--tile", "16x16", "-q"
+        words = "-s", "32x32", "--tune", "tile=16x16", "-q"
         self.clrt("a.ply", *words, "--part", "1/2", "--normals", "flat", "-o", "1.exr")
         self.clrt("a.ply", *words, "--part", "2/2", "-o", "2.exr")
         self.assertIn("another scene", self.clrt("merge", "1.exr", "2.exr", "-o", "3.exr", code=3))

@@ -10,7 +10,7 @@
 
 static bool is_choice(const Option *option)
 {
-    return option->argument != NULL && strchr(option->argument, '|') != NULL;
+    return option->kind == OPTION_WORD || option->set == set_normals;
 }
 
 // Copies the option's argument without the brackets of an optional argument.
@@ -112,16 +112,19 @@ static const char *help_text(void)
 // Finds the start and the end of the option's text in --help.
 static const char *find_entry(const char *help, const Option *option, const char **end)
 {
-    char start[80], letter[8] = "    ";
+    char start[96], letter[8] = "    ";
     if (option->letter != 0)
         snprintf(letter, sizeof letter, "-%c, ", option->letter);
     const bool separate = option->argument != NULL && !option_argument_is_optional(option);
-    snprintf(start, sizeof start, "\n  %s--%s%s%s", letter, option->name, separate ? " " : "",
-             option->argument == NULL ? "" : option->argument);
+    if (option_key(option) != NULL)
+        snprintf(start, sizeof start, "\n        %s=%s", option_key(option), option->argument);
+    else
+        snprintf(start, sizeof start, "\n  %s--%s%s%s", letter, option->name, separate ? " " : "",
+                 option->argument == NULL ? "" : option->argument);
     const char *entry = strstr(help, start);
     assert_non_null(entry);
     *end = entry + 1 + strcspn(entry + 1, "\n");
-    while (strspn(*end + 1, " ") > 6) // continuation lines
+    while (strspn(*end + 1, " ") > 8) // continuation lines
         *end += 1 + strcspn(*end + 1, "\n");
     return entry + strlen(start);
 }

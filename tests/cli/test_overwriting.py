@@ -134,7 +134,7 @@ class Reports(Overwriting):
     @needs_exr
     def test_merge_keeps_its_parts(self):
         for part in 1, 2:
-            self.accepts("a.scn", "-q", "--tile", "4x4", "--part", f"{part}/2", "-o", f"p{part}.exr")
+            self.accepts("a.scn", "-q", "--tune", "tile=4x4", "--part", f"{part}/2", "-o", f"p{part}.exr")
         for name in "p1.exr", "p2.exr":
             self.refuses_files(f"-o {name}", f"the part {name}", "merge", "p2.exr", "p1.exr", "-o", name)
 

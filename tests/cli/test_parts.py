@@ -10,8 +10,8 @@ import zlib
 from pictures import read_exr, read_exr_tiles, read_header
 from work import ROOT, SCENE, SharedWork, main
 
-SMALL = [SCENE, "-s", "61x43", "--tile", "16x8"]
-CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--bvh", "sah"]
+SMALL = [SCENE, "-s", "61x43", "--tune", "tile=16x8"]
+CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--tune", "bvh=sah"]
 
 
 def part_of(column, row, parts):
@@ -84,7 +84,7 @@ class Parts(SharedWork):
         self.assertLess(sizes[0], sizes[1] / 8)
 
     def test_more_parts_than_tiles_make_the_whole(self):
-        words = [SCENE, "-s", "20x9", "--tile", "16x8"]
+        words = [SCENE, "-s", "20x9", "--tune", "tile=16x8"]
         self.expect_whole(self.draw("many", *words, of=5), *words)
 
     def test_tasks_of_an_array_draw_their_parts(self):
@@ -100,16 +100,16 @@ class Parts(SharedWork):
 
     def test_parts_of_other_trees_and_kernels_make_the_same_file(self):
         scene = [str(ROOT / "scenes/cone.ply"), *SMALL[1:], "-q"]
-        ways = ["--bvh=sah"], ["--bvh=midpoint", "--kernel=ray"], ["--no-bvh", "--nodes=pair"]
+        ways = ["--tune=bvh=sah"], ["--tune=bvh=midpoint,kernel=wide"], ["--tune=bvh=none,kernel=pair"]
         names = [self.draw("way", *scene, *way, parts=[part])[0] for part, way in enumerate(ways, 1)]
         self.expect_whole(names, *scene)
 
     def test_counts_of_tests_are_of_one_tree(self):
-        scene = [str(ROOT / "scenes/cone.ply"), *SMALL[1:], "-q", "--aov", "boxtests", "--nodes", "wide", "--bvh"]
-        names = self.draw("count", *scene, "sah", of=2)
-        self.expect_whole(names, *scene, "sah")
-        for other in ["--bvh", "midpoint"], ["--nodes", "pair"]:
-            mixed = [names[0], *self.draw("other", *scene, "sah", *other, of=2, parts=[2])]
+        scene = [str(ROOT / "scenes/cone.ply"), *SMALL[1:], "-q", "--aov", "boxtests", "--tune", "kernel=wide,bvh=sah"]
+        names = self.draw("count", *scene, of=2)
+        self.expect_whole(names, *scene)
+        for other in ["--tune", "bvh=midpoint"], ["--tune", "kernel=pair"]:
+            mixed = [names[0], *self.draw("other", *scene, *other, of=2, parts=[2])]
             self.refuses_parts("other2.exr: has other settings than count1.exr", *mixed)
 
     def test_each_part_draws_its_tiles_alone(self):
@@ -172,7 +172,7 @@ class Parts(SharedWork):
         self.write(own_scn=scene + "\n", mesh_scn=scene.replace("plateau", "cube"))
         # The settings are compared as a whole. test_provenance.py tests what they contain.
         for words, of, thing in (
-            (SMALL + ["--aa"], 3, "other settings"), (SMALL + ["--tile", "8x16"], 3, "other settings"),
+            (SMALL + ["--aa"], 3, "other settings"), (SMALL + ["--tune", "tile=8x16"], 3, "other settings"),
             (SMALL + ["--crop", "0,0,40,40"], 3, "other settings"), (SMALL, 2, "other settings"),
             (["own.scn", *SMALL[1:]], 3, "another scene"), (["mesh.scn", *SMALL[1:]], 3, "another mesh"),
             (SMALL + ["--aov", "depth"], 3, "other channels"),

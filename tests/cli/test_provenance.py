@@ -78,7 +78,7 @@ class Provenance(Work):
             self.assertIn(expected["Software"].encode(), self.bytes_of(name))
 
     def test_settings_are_json_of_what_the_picture_depends_on(self):
-        settings = json.loads(self.draw(*SMALL, "--aa=3", "--view", "2", "--tile", "8x8")["clrt:settings"])
+        settings = json.loads(self.draw(*SMALL, "--aa=3", "--view", "2", "--tune", "tile=8x8")["clrt:settings"])
         self.assertEqual(settings, {"view": 2, "width": 24, "height": 16, "samples": 3, "max_level": 3,
                                     "encode": "raw", "precision": "fp32"})
         settings = json.loads(self.draw(*SMALL, "--aa-adaptive=0.1")["clrt:settings"])
@@ -88,7 +88,7 @@ class Provenance(Work):
 
     def test_options_that_change_no_bit_change_no_byte_of_the_file(self):
         first = self.draw()
-        for words in (["--tile", "5x7"], ["-j", "1"], ["--bvh", "midpoint"], ["--kernel", "ray"]):
+        for words in (["--tune", "tile=5x7"], ["-j", "1"], ["--tune", "bvh=midpoint"], ["--tune", "kernel=wide"]):
             self.assertEqual(self.draw(*SMALL, *words, name="b.png"), first)
             self.assert_same_bytes("a.png", "b.png")
 

@@ -22,9 +22,9 @@ NAME = "a.exr" if HAS_EXR else "a.pfm"
 # LONG has many small tiles and takes some seconds. ONE_TILE has one tile and takes much longer.
 WIDTH, HEIGHT, TILE = 400, 300, 20
 TILES = WIDTH // TILE * HEIGHT // TILE
-LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=8", "--tile", f"{TILE}x{TILE}", "-j", "1"]
-ONE_TILE = [SCENE, "-s", "2000x2000", "--aa=16", "--tile", "2000x2000", "-j", "1"]
-SMALL = [SCENE, "-s", "61x43", "--tile", "16x8"]
+LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=8", "--tune", f"tile={TILE}x{TILE}", "-j", "1"]
+ONE_TILE = [SCENE, "-s", "2000x2000", "--aa=16", "--tune", "tile=2000x2000", "-j", "1"]
+SMALL = [SCENE, "-s", "61x43", "--tune", "tile=16x8"]
 OTHER = "has another scene, other settings or another version of clrt: remove it to begin again"
 
 
@@ -228,7 +228,7 @@ class Stops(Resume):
 
     @needs_exr
     def test_a_whole_exr_is_all_there(self):
-        for more, tiles in ([], 24), (["--tile", "128x128"], 1), (["--part", "1/2"], 12), (["--aov", "depth"], 24):
+        for more, tiles in ([], 24), (["--tune", "tile=128x128"], 1), (["--part", "1/2"], 12), (["--aov", "depth"], 24):
             whole = self.whole(*SMALL, *more)
             shutil.copy(self.work / f"whole-{NAME}", self.work / NAME)
             self.assertEqual(self.resumed_tiles(*SMALL, *more), tiles)
@@ -256,7 +256,7 @@ class Refusals(Resume):
         self.stop(*LONG, number=signal.SIGKILL)
         journal = self.journal.read_bytes()
         (self.work / "own.scn").write_text("light 0 0 5 1\nsphere 0 0 0 1\n")
-        for words in (LONG + ["--aa=11"], LONG + ["--view", "2"], LONG + ["--tile", "40x20"],
+        for words in (LONG + ["--aa=11"], LONG + ["--view", "2"], LONG + ["--tune", "tile=40x20"],
                       LONG + ["--max-level", "1"], LONG + ["--precision", "fp64"], ["own.scn", *LONG[1:]]):
             self.refuses(3, f"{NAME}.part: {OTHER}", *words, "-o", NAME, "--resume")
             self.assertTrue(self.journal.read_bytes() == journal)

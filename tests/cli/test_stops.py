@@ -18,7 +18,7 @@ from work import HAS_EXR, SCENE, Work, main
 NAME = "a.exr" if HAS_EXR else "a.pfm"
 # LONG takes minutes and has many tiles. ONE_TILE takes as long and has one.
 LONG = [SCENE, "-s", "3000x3000", "--aa=16"]
-ONE_TILE = [*LONG, "--tile", "3000x3000"]
+ONE_TILE = [*LONG, "--tune", "tile=3000x3000"]
 EARLY = "clrt: stopped before the first tile: no picture is written\n"
 LATE = rf"^clrt: stopped: {NAME} is incomplete, with \d+ of 576 tiles\n$"
 
@@ -90,7 +90,7 @@ class Stops(Work):
 
     def test_once_tiles_are_drawn_there_is_a_picture(self):
         # Compiles the kernels that LONG uses, because a stopped run compiles none.
-        self.clrt(*LONG, "-s", "8x8", "--kernel", "packet", "-o", "/dev/null", "--format", "pfm")
+        self.clrt(*LONG, "-s", "8x8", "--tune", "kernel=packet", "-o", "/dev/null", "--format", "pfm")
         moment = 1
         while self.stop_often([moment], cold=False) == 0:  # a busy machine takes longer to the first tile
             moment *= 2

@@ -201,7 +201,7 @@ class Schemas(Talk):
 
     def test_statistics(self):
         picture = ["-o", "a.pfm", "--stats=-"]
-        for words in ([], ["--no-bvh"], ["--precision", "fp64"], ["--repeat", "3", "--aa"], ["--reference"],
+        for words in ([], ["--tune=bvh=none"], ["--precision", "fp64"], ["--repeat", "3", "--aa"], ["--reference"],
                       ["--aa-adaptive"]):
             schema, found = self.validate("statistics", *SMALL, *picture, *words)
         self.validate("statistics", "open.ply", "-s", "8x8", *picture)
@@ -234,7 +234,7 @@ class Schemas(Talk):
     def test_explanations(self):
         for pixel in "0,0", "8,6", "7,9":
             self.validate("explanation", "explain", *SMALL, pixel, "--json")
-        for words in [*SMALL, "--stats"], [*SMALL, "--specialize", "always"], ["empty.scn"]:
+        for words in [*SMALL, "--stats"], [*SMALL, "--tune", "specialize=always"], ["empty.scn"]:
             self.validate("explanation-scene", "explain", *words, "--json")
 
 

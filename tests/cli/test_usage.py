@@ -48,14 +48,14 @@ class Combinations(Work):
     @needs_exr
     def test_merge_may_be_quiet(self):
         for part in 1, 2:
-            self.clrt(*SMALL, "--tile", "4x4", "--part", f"{part}/2", "-o", f"{part}.exr")
+            self.clrt(*SMALL, "--tune", "tile=4x4", "--part", f"{part}/2", "-o", f"{part}.exr")
         done = self.run_clrt("merge", "1.exr", "2.exr", "-o", "a.exr", "-q")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
     def test_hashes_need_no_file(self):
         whole = self.clrt(*PICTURE, "--hash")
         os.remove(self.work / "a.pfm")
-        for words in ["--tile", "4x4"], ["-q", "--expect-hash", whole.strip()]:
+        for words in ["--tune", "tile=4x4"], ["-q", "--expect-hash", whole.strip()]:
             self.assertEqual(self.clrt(*SMALL, "--hash", *words, DISPLAY=None, WAYLAND_DISPLAY=None), whole)
         self.assertEqual(self.clrt(*SMALL, "--expect-hash", whole.strip(), DISPLAY=None, WAYLAND_DISPLAY=None), "")
         self.assertIn("the hash of the pixels is", self.clrt(*SMALL, "--expect-hash", 32 * "0", code=1))
@@ -66,8 +66,6 @@ class Combinations(Work):
     def test_options_without_effect_beside_another_are_refused(self):
         frames = "--frames names the views: leave out --view"
         for keyword, *words in (
-            ("--nodes pair has no vectors", *PICTURE, "--nodes", "pair", "--lanes", "16"),
-            ("--precision fp64 has no vectors", *PICTURE, "--precision", "fp64", "--lanes", "8"),
             ("--encode srgb is for 8-bit files: pfm holds the traced colors", *PICTURE, "--encode", "srgb"),
             (frames, *PICTURE, "--frames", "1-2", "--view", "2"), (frames, *PICTURE, "--frames", "1-2", "--view", "1"),
             ("'a.png' is one name too many", "devices", "a.png"),
@@ -78,7 +76,7 @@ class Combinations(Work):
 
     def test_a_requested_precision_is_kept(self):
         self.write(a_scn="sphere 0 0 0 1\n")
-        for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"), (["--lanes", "8"], "fp32"):
+        for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"), (["--tune", "kernel=wide"], "fp32"):
             self.run_clrt("a.scn", "-s", "4x4", "-o", "a.pfm", "--stats=a.json", "--error", "0.015%", *words)
             self.expect(self.json_of("a.json"), settings__precision=precision)
 
@@ -173,9 +171,9 @@ class Notes(Work):
 
     def test_explain_counts_the_nodes_that_verbose_counts(self):
         scene = str(SCENES / "simple.scn")
-        # A wide node contains several nodes of the tree. The tree's leaves depend on --nodes.
+        # A wide node contains several nodes of the tree. The tree's leaves depend on the kernel.
         for nodes, stored in ("wide", "1 wide node"), ("pair", "16 pair nodes"):
-            words = [scene, "--kernel", "ray", "--nodes", nodes]
+            words = [scene, "--tune", f"kernel={nodes}"]
             told = self.run_clrt(*words, "-s", "8x6", "-o", "a.pfm", "-v").stderr
             count = told.split("tree: ")[1].split(" nodes")[0]
             self.assertIn(f"  tree        {count} nodes over the triangles, uploaded as {stored}\n",

@@ -24,7 +24,7 @@ CLRT = str(pathlib.Path(sys.argv[1]).resolve())
 SCENE = str(ROOT / "scenes/reflections.scn")
 # 32 tiles for each part, and a few seconds for each host.
 PARTS = 8
-SLOW = [SCENE, "-s", "512x512", "--tile", "32x32", "--aa=16", "--precision=fp64", "-j", "1"]
+SLOW = [SCENE, "-s", "512x512", "--tune", "tile=32x32", "--aa=16", "--precision=fp64", "-j", "1"]
 TURN = [SCENE, "-s", "96x72", "--aa=8", "-j", "1", "--turntable", "1000"]
 STORED = 50000  # bytes of a journal that holds some tiles
 

@@ -70,9 +70,9 @@ TEST(a_shorter_device_is_filled_up_to_its_size)
 
 TEST(settings_for_experiments_change_no_bit)
 {
-    const ClrtSettings settings[] = {{.kernel = CLRT_KERNEL_RAY, .group_width = 4},
-                                     {.nodes = CLRT_NODES_WIDE, .lanes = 4},
-                                     {.tree = CLRT_TREE_NONE, .nodes = CLRT_NODES_PAIR},
+    const ClrtSettings settings[] = {{.kernel = CLRT_KERNEL_PAIR, .group_width = 4},
+                                     {.kernel = CLRT_KERNEL_WIDE, .lanes = 4},
+                                     {.tree = CLRT_TREE_NONE, .kernel = CLRT_KERNEL_PACKET},
                                      {.tree = CLRT_TREE_MIDPOINT},
                                      {.specialize = CLRT_SPECIALIZE_ALWAYS}};
     ClrtScene *scene = filled_make();
@@ -117,15 +117,19 @@ TEST(bad_settings_are_refused)
 {
     const ClrtSettings none = {.size = 3};
     REFUSES(clrt_renderer_create(&none, &error) != NULL, "the settings has a size of 3");
-    REFUSES(opens((ClrtSettings){.lanes = 5}, &error), "the lanes are 5");
-    REFUSES(opens((ClrtSettings){.kernel = 3}, &error), "the kernel is 3");
-    REFUSES(opens((ClrtSettings){.nodes = 3}, &error), "the nodes is 3");
+    REFUSES(opens((ClrtSettings){.kernel = 4}, &error), "the kernel is 4");
     REFUSES(opens((ClrtSettings){.tree = 4}, &error), "the tree is 4");
     REFUSES(opens((ClrtSettings){.specialize = 3}, &error), "specialize is 3");
     REFUSES(opens((ClrtSettings){.precision = 2}, &error), "the precision is 2");
     REFUSES(opens((ClrtSettings){.group_width = 1025}, &error), "the group's width is 1025");
-    REFUSES(opens((ClrtSettings){.precision = CLRT_FP64, .nodes = CLRT_NODES_WIDE}, &error),
-            "contradict each other");
+    static const ClrtSettings contradictions[] = {
+        {.precision = CLRT_FP64, .kernel = CLRT_KERNEL_WIDE},
+        {.kernel = CLRT_KERNEL_WIDE, .lanes = 5},
+        {.kernel = CLRT_KERNEL_PAIR, .lanes = 8},
+        {.lanes = 8},
+    };
+    for (size_t i = 0; i < sizeof contradictions / sizeof *contradictions; i++)
+        REFUSES(opens(contradictions[i], &error), "contradict each other");
 }
 
 TEST(a_mesh_file_is_turned_and_smoothed_as_by_the_program)

@@ -60,7 +60,7 @@ def count_shapes(shown, size, wanted):
 def the_window_shows_as_many_boxes_as_it_reports(screen, folder):
     size = (600, 600)
     scene = write_clusters(folder)
-    for options in ([], ["--bvh", "midpoint"], ["--nodes", "pair"]):
+    for options in ([], ["--tune", "bvh=midpoint"], ["--tune", "kernel=pair"]):
         tree = statistics(scene, *options)
         inner = tree["inner_nodes"]
         assert sum(inner) == tree["nodes"] - tree["leaves"], "the statistics contradict themselves"

@@ -270,7 +270,7 @@ def held_letters_do_not_repeat(screen):
 
 
 def options_set_the_windows_first_state(screen):
-    window = Window(screen, SCENE, "--aa=3", "--no-bvh", "--view", "4", "--exposure", "1", "--keys", "h")
+    window = Window(screen, SCENE, "--aa=3", "--tune=bvh=none", "--view", "4", "--exposure", "1", "--keys", "h")
     window.wait("view 4, AA 3x3, BVH off", "exposure +1.0", "320x240")
     window.wait("help on")
 

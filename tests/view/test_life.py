@@ -63,7 +63,7 @@ def seconds_to_close(screen, scene, *options, is_tracing):
 def a_window_closed_while_it_traces_is_gone_at_once(screen, folder):
     cases = [(SCENE, ["--aa=64"])]
     if LARGE.exists():
-        cases.append((write_large(folder), ["--no-bvh"]))
+        cases.append((write_large(folder), ["--tune=bvh=none"]))
     for scene, options in cases:
         rest = seconds_to_close(screen, scene, *options, is_tracing=False)
         seconds = seconds_to_close(screen, scene, *options, is_tracing=True)

@@ -107,8 +107,8 @@ def columns_of(options):
     if options.clrt_options:
         return {f"clrt {words}".strip(): words.split() for words in options.clrt_options}
     columns = {"clrt": []}
-    if common.has_option("--kernel"):
-        columns["clrt ray"] = ["--kernel", "ray"]
+    if common.has_option("--tune"):
+        columns["clrt ray"] = ["--tune", "kernel=wide"]
     return columns
 
 

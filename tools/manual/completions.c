@@ -7,17 +7,30 @@
 #include <ctype.h>
 #include <string.h>
 
-// Writes the words of list that do not begin with a capital, separated by spaces. Names in capitals
-// stand for any value.
-static void write_words(FILE *stream, const char *list, const char *separators)
+// Writes the words of list that do not begin with a capital, each after a space and the key. Names
+// in capitals stand for any value.
+static void write_words(FILE *stream, const char *key, const char *list, const char *separators)
 {
-    for (const char *space = ""; list[0] != '\0'; list += strspn(list, separators)) {
+    for (; list[0] != '\0'; list += strspn(list, separators)) {
         const size_t length = strcspn(list, separators);
-        if (!isupper((unsigned char)list[0])) {
-            fprintf(stream, "%s%.*s", space, (int)length, list);
-            space = " ";
-        }
+        if (!isupper((unsigned char)list[0]))
+            fprintf(stream, " %s%.*s", key, (int)length, list);
         list += length;
+    }
+}
+
+// Writes the values of --tune: "key=word", or "key=" if any value may follow.
+static void write_tunings(FILE *stream)
+{
+    for (size_t i = 0; i < option_count; i++) {
+        char key[32];
+        const char *list = option_table[i].argument;
+        if (option_key(&option_table[i]) == NULL)
+            continue;
+        snprintf(key, sizeof key, "%s=", option_key(&option_table[i]));
+        if (isupper((unsigned char)list[0]))
+            fprintf(stream, " %s", key);
+        write_words(stream, key, list, "[:]|");
     }
 }
 
@@ -26,18 +39,25 @@ static void write_values(FILE *stream, const Option *option)
     char names[256]; // without OpenImageIO, advice in parentheses follows the names
     snprintf(names, sizeof names, "%.*s", (int)strcspn(image_format_names(), "("),
              image_format_names());
-    if (option->set == set_format)
-        write_words(stream, names, ", ");
+    if (option->set == set_tune)
+        write_tunings(stream);
+    else if (option->set == set_format)
+        write_words(stream, "", names, ", ");
     else
-        write_words(stream, option->argument, "[=]|");
+        write_words(stream, "", option->argument, "[=]|");
+}
+
+static bool has_words(const Option *option)
+{
+    return strchr(option->argument, '|') != NULL || option->set == set_format ||
+           option->set == set_tune;
 }
 
 static const char *kind_of(const Option *option)
 {
     if (option_names_file(option))
         return "file";
-    const bool has_words = strchr(option->argument, '|') != NULL || option->set == set_format;
-    return has_words ? "words" : "other";
+    return has_words(option) ? "words" : "other";
 }
 
 static void write_option(FILE *stream, const Option *option)
@@ -62,6 +82,8 @@ static void write_option(FILE *stream, const Option *option)
 void write_option_table(FILE *stream)
 {
     for (size_t i = 0; i < option_count; i++) {
+        if (option_key(&option_table[i]) != NULL)
+            continue;
         fputs(i > 0 ? "\n" : "", stream);
         write_option(stream, &option_table[i]);
     }

@@ -40,12 +40,20 @@ static void write_words(FILE *stream, const Option *option)
         fprintf(stream, "%s%s %s", separator, isupper((unsigned char)word[0]) ? "Ar" : "Cm", word);
 }
 
+static void write_name(FILE *stream, const Option *option)
+{
+    const char *key = option_key(option);
+    fprintf(stream, "Fl \\-%.*s", (int)strcspn(option->name, " "), option->name);
+    if (key != NULL)
+        fprintf(stream, " Cm %s", key);
+}
+
 static void write_value(FILE *stream, const Option *option)
 {
     if (option->argument == NULL)
         return;
     const bool optional = option_argument_is_optional(option);
-    fputs(optional ? " Ns Oo = Ns " : " ", stream);
+    fputs(optional ? " Ns Oo = Ns " : option_key(option) != NULL ? " Ns = Ns " : " ", stream);
     write_words(stream, option);
     fputs(optional ? " Oc" : "", stream);
 }
@@ -55,7 +63,7 @@ static void write_option(FILE *stream, const Option *option)
     fputs(".It ", stream);
     if (option->letter != 0)
         fprintf(stream, "Fl %c , ", option->letter);
-    fprintf(stream, "Fl \\-%s", option->name);
+    write_name(stream, option);
     write_value(stream, option);
     fputc('\n', stream);
     write_sentence(stream, option->help);
@@ -107,10 +115,9 @@ static void write_taken(FILE *stream, const Command *command)
         if ((option_table[i].uses & command->use) == 0)
             continue;
         left--;
-        fprintf(stream, ".Fl \\-%s%s\n", option_table[i].name,
-                left == 0   ? " ."
-                : left == 1 ? "\nand"
-                            : " ,");
+        fputc('.', stream);
+        write_name(stream, &option_table[i]);
+        fputs(left == 0 ? " .\n" : left == 1 ? "\nand\n" : " ,\n", stream);
     }
 }
 

@@ -9,11 +9,10 @@
 // Value-independent rules.
 const Exclusion exclusion_table[] = {
     {{"aa", REFINES}, {NULL}},
-    {{"crop", "part", "tile"}, {REFINES}},
+    {{"crop", "part", "tune tile"}, {REFINES}},
     {{"part"}, {"reference", "reference-samples", "no-metadata"}},
     {{"resume"}, {"repeat"}},
     {{"frames", "turntable"}, {"expect-hash"}},
-    {{"no-bvh"}, {"bvh"}},
     {{"quiet", "verbose"}, {NULL}},
 };
 const size_t exclusion_count = sizeof exclusion_table / sizeof exclusion_table[0];
@@ -186,9 +185,16 @@ static bool check_frames(Options *options, Error *error)
 static void choose_precision(Options *options)
 {
     KernelRequest *kernel = &options->kernel;
-    if (options->error_goal > 0 && options->error_goal < ERROR_OF_FP64 && kernel->family == 0 &&
-        kernel->nodes == 0 && kernel->lanes == 0 && !option_is_given(options, "precision"))
+    if (options->error_goal > 0 && options->error_goal < ERROR_OF_FP64 &&
+        kernel->form == KERNEL_AUTO && !option_is_given(options, "precision"))
         kernel->precision = PRECISION_FP64;
+}
+
+static bool check_kernel(const KernelRequest *kernel, Error *error)
+{
+    return kernel_is_valid(kernel) ||
+           error_set(error, "--precision fp64 traces rays one by one through pair nodes: leave out "
+                            "--tune kernel");
 }
 
 // Fails if several outputs go to standard output.
@@ -254,5 +260,5 @@ static bool check_action(Options *options, Error *error)
 bool options_check(Options *options, const Command *command, Error *error)
 {
     return check_uses(options, command, error) && check_exclusions(options, error) &&
-           kernel_check_request(&options->kernel, error) && check_action(options, error);
+           check_kernel(&options->kernel, error) && check_action(options, error);
 }

@@ -5,10 +5,15 @@
 #include "base/number.h"
 
 #include <string.h>
-
 bool option_argument_is_optional(const Option *option)
 {
     return option->argument != NULL && option->argument[0] == '[';
+}
+
+const char *option_key(const Option *option)
+{
+    const char *space = strchr(option->name, ' ');
+    return space != NULL ? space + 1 : NULL;
 }
 
 bool option_names_file(const Option *option)
@@ -80,16 +85,22 @@ static bool reject_word(const Option *option, const char *text, Error *error)
     return error_set(error, "--%s wants %s, not '%s'", option->name, list, text);
 }
 
+// Returns the index of a word in a list such as "a|b|c", or -1.
+static int find_word(const char *list, const char *text, size_t length)
+{
+    for (int place = 0; *list != '\0'; place++) {
+        const size_t size = strcspn(list, "|");
+        if (size == length && memcmp(list, text, length) == 0)
+            return place;
+        list += size + (list[size] == '|');
+    }
+    return -1;
+}
+
 static bool store_word(const Option *option, int *place, const char *text, Error *error)
 {
-    const char *word = option->argument;
-    for (*place = 0; *word != '\0'; (*place)++) {
-        const size_t length = strcspn(word, "|");
-        if (strlen(text) == length && memcmp(word, text, length) == 0)
-            return true;
-        word += length + (word[length] == '|');
-    }
-    return reject_word(option, text, error);
+    *place = find_word(option->argument, text, strlen(text));
+    return *place >= 0 || reject_word(option, text, error);
 }
 
 bool option_store(const Option *option, Options *options, const char *text, Error *error)
@@ -192,6 +203,62 @@ bool set_time(Options *options, const char *text, Error *error)
 {
     return (read_number(text, 0, TIME_GOAL_MOST, &options->time_goal) && options->time_goal > 0) ||
            error_set(error, "--time wants seconds above 0 and up to %d, not '%s'", TIME_GOAL_MOST,
+                     text);
+}
+
+// Returns the row of a key of --tune, or option_count.
+static size_t find_key(const char *key)
+{
+    size_t row = 0;
+    while (row < option_count && (option_key(&option_table[row]) == NULL ||
+                                  strcmp(option_key(&option_table[row]), key) != 0))
+        row++;
+    return row;
+}
+
+static bool reject_key(const char *item, Error *error)
+{
+    char list[128] = "";
+    for (size_t i = 0; i < option_count; i++)
+        if (option_key(&option_table[i]) != NULL)
+            strcat(strcat(list, list[0] != '\0' ? ", " : ""), option_key(&option_table[i]));
+    return error_set(error, "--tune wants KEY=VALUE, where KEY is one of %s, not '%s'", list, item);
+}
+
+bool set_tune(Options *options, const char *text, Error *error)
+{
+    for (size_t length;; text += length + 1) {
+        char key[64], *value = key;
+        length = strcspn(text, ",");
+        if (length >= sizeof key)
+            return reject_key(text, error);
+        memcpy(key, text, length);
+        key[length] = '\0';
+        strsep(&value, "=");
+        const size_t row = find_key(key);
+        if (row == option_count || value == NULL)
+            return reject_key(text, error);
+        options->given |= (uint64_t)1 << row;
+        if (!option_store(&option_table[row], options, value, error))
+            return false;
+        if (text[length] == '\0')
+            return true;
+    }
+}
+
+bool set_kernel(Options *options, const char *text, Error *error)
+{
+    const size_t length = strcspn(text, ":");
+    const int form = find_word("auto|pair|wide|packet", text, length); // as KernelForm
+    int64_t lanes = 0;
+    const bool ok = text[length] == '\0' || read_integer(text + length + 1, 4, 16, &lanes);
+    const KernelRequest request = {(KernelForm)form, (uint32_t)lanes, PRECISION_FP32};
+    options->kernel.form = request.form;
+    options->kernel.lanes = request.lanes;
+    return (form >= 0 && ok && kernel_is_valid(&request)) ||
+           error_set(error,
+                     "--tune kernel wants auto, pair, wide or packet, and wide or packet may have "
+                     "4, 8 or 16 lanes, as in packet:8, not '%s'",
                      text);
 }
 

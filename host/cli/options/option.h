@@ -83,6 +83,9 @@ typedef struct {
 
 bool option_argument_is_optional(const Option *option);
 
+// Returns KEY if the row is "tune KEY", a key of --tune, or NULL if the row is an option.
+const char *option_key(const Option *option);
+
 // Returns whether the option's argument is a file name.
 bool option_names_file(const Option *option);
 
@@ -129,10 +132,11 @@ bool options_check(Options *options, const Command *command, Error *error);
 
 // Setters of options whose values fit none of the kinds.
 SetOption set_output, set_format, set_exposure, set_aov, set_expect_hash, set_crop, set_max_level,
-    set_error, set_time, set_frames, set_part, set_stats, set_reference, set_reference_samples,
-    set_normals, set_pixel, set_fail, set_json;
+    set_error, set_time, set_tune, set_kernel, set_frames, set_part, set_stats, set_reference,
+    set_reference_samples, set_normals, set_pixel, set_fail, set_json;
 
-// The table of all options. The parser, --help, the man page and the completions iterate over it.
+// The table of all options and of the keys of --tune. The parser, --help, the man page and the
+// completions iterate over it.
 
 #define OPTIONS_MOST 64
 

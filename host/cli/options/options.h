@@ -127,6 +127,14 @@ typedef enum {
 
 #define TIME_GOAL_MOST 1000000 // seconds
 
+// The argument of --tune bvh.
+typedef enum {
+    TUNE_BVH_AUTO, // as SAH, but few triangles get no tree with wide nodes
+    TUNE_BVH_SAH,
+    TUNE_BVH_MIDPOINT,
+    TUNE_BVH_NONE // test every triangle
+} TuneBvh;
+
 // The largest values of options.
 #define EXPOSURE_MOST   8 // stops, as the window's keys allow
 #define VIEW_MOST       1000000
@@ -159,18 +167,17 @@ typedef struct {
     Frames frames;
     int64_t max_level; // negative: not given as a number
     bool fits_level; // use the smallest max_level whose error is invisible in a file of the format
-    bool no_bvh;
-    BvhBuilder builder;
     const char *device;         // NULL: the best one
     uint32_t threads;           // 0: as many as the process may use
     bool reference;             // measure the picture against a reference
     const char *reference_path; // the file for the reference; NULL: do not write it
     uint32_t reference_samples; // per pixel, an even number
     uint32_t repeat;            // the number of times to draw the picture, at least 1
-    uint32_t tile_width, tile_height;
-    uint32_t group_width, group_height; // 0: the kernel's default
     KernelRequest kernel;
+    TuneBvh bvh;
     Specialization specialization;
+    uint32_t tile_width, tile_height;   // 0: the default
+    uint32_t group_width, group_height; // 0: the kernel's default
     bool statistics;
     const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output
     Encoding encoding;

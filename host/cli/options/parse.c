@@ -13,21 +13,23 @@
 
 #define FIRST_LONG 256 // getopt returns this plus the row of a long option; larger than any letter
 
-static void fill_getopt(struct option longs[OPTIONS_MOST + 1], char *shorts)
+static void fill_getopt(struct option *longs, char *shorts)
 {
     *shorts++ = ':';
     for (size_t i = 0; i < option_count; i++) {
         const int kind = option_table[i].argument == NULL                ? no_argument
                          : option_argument_is_optional(&option_table[i]) ? optional_argument
                                                                          : required_argument;
-        longs[i] = (struct option){option_table[i].name, kind, NULL, FIRST_LONG + (int)i};
+        if (option_key(&option_table[i]) != NULL)
+            continue;
+        *longs++ = (struct option){option_table[i].name, kind, NULL, FIRST_LONG + (int)i};
         if (option_table[i].letter != 0) {
             *shorts++ = option_table[i].letter;
             if (kind == required_argument)
                 *shorts++ = ':';
         }
     }
-    longs[option_count] = (struct option){0};
+    *longs = (struct option){0};
     *shorts = '\0';
 }
 
@@ -47,6 +49,14 @@ static const struct {
     {"explain-pixel", "clrt explain SCENE X,Y"},
     {"warm", "clrt warm"},
     {"list-devices", "clrt devices"},
+    {"kernel", "--tune kernel=FORM"},
+    {"nodes", "--tune kernel=FORM"},
+    {"lanes", "--tune kernel=FORM:LANES"},
+    {"tile", "--tune tile=WxH"},
+    {"work-group", "--tune group=WxH"},
+    {"specialize", "--tune specialize=WORD"},
+    {"bvh", "--tune bvh=WORD"},
+    {"no-bvh", "--tune bvh=none"},
 };
 
 static const char *find_synonym(const char *name, size_t length)
@@ -194,9 +204,7 @@ bool options_parse(Options *options, int count, char **arguments, Error *error)
                          .view = 1,
                          .repeat = 1,
                          .reference_samples = REFERENCE_SAMPLES,
-                         .max_level = -1,
-                         .tile_width = OPTIONS_TILE,
-                         .tile_height = OPTIONS_TILE};
+                         .max_level = -1};
     if (!read_options(options, count, arguments, error))
         return false;
     if (options->action != ACTION_RENDER)

@@ -74,25 +74,26 @@ const Option option_table[] = {
      FOR_KERNELS,
      "arithmetic: fp32 (default), or fp64 as a reference, with single rays and pair nodes"},
 
-    {"bvh", "sah|midpoint", 0, WORD(builder), GROUP_SPEED, CLASS_EXACT, FOR_SCENE | FOR_WARM,
-     "build the tree by the surface area heuristic (default) or by midpoints; without this "
-     "option, up to 32 triangles get no tree with wide nodes"},
-    {"no-bvh", NULL, 0, FLAG(no_bvh), GROUP_SPEED, CLASS_EXACT, FOR_SCENE | FOR_WARM,
-     "build no tree and test every triangle"},
-    {"tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT, FOR_DRAWING,
+    {"tune", "LIST", 0, ODD(set_tune), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
+     "settings for experiments, separated by commas, such as kernel=pair,tile=64x64"},
+    {"tune kernel", "auto|pair|wide[:LANES]|packet[:LANES]", 0, ODD(set_kernel), GROUP_SPEED,
+     CLASS_EXACT, FOR_KERNELS,
+     "trace single rays through nodes of two (pair) or eight (wide), or packets of rays through "
+     "nodes of eight; auto (default) chooses by the device; LANES: 4, 8 or 16 for the width of "
+     "vectors"},
+    {"tune tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT,
+     FOR_DRAWING,
      "size of the tiles in which the picture is traced (default: 128x128; for parts 64x64)"},
-    {"work-group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
+    {"tune group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_GENERAL | FOR_WARM,
      "size of the device's work-groups (default: 8x8; with wide nodes 2x2)"},
-    {"specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
+    {"tune specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
-     "compile kernels for this scene: if it pays (default), always or never"},
-    {"kernel", "auto|ray|packet", 0, WORD(kernel.family), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
-     "trace single rays or packets; auto (default) chooses by the device"},
-    {"nodes", "auto|pair|wide", 0, WORD(kernel.nodes), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
-     "nodes with two or eight children; auto (default) chooses by the kernel"},
-    {"lanes", "auto|4|8|16", 0, WORD(kernel.lanes), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
-     "width of the kernels' vectors; auto (default) chooses by the device"},
+     "compile kernels for this scene: if it pays (auto, default), always or never"},
+    {"tune bvh", "auto|sah|midpoint|none", 0, WORD(bvh), GROUP_SPEED, CLASS_EXACT,
+     FOR_SCENE | FOR_WARM,
+     "build the tree by the surface area heuristic or by midpoints, or test every triangle; auto "
+     "(default) is sah, but up to 32 triangles get no tree with wide nodes"},
 
     {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw N pictures and turn the camera about its look-at point by an N-th of a circle for "
