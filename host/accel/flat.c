@@ -1,14 +1,121 @@
 // SPDX-License-Identifier: MIT
-// Flattens lights, materials and spheres, and derives traits. flat_looks.c, flat_pair.c and
-// flat_wide.c flatten the triangles and their tree.
+// Flattens lights, materials, spheres and the looks of triangles, and derives traits. flat_nodes.c
+// flattens the triangles and their tree.
 #include "accel/flat.h"
 
-#include "accel/flat_parts.h"
+#include "accel/flat_nodes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+// Processes one mesh object at a time. Threads process chunks of its triangles.
+
+typedef struct {
+    const MeshObject *object;
+    const uint8_t *orders;  // the object's section of Triangles::orders
+    TriangleLook *looks;    // the object's section of FlatScene::looks
+    CornerNormals *normals; // its section of FlatScene::normals; NULL for flat shading
+    uint32_t first_normals; // index in FlatScene::normals of the section's first element
+} ObjectLooks;
+
+static Vec3 face_normal(const Mesh *mesh, const uint32_t *triangle)
+{
+    const Vec3 first = mesh_direction(mesh, triangle[0], triangle[1]);
+    const Vec3 second = mesh_direction(mesh, triangle[0], triangle[2]);
+    return vec3_normalize(vec3_cross(first, second));
+}
+
+static Vec3 corner_normal(const Mesh *mesh, const uint32_t *triangle, int corner)
+{
+    const Vec3 normal = vec3_of_floats(mesh->normals[triangle[corner]]);
+    return vec3_dot(normal, normal) > 0 ? normal : face_normal(mesh, triangle);
+}
+
+// fmax would be a function call.
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+// Returns 2^-floor(log2(value)) for values in [2^-1022, 2^1023), faster than ilogb and scalbn.
+static double inverse_power(double value)
+{
+    uint64_t bits;
+    double power;
+    memcpy(&bits, &value, sizeof bits);
+    bits = (2046 - (bits >> 52)) << 52;
+    memcpy(&power, &bits, sizeof power);
+    return power;
+}
+
+// Stores a triangle's normals, negated if the stored corners are reversed. A common power of two
+// brings their squares into range, without changing their relative weights in the interpolation.
+static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
+                          const CornerOrder *order)
+{
+    Vec3 normals[3];
+    double extent = 0;
+    for (int corner = 0; corner < 3; corner++) {
+        normals[corner] = corner_normal(mesh, triangle, order->places[corner]);
+        extent = larger(extent, larger(fabs(normals[corner].x),
+                                       larger(fabs(normals[corner].y), fabs(normals[corner].z))));
+    }
+    const double scale = (order->reversed ? -1 : 1) * (extent > 0 ? inverse_power(extent) : 1);
+    for (int corner = 0; corner < 3; corner++) {
+        vec3_store(data->normals[corner], vec3_scale(normals[corner], scale));
+        data->normals[corner][3] = 0;
+    }
+}
+
+static void make_chunk(void *context, uint32_t first, uint32_t end)
+{
+    const ObjectLooks *looks = context;
+    const MeshObject *object = looks->object;
+    const Mesh *mesh = &object->mesh;
+    const uint32_t material = object->material | (object->two_sided ? TRIANGLE_TWO_SIDED : 0);
+    const bool smooth = looks->normals != NULL;
+    for (uint32_t i = first; i < end; i++) {
+        const uint32_t *triangle = mesh->triangles[i];
+        const CornerOrder *order = &corner_orders[looks->orders[i]];
+        looks->looks[i].material = material | (order->reversed ? TRIANGLE_REVERSED : 0);
+        looks->looks[i].normals = smooth ? looks->first_normals + i : NOTHING;
+        if (smooth)
+            store_normals(&looks->normals[i], mesh, triangle, order);
+    }
+}
+
+static uint32_t count_smooth_triangles(const Scene *scene)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < scene->objects.count; i++)
+        if (scene->objects.data[i].mesh.normals != NULL)
+            count += scene->objects.data[i].mesh.triangle_count;
+    return (uint32_t)count;
+}
+
+static bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error)
+{
+    const Scene *scene = source->scene;
+    size_t first = 0;
+    flat->looks = memory_raw(flat->triangle_count, sizeof *flat->looks, error);
+    flat->normals = memory_raw(count_smooth_triangles(scene), sizeof *flat->normals, error);
+    if (flat->looks == NULL || flat->normals == NULL)
+        return false;
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        const uint32_t count = (uint32_t)object->mesh.triangle_count;
+        const bool smooth = object->mesh.normals != NULL;
+        ObjectLooks looks = {object, source->triangles->orders + first, flat->looks + first,
+                             smooth ? flat->normals + flat->normals_count : NULL,
+                             flat->normals_count};
+        thread_pool_share(source->pool, count, CHUNK_ELEMENTS, make_chunk, &looks);
+        first += count;
+        flat->normals_count += smooth ? count : 0;
+    }
+    return true;
+}
 
 BvhLeaves flat_leaves(NodeLayout layout)
 {
@@ -119,50 +226,6 @@ void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS])
         {"looks", flat->looks, looks * sizeof *flat->looks},
         {"normals", flat->normals, flat->normals_count * sizeof *flat->normals}};
     memcpy(arrays, all, sizeof all);
-}
-
-static float largest_coordinate(const Box *box)
-{
-    float largest = 0;
-    for (int axis = 0; axis < 3; axis++)
-        largest = fmaxf(largest, fmaxf(fabsf(box->low[axis]), fabsf(box->high[axis])));
-    return largest;
-}
-
-static float rounded_down(double value)
-{
-    const float nearest = (float)value;
-    return (double)nearest <= value ? nearest : nextafterf(nearest, -INFINITY);
-}
-
-static float rounded_up(double value)
-{
-    return -rounded_down(-value);
-}
-
-// Moves each plane outward by BVH_SLACK times the box's largest coordinate. The sum is nearly exact
-// in fp64 and rounded outward to float. The slack makes the device's culling conservative
-// (kernels/search.cl).
-static Box box_grow(const Box *box)
-{
-    const double slack = (double)BVH_SLACK * (double)largest_coordinate(box);
-    Box grown;
-    for (int axis = 0; axis < 3; axis++) {
-        grown.low[axis] = rounded_down((double)box->low[axis] - slack);
-        grown.high[axis] = rounded_up((double)box->high[axis] + slack);
-    }
-    return grown;
-}
-
-void box_store(float *planes, uint32_t children, uint32_t child, const Box *box)
-{
-    const Box grown =
-        box != NULL ? box_grow(box)
-                    : (Box){{0x1p100f, 0x1p100f, 0x1p100f}, {-0x1p100f, -0x1p100f, -0x1p100f}};
-    for (uint32_t axis = 0; axis < 3; axis++) {
-        planes[2 * axis * children + child] = grown.low[axis];
-        planes[(2 * axis + 1) * children + child] = grown.high[axis];
-    }
 }
 
 bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,

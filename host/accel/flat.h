@@ -3,41 +3,7 @@
 // that the scene lacks take no memory.
 #pragma once
 
-#include "accel/bvh.h"
-
-// The memory layout of triangles and their tree. Both layouts render the same picture.
-typedef enum {
-    NODES_PAIR, // two children per node, single triangles: suits GPUs
-    NODES_WIDE, // up to eight children per node, blocks of eight slots: for vector instructions
-    NODE_LAYOUTS
-} NodeLayout;
-
-typedef struct {
-    NodeLayout layout;
-    PointLight *lights;
-    Material *materials;
-    SphereData *spheres;
-    BvhPair *pairs;          // NODES_PAIR only: the tree
-    TriangleData *triangles; // NODES_PAIR only: in leaf order
-    BvhWide *wides;          // NODES_WIDE only: the tree
-    TriangleBlock *blocks;   // NODES_WIDE only: in leaf order
-    TriangleLook *looks;     // NODES_WIDE only: in file order
-    CornerNormals *normals;  // of smooth triangles, in file order
-    uint32_t light_count, material_count, sphere_count;
-    uint32_t node_count; // entries of pairs or wides
-    uint32_t triangle_count, block_count, normals_count;
-    float background[3], ambient;
-} FlatScene;
-
-// The input of flattening. If bvh has no nodes, the kernels test every triangle.
-typedef struct {
-    const Scene *scene;
-    const Triangles *triangles;
-    const Bvh *bvh;
-    const Normalization *normalization; // of the scene
-    NodeLayout layout;
-    ThreadPool *pool; // NULL for the caller's thread only
-} FlatSource;
+#include "accel/flat_scene.h"
 
 // Returns the unit in which leaves of this layout are tested.
 BvhLeaves flat_leaves(NodeLayout layout);

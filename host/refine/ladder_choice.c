@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Selected pixels are listed block by block, because rays of nearby pixels traverse the tree
 // together. With lists in row order, pictures took 3 to 10 % longer.
-#include "refine/ladder.h"
+#include "refine/ladder_choice.h"
 
 #include <math.h>
 #include <stdlib.h>

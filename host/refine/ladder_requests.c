@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Centers are requested in blocks of PACKET_SIDE x PACKET_SIDE pixels, which form packets.
-#include "refine/ladder.h"
+#include "refine/ladder_requests.h"
 
 #include <math.h>
 #include <stdlib.h>

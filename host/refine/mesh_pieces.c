@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Uses a union-find over vertices. Each vertex refers to a vertex with a lower index in its piece;
 // the root refers to itself.
-#include "refine/thin_parts.h"
+#include "refine/mesh_pieces.h"
 
 #include <stdlib.h>
 

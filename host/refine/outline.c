@@ -3,7 +3,10 @@
 // therefore touches consecutive cells, from its smallest to its largest x between the row's edges.
 #include "refine/outline.h"
 
+#include "refine/refine_tree.h"
+
 #include <math.h>
+#include <stdlib.h>
 
 double outline_signed_area(const Outline *outline)
 {
@@ -112,4 +115,165 @@ CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t
     if (!find_extent(outline, middle, middle, extent))
         return (CellRange){0, 0};
     return cells_sampled(extent[0], extent[1], grid, 0);
+}
+
+// Clips in homogeneous coordinates (x * depth, y * depth, depth), by a plane at the eye and four
+// planes around the picture. After the division by depth, all coordinates are therefore bounded.
+
+#define PLANES 5
+#define MARGIN (2 * REFINE_GRID)
+#define NEAR   1e-30 // tiny beside the triangles' box, whose longest side is 1 to 2
+
+// Returns a value that is negative if the point is beyond the plane.
+static double inside_by(const Projection *projection, Vec3 point, int plane)
+{
+    switch (plane) {
+    case 0:
+        return point.z - NEAR;
+    case 1:
+        return point.x + MARGIN * point.z;
+    case 2:
+        return (projection->width + MARGIN) * point.z - point.x;
+    case 3:
+        return point.y + MARGIN * point.z;
+    default:
+        return (projection->height + MARGIN) * point.z - point.y;
+    }
+}
+
+static Vec3 point_of(const Projection *projection, size_t vertex)
+{
+    const double *position = projection->object->mesh.positions[vertex];
+    const Vec3 point = normalize_point(projection->normalization, vec3_of_doubles(position));
+    const Vec3 seen = vec3_sub(point, projection->eye);
+    const double depth = vec3_dot(seen, projection->forward);
+    return (Vec3){vec3_dot(seen, projection->right) + projection->width / 2 * depth,
+                  vec3_dot(seen, projection->down) + projection->height / 2 * depth, depth};
+}
+
+static void project_points(void *context, uint32_t first, uint32_t end)
+{
+    const Projection *projection = context;
+    for (uint32_t vertex = first; vertex < end; vertex++) {
+        const Vec3 point = point_of(projection, vertex);
+        ProjectedPoint projected = {0};
+        for (int plane = 0; plane < PLANES; plane++)
+            projected.outside |= (uint32_t) !(inside_by(projection, point, plane) >= 0) << plane;
+        if (projected.outside == 0) {
+            projected.x = (float)(point.x / point.z);
+            projected.y = (float)(point.y / point.z);
+        }
+        projection->points[vertex] = projected;
+    }
+}
+
+Projection projection_of(const FrameData *frame, const Normalization *normalization)
+{
+    const Vec3 right = vec3_of_floats(frame->camera.right_step);
+    const Vec3 down = vec3_of_floats(frame->camera.down_step);
+    const double square = vec3_dot(right, right);
+    return (Projection){.normalization = normalization,
+                        .eye = vec3_of_floats(frame->camera.eye),
+                        .right = vec3_scale(right, 0.5 / square),
+                        .down = vec3_scale(down, 0.5 / square),
+                        .forward = vec3_of_floats(frame->camera.forward),
+                        .width = (double)frame->width * REFINE_GRID,
+                        .height = (double)frame->height * REFINE_GRID};
+}
+
+bool projection_begin(Projection *projection, const MeshObject *object, ThreadPool *pool,
+                      Error *error)
+{
+    const uint32_t count = (uint32_t)object->mesh.vertex_count;
+    projection->object = object;
+    projection->points = memory_raw(count, sizeof *projection->points, error);
+    if (projection->points == NULL)
+        return false;
+    thread_pool_share(pool, count, CHUNK_ELEMENTS, project_points, projection);
+    return true;
+}
+
+void projection_end(Projection *projection)
+{
+    free(projection->points);
+    projection->points = NULL;
+}
+
+typedef struct {
+    uint32_t count;
+    Vec3 corners[OUTLINE_CORNERS];
+} Polygon;
+
+static void keep_inside(const Projection *projection, Polygon *polygon, int plane)
+{
+    Polygon kept = {0};
+    for (uint32_t i = 0; i < polygon->count; i++) {
+        const Vec3 from = polygon->corners[i], to = polygon->corners[(i + 1) % polygon->count];
+        const double before = inside_by(projection, from, plane);
+        const double after = inside_by(projection, to, plane);
+        if (before >= 0)
+            kept.corners[kept.count++] = from;
+        if ((before >= 0) != (after >= 0) && kept.count < OUTLINE_CORNERS)
+            kept.corners[kept.count++] =
+                vec3_add(from, vec3_scale(vec3_sub(to, from), before / (before - after)));
+        if (kept.count == OUTLINE_CORNERS)
+            break;
+    }
+    *polygon = kept;
+}
+
+// Limits a coordinate, because rounding may move corners next to the eye arbitrarily far.
+static double limited(double value, double size)
+{
+    return value > -MARGIN ? (value < size + MARGIN ? value : size + MARGIN) : -MARGIN;
+}
+
+// Clips a triangle that is partly outside, which is rare. Returns false if nothing remains.
+static bool cut_outline(const Projection *projection, const uint32_t vertices[3], Outline *outline)
+{
+    Polygon polygon = {.count = 3};
+    for (int corner = 0; corner < 3; corner++)
+        polygon.corners[corner] = point_of(projection, vertices[corner]);
+    for (int plane = 0; plane < PLANES; plane++)
+        keep_inside(projection, &polygon, plane);
+    if (polygon.count < 3)
+        return false;
+    outline->count = polygon.count;
+    for (uint32_t i = 0; i < polygon.count; i++) {
+        const Vec3 *corner = &polygon.corners[i];
+        outline->corners[i][0] = limited(corner->x / corner->z, projection->width);
+        outline->corners[i][1] = limited(corner->y / corner->z, projection->height);
+    }
+    return true;
+}
+
+// Sets members one by one, because an initializer would clear all OUTLINE_CORNERS corners.
+static void set_triangle(Outline *outline, const ProjectedPoint *a, const ProjectedPoint *b,
+                         const ProjectedPoint *c)
+{
+    const ProjectedPoint *points[3] = {a, b, c};
+    outline->count = 3;
+    for (int i = 0; i < 3; i++) {
+        outline->corners[i][0] = points[i]->x;
+        outline->corners[i][1] = points[i]->y;
+    }
+}
+
+bool projection_outline(const Projection *projection, size_t triangle, Outline *outline)
+{
+    const uint32_t *vertices = projection->object->mesh.triangles[triangle];
+    const ProjectedPoint *a = &projection->points[vertices[0]],
+                         *b = &projection->points[vertices[1]],
+                         *c = &projection->points[vertices[2]];
+    if ((a->outside & b->outside & c->outside) != 0)
+        return false;
+    if ((a->outside | b->outside | c->outside) == 0)
+        set_triangle(outline, a, b, c);
+    else if (!cut_outline(projection, vertices, outline))
+        return false;
+    const double area = outline_signed_area(outline);
+    if (!(area < 0 || (area > 0 && projection->object->two_sided)))
+        return false;
+    outline_complete(outline);
+    return true;
 }

@@ -1,68 +1,107 @@
 // SPDX-License-Identifier: MIT
-// Only pixels with a slot have room for cells, and only at the levels that are searched.
+#include "refine/thin_parts.h"
+
 #include "refine/thin_cells.h"
+#include "refine/thin_triangles.h"
 
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-void thin_parts_add_pixel(ThinParts *parts, uint32_t pixel)
-{
-    uint32_t *slot = &parts->slots[pixel];
-    if (*slot == 0)
-        *slot = ++parts->count;
-}
+// A disk whose diameter is at least the cells' diagonal contains the center of a cell. At the last
+// level, this diagonal is a 57th of a pixel. Smaller spheres may be missed.
 
-bool thin_parts_make_room(ThinParts *parts, uint32_t level, Error *error)
+#define HALF_DIAGONAL 0.70710678
+
+// A sphere's projection, in cells of the last level.
+typedef struct {
+    OutlineBox box;  // around the outline
+    double diameter; // of a disk inside the outline
+} SphereOutline;
+
+// Projects a sphere. Returns false unless the whole sphere is in front of the eye.
+static bool project(const FrameData *frame, const SphereData *sphere, SphereOutline *outline)
 {
-    const size_t count = ((size_t)parts->count + 1) * thin_parts_scale(level);
-    if (!array_reserve(&parts->rows[level].memory, &parts->rows[level].capacity, count,
-                       sizeof *parts->rows[level].data, error))
+    const CameraData *camera = &frame->camera;
+    const Vec3 right = vec3_of_floats(camera->right_step), down = vec3_of_floats(camera->down_step);
+    const Vec3 seen = vec3_sub(vec3_of_floats(sphere->center), vec3_of_floats(camera->eye));
+    const double depth = vec3_dot(seen, vec3_of_floats(camera->forward));
+    const double step = sqrt(vec3_dot(right, right));
+    if (depth <= sphere->radius)
         return false;
-    memset(parts->rows[level].data + parts->rows[level].count, 0,
-           (count - parts->rows[level].count) * sizeof *parts->rows[level].data);
-    parts->rows[level].count = count;
+    const double x = vec3_dot(seen, right) / (depth * step * step);
+    const double y = vec3_dot(seen, down) / (depth * step * step);
+    const double radius = sphere->radius / (depth * step) / 2;
+    const double outer = radius * sqrt(1 + (x * x + y * y) * step * step) * 1.001;
+    const double middle[2] = {(x + (double)frame->width * REFINE_GRID) / 2,
+                              (y + (double)frame->height * REFINE_GRID) / 2};
+    for (int axis = 0; axis < 2; axis++) {
+        outline->box.low[axis] = middle[axis] - outer;
+        outline->box.high[axis] = middle[axis] + outer;
+    }
+    outline->diameter = 2 * radius;
     return true;
 }
 
-uint32_t *thin_parts_rows(const ThinParts *parts, uint32_t pixel, uint32_t level)
+// Returns the columns or rows of pixels that the outline's box touches.
+static CellRange pixels_along(const FrameData *frame, const SphereOutline *outline, int axis)
 {
-    const uint32_t slot = parts->slots[pixel];
-    return &parts->rows[level].data[(size_t)slot * thin_parts_scale(level)];
+    const CellGrid pixels = {REFINE_GRID, 1.0 / REFINE_GRID, {frame->width, frame->height}, {0, 0}};
+    const double most = (double)(pixels.counts[axis] + 1) * REFINE_GRID;
+    return cells_touched(fmax(-1, fmin(most, outline->box.low[axis])),
+                         fmax(-1, fmin(most, outline->box.high[axis])), &pixels, axis);
 }
 
-uint32_t thin_row_add(uint32_t *row, uint32_t mask)
+// Adds the cells of a level that the outline's box touches.
+static void add_cells(ThinParts *parts, const SphereOutline *outline, uint32_t pixel,
+                      uint32_t level)
 {
-    uint32_t count = 0;
-    for (uint32_t added = mask & ~*row; added != 0; added &= added - 1)
-        count++;
-    *row |= mask;
-    return count;
+    const CellGrid cells = thin_parts_grid(parts, pixel, level, 0);
+    const CellRange rows = box_touched(&outline->box, &cells, 1);
+    const CellRange columns = box_touched(&outline->box, &cells, 0);
+    uint32_t *masks = thin_parts_rows(parts, pixel, level);
+    for (uint32_t row = rows.first; row < rows.end; row++)
+        parts->cuts[level] +=
+            thin_row_add(&masks[row], (1u << columns.end) - (1u << columns.first));
 }
 
-uint32_t thin_parts_affordable(const ThinParts *parts)
+static bool is_thin(const SphereOutline *outline, uint32_t level)
 {
-    const double most = (double)THIN_SAMPLES * parts->width * parts->height;
-    double samples = 0;
-    uint32_t level = 0;
-    while (level < parts->most) {
-        samples += (GROUP_CELLS - 1) * (double)parts->cuts[level];
-        if (samples > most)
-            break;
-        level++;
+    return outline->diameter < 2 * HALF_DIAGONAL * refine_tree_cell_side(level);
+}
+
+// If level is negative, gives slots to the pixels of a thin sphere. Otherwise adds the sphere's
+// cells of this level.
+static void visit_sphere(ThinParts *parts, const FrameData *frame, const SphereData *sphere,
+                         int level)
+{
+    SphereOutline outline;
+    if (!project(frame, sphere, &outline) || !is_thin(&outline, level < 0 ? 0 : (uint32_t)level))
+        return;
+    const CellRange columns = pixels_along(frame, &outline, 0);
+    const CellRange rows = pixels_along(frame, &outline, 1);
+    for (uint32_t y = rows.first; y < rows.end; y++)
+        for (uint32_t x = columns.first; x < columns.end; x++) {
+            const uint32_t pixel = y * parts->width + x;
+            if (level < 0)
+                thin_parts_add_pixel(parts, pixel);
+            else
+                add_cells(parts, &outline, pixel, (uint32_t)level);
+        }
+}
+
+// Adds the cells around spheres with a diameter below the cells' diagonal.
+static bool thin_spheres_find(ThinParts *parts, const ThinSource *source, Error *error)
+{
+    const FrameData *frame = source->frame;
+    for (uint32_t i = 0; i < frame->sphere_count; i++)
+        visit_sphere(parts, frame, &source->spheres[i], -1);
+    for (uint32_t level = 0; level < thin_parts_affordable(parts); level++) {
+        if (!thin_parts_make_room(parts, level, error))
+            return false;
+        for (uint32_t i = 0; i < frame->sphere_count; i++)
+            visit_sphere(parts, frame, &source->spheres[i], (int)level);
     }
-    return level;
-}
-
-CellGrid thin_parts_grid(const ThinParts *parts, uint32_t pixel, uint32_t level, uint32_t margin)
-{
-    const uint32_t side = refine_tree_cell_side(level),
-                   count = thin_parts_scale(level) + 2 * margin;
-    const double before = (double)side * margin;
-    return (CellGrid){side,
-                      1.0 / side,
-                      {count, count},
-                      {(double)(pixel % parts->width) * REFINE_GRID - before,
-                       (double)(pixel / parts->width) * REFINE_GRID - before}};
+    return true;
 }
 
 // Makes room for all slots at the levels that the sample budget covers.

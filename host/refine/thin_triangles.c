@@ -3,7 +3,9 @@
 // list the thin triangles of each pixel at which the piece is not wide. Finally, they search these
 // pixels level by level, with a mask of cells for each row. The results are sets, which do not
 // depend on the order of work.
-#include "refine/local_cells.h"
+#include "refine/thin_triangles.h"
+
+#include "refine/mesh_pieces.h"
 #include "refine/thin_cells.h"
 
 #include <stdatomic.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests how meshes are divided into pieces of connected triangles. Small pieces become one.
-#include "refine/thin_parts.h"
+#include "refine/mesh_pieces.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 

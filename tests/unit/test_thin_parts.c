@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests which cells are subdivided for thin parts, even if these are many or hard to project.
+#include "refine/mesh_pieces.h"
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
 #include "unit/cmocka_all.h"

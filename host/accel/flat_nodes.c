@@ -1,14 +1,140 @@
 // SPDX-License-Identifier: MIT
-// Collapses the binary tree into nodes of up to eight children. A wide node starts with a binary
-// node's two children or a large leaf's two halves. While the node has fewer than eight children,
-// its divisible child of largest surface area, which rays hit most often, is replaced by the
-// child's two parts. A child with at most eight leaves is divided only if all its leaves fit. This
-// rule avoids nodes of only two or three blocks. One thread walks the tree, and then all threads
-// fill the blocks. Nodes and blocks are in depth-first order.
-#include "accel/flat_parts.h"
+// The pair layout has the inner nodes depth first. The depth of the tree bounds the recursion.
+//
+// The wide layout collapses the binary tree into nodes of up to eight children. A wide node starts
+// with a binary node's two children or a large leaf's two halves. While the node has fewer than
+// eight children, its divisible child of largest surface area, which rays hit most often, is
+// replaced by the child's two parts. A child with at most eight leaves is divided only if all its
+// leaves fit. This rule avoids nodes of only two or three blocks. One thread walks the tree, and
+// then all threads fill the blocks. Nodes and blocks are in depth-first order.
+#include "accel/flat_nodes.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+static float largest_coordinate(const Box *box)
+{
+    float largest = 0;
+    for (int axis = 0; axis < 3; axis++)
+        largest = fmaxf(largest, fmaxf(fabsf(box->low[axis]), fabsf(box->high[axis])));
+    return largest;
+}
+
+static float rounded_down(double value)
+{
+    const float nearest = (float)value;
+    return (double)nearest <= value ? nearest : nextafterf(nearest, -INFINITY);
+}
+
+static float rounded_up(double value)
+{
+    return -rounded_down(-value);
+}
+
+// Moves each plane outward by BVH_SLACK times the box's largest coordinate. The sum is nearly exact
+// in fp64 and rounded outward to float. The slack makes the device's culling conservative
+// (kernels/search.cl).
+static Box box_grow(const Box *box)
+{
+    const double slack = (double)BVH_SLACK * (double)largest_coordinate(box);
+    Box grown;
+    for (int axis = 0; axis < 3; axis++) {
+        grown.low[axis] = rounded_down((double)box->low[axis] - slack);
+        grown.high[axis] = rounded_up((double)box->high[axis] + slack);
+    }
+    return grown;
+}
+
+// Stores a child's box, grown by BVH_SLACK, in the planes of a node with room for `children`
+// children. If box is NULL, no ray enters the stored box. On each axis, the low planes of all
+// children precede the high ones.
+static void box_store(float *planes, uint32_t children, uint32_t child, const Box *box)
+{
+    const Box grown =
+        box != NULL ? box_grow(box)
+                    : (Box){{0x1p100f, 0x1p100f, 0x1p100f}, {-0x1p100f, -0x1p100f, -0x1p100f}};
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        planes[2 * axis * children + child] = grown.low[axis];
+        planes[(2 * axis + 1) * children + child] = grown.high[axis];
+    }
+}
+
+// Returns the number of pairs: one per inner node, and one if the root is a leaf.
+static uint32_t pair_count(const Bvh *bvh)
+{
+    return bvh->node_count <= 1 ? bvh->node_count : bvh->node_count - bvh->leaf_count;
+}
+
+// Writes an inner node as pairs[number], followed by the nodes below it, depth first. Returns the
+// number of pairs written so far.
+static uint32_t write_inner(BvhPair *pairs, uint32_t number, const Bvh *bvh, const BvhNode *node)
+{
+    uint32_t count = number + 1;
+    for (int side = 0; side < 2; side++) {
+        const BvhNode *child = &bvh->nodes[node->first + (uint32_t)side];
+        box_store(pairs[number].planes[0][0], 2, (uint32_t)side, &child->box);
+        pairs[number].count[side] = child->count;
+        pairs[number].first[side] = child->count > 0 ? child->first : count;
+        if (child->count == 0)
+            count = write_inner(pairs, count, bvh, child);
+    }
+    return count;
+}
+
+static void write_pairs(BvhPair *pairs, const Bvh *bvh)
+{
+    if (bvh->node_count == 0)
+        return;
+    if (bvh->nodes[0].count == 0) {
+        write_inner(pairs, 0, bvh, &bvh->nodes[0]);
+        return;
+    }
+    box_store(pairs[0].planes[0][0], 2, 0, &bvh->nodes[0].box);
+    box_store(pairs[0].planes[0][0], 2, 1, NULL);
+    pairs[0].first[0] = pairs[0].first[1] = 0;
+    pairs[0].count[0] = bvh->nodes[0].count;
+    pairs[0].count[1] = 1;
+}
+
+static void place_triangles(FlatScene *flat, const FlatSource *source)
+{
+    const Triangles *triangles = source->triangles;
+    const uint32_t *order = source->bvh->order;
+    for (uint32_t place = 0; place < flat->triangle_count; place++) {
+        const uint32_t number = order == NULL ? place : order[place];
+        TriangleData *triangle = &flat->triangles[place];
+        triangle->id = flat->sphere_count + number;
+        triangle->material = flat->looks[number].material;
+        triangle->normals = flat->looks[number].normals;
+        const uint8_t *corners = triangles_order(triangles, number)->places;
+        memcpy(triangle->a, triangles_corner(triangles, number, corners[0]), sizeof triangle->a);
+        memcpy(triangle->b, triangles_corner(triangles, number, corners[1]), sizeof triangle->b);
+        memcpy(triangle->c, triangles_corner(triangles, number, corners[2]), sizeof triangle->c);
+    }
+}
+
+bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error)
+{
+    flat->node_count = pair_count(source->bvh);
+    flat->pairs = memory_raw(flat->node_count, sizeof *flat->pairs, error);
+    flat->triangles = memory_raw(flat->triangle_count, sizeof *flat->triangles, error);
+    if (flat->pairs == NULL || flat->triangles == NULL)
+        return false;
+    write_pairs(flat->pairs, source->bvh);
+    place_triangles(flat, source);
+    free(flat->looks);
+    flat->looks = NULL;
+    return true;
+}
+
+// Returns half the surface area; zero for an empty box.
+static float box_half_area(const Box *box)
+{
+    const float x = box->high[0] - box->low[0];
+    const float y = box->high[1] - box->low[1];
+    const float z = box->high[2] - box->low[2];
+    return x >= 0 ? x * y + y * z + z * x : 0;
+}
 
 // A candidate for a child of a wide node: a binary node, or a range of a leaf's triangles, which
 // may exceed one block.

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Traces lists of requests for samples of pixels, and sums the samples.
+#pragma once
+
+#include "base/array.h"
+#include "base/thread_pool.h"
+#include "image/framebuffer.h"
+#include "render/sampler.h"
+#include "scene/normalize.h"
+
+// The most requests per list.
+#define REQUESTS_MOST (1u << 18)
+
+typedef struct {
+    Renderer *renderer;             // with ladder_entry; borrowed
+    FrameData frame;                // with a camera made for LADDER_GRID samples
+    const RenderObserver *observer; // borrowed; may be NULL
+    ThreadPool *pool;               // borrowed; NULL for none
+    PixelRequest *requests;         // room for REQUESTS_MOST, all with equal sample counts
+    PixelSums *sums;                // of the requests in the latest trace
+    uint32_t count;                 // requests in the list
+} PixelRequests;
+
+bool pixel_requests_make(PixelRequests *requests, Error *error);
+void pixel_requests_free(PixelRequests *requests);
+
+// Returns a request for samples first to first + samples - 1 of a pixel. samples is 4 or
+// REQUEST_SAMPLES, and first is a multiple of samples. The sample positions are points of the
+// two-dimensional Sobol sequence, XORed with the low bits of hash (Sobol, "On the distribution of
+// points in a cube and the approximate evaluation of integrals", 1967).
+PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples,
+                           uint64_t hash);
+
+// Returns false if the observer has stopped a trace.
+bool pixel_requests_are_whole(const PixelRequests *requests);
+
+// Traces the requests and stores their sums. If the observer stops the trace, some are missing.
+bool pixel_requests_trace(PixelRequests *requests, Error *error);
+
+// Renders a picture of the frame's size with one sample at each pixel's center.
+bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, Error *error);
+
+// Computes the mean color of the samples. Their number is a power of two.
+void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3]);
+
+// Returns the variance of the samples' colors, averaged over the channels.
+double pixel_sums_variance(const PixelSums *sums, uint32_t samples);
+
+void pixel_sums_add(PixelSums *sums, const PixelSums *more);

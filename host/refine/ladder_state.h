@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The data of a ladder (ladder.h), which the files of its steps share.
+#pragma once
+
+#include "refine/ladder_requests.h"
+#include "refine/ladder_strata.h"
+
+// On rung 0, a pixel has a feature (ladder_strata.h). On higher rungs, it has sums of samples.
+typedef union {
+    float feature;
+    uint32_t sums; // index in Ladder::sums
+} LadderPlace;
+
+typedef struct {
+    PixelRequests requests;
+    Framebuffer *picture;  // borrowed; means of the pixels' samples
+    uint32_t *chosen;      // room for all pixels
+    LadderPlace *places;   // of each pixel
+    uint8_t *strata;       // of each pixel
+    ARRAY(PixelSums) sums; // of the pixels above rung 0
+    Strata statistics;
+    Strata chosen_by; // the statistics at the latest selection of pixels
+    uint64_t samples; // taken so far
+} Ladder;
+
+typedef struct {
+    Renderer *renderer;       // with ladder_entry
+    const FlatScene *flat;    // the renderer's scene
+    const CameraData *camera; // made for LADDER_GRID samples
+    ThreadPool *pool;         // threads for the work, NULL for none
+    const Scene *scene;       // the source of flat
+    const Normalization *normalization;
+    Framebuffer *picture;           // of the renderer's size; the ladder renders into it
+    const RenderObserver *observer; // may stop the refinement; may be NULL
+} LadderSetup;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Divides a mesh into pieces: sets of triangles connected by shared vertices. All sets of fewer
+// than PIECE_TRIANGLES triangles are merged into one piece, because triangles of some files share
+// no vertices.
+#pragma once
+
+#include "mesh/mesh.h"
+
+#define PIECE_TRIANGLES 8
+
+typedef struct {
+    uint32_t *order; // triangles sorted by piece; NULL: a single piece, in file order
+    uint32_t *ends;  // the end of each piece, as an index into order
+    uint32_t count;
+} MeshPieces;
+
+bool mesh_pieces_make(MeshPieces *pieces, const Mesh *mesh, Error *error);
+void mesh_pieces_free(MeshPieces *pieces);
