@@ -244,6 +244,24 @@ typedef struct {
 } PathData;
 CLRT_SAME_SIZE(PathData, 48)
 
+// A ray of rays.cl: origin + t * direction. A ray that starts on a triangle or sphere has this
+// primitive's id, and for triangles also the index.
+typedef struct {
+    float origin[3];
+    float limit; // the largest t of a hit; below 0 for no ray
+    float direction[3];
+    uint own;       // id of the primitive it starts on, or NOTHING
+    uint own_index; // index of that primitive if it is a triangle, else NOTHING
+    uint padding;
+} RayData;
+CLRT_SAME_SIZE(RayData, 40)
+
+typedef struct {
+    float t; // INFINITY without a hit
+    uint id; // NOTHING without a hit
+} HitData;
+CLRT_SAME_SIZE(HitData, 8)
+
 // The record of each ray of a path for explanations of pixels. It holds LEVEL_VALUES numbers of the
 // kernel's precision and LEVEL_WORDS words. For each light, LIGHT_VALUES and LIGHT_WORDS follow.
 // Vectors take three entries.

@@ -57,6 +57,25 @@ static inline Mask OVERLOAD edges_contain(const Edges *edges)
     return (smallest >= 0.0f || largest <= 0.0f) && edges->determinant != 0.0f;
 }
 
+// Returns whether an edge function counts as positive. If the ray meets the edge from p to q
+// exactly, a ray infinitely near to it decides, moved along x and even less along y (Edelsbrunner
+// and Muecke, "Simulation of simplicity", 1990).
+static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
+{
+    const Mask beside = p.y > q.y || (p.y == q.y && q.x > p.x);
+    return edge > 0.0f || (edge == 0.0f && beside);
+}
+
+// Returns whether the triangle owns the ray. Of the triangles that surround a ray through an edge
+// or vertex, an odd number owns it if the ray crosses their surface, else an even number.
+static inline Mask OVERLOAD edges_own(const Corners *sheared, const Edges *edges)
+{
+    const Real3 a = sheared->a, b = sheared->b, c = sheared->c;
+    const Mask u = edge_is_positive(edges->u, c, b), v = edge_is_positive(edges->v, a, c);
+    const Mask w = edge_is_positive(edges->w, b, a);
+    return u == v && v == w && edges->determinant != 0.0f;
+}
+
 // Returns whether the ray comes from the stored front, where the corners turn counter-clockwise.
 static inline Mask OVERLOAD edges_face(const Edges *edges, const Shear *shear)
 {

@@ -266,7 +266,7 @@ static double error_at(const Aim *aim, double distance)
 
 // Makes a ray from origin to the aim and sets the aim's tolerance. Returns false if a triangle
 // around the aim may face away from origin, or if rounding could make the ray miss the triangles.
-static bool shoot(Aim *aim, Vec3 origin, double least_facing, CastRay *ray)
+static bool shoot(Aim *aim, Vec3 origin, double least_facing, RayData *ray)
 {
     const Vec3 back = vec3_sub(origin, aim->point);
     const double distance = length_of(back);
@@ -275,8 +275,11 @@ static bool shoot(Aim *aim, Vec3 origin, double least_facing, CastRay *ray)
     if (!(facing >= least_facing) || !(aim->size * facing > 4 * error))
         return false;
     const Vec3 direction = vec3_scale(back, -1);
-    *ray = (CastRay){{(float)origin.x, (float)origin.y, (float)origin.z, 0},
-                     {(float)direction.x, (float)direction.y, (float)direction.z, 0}};
+    *ray = (RayData){.origin = {(float)origin.x, (float)origin.y, (float)origin.z},
+                     .limit = INFINITY,
+                     .direction = {(float)direction.x, (float)direction.y, (float)direction.z},
+                     .own = NOTHING,
+                     .own_index = NOTHING};
     aim->tolerance = (float)(4 * error / (facing * distance));
     return true;
 }
@@ -298,7 +301,7 @@ static uint32_t best_eye(const Aim *aim, const Vec3 eyes[EYES])
     return best;
 }
 
-size_t aims_shoot_from_afar(Aims *aims, CastRay *rays, uint32_t *targets)
+size_t aims_shoot_from_afar(Aims *aims, RayData *rays, uint32_t *targets)
 {
     Vec3 eyes[EYES];
     size_t count = 0;
@@ -312,7 +315,7 @@ size_t aims_shoot_from_afar(Aims *aims, CastRay *rays, uint32_t *targets)
     return count;
 }
 
-size_t aims_shoot_from_close(Aims *aims, CastRay *rays, uint32_t *targets)
+size_t aims_shoot_from_close(Aims *aims, RayData *rays, uint32_t *targets)
 {
     size_t count = 0;
     for (size_t i = 0; i < aims->count; i++) {
@@ -325,12 +328,12 @@ size_t aims_shoot_from_close(Aims *aims, CastRay *rays, uint32_t *targets)
     return count;
 }
 
-void aims_judge(Aims *aims, const uint32_t *targets, const float *distances, size_t count)
+void aims_judge(Aims *aims, const uint32_t *targets, const HitData *hits, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         Aim *aim = &aims->aims[targets[i]];
-        aim->state = distances[i] > 1 + aim->tolerance   ? AIM_LEAKED
-                     : distances[i] < 1 - aim->tolerance ? AIM_HIDDEN
-                                                         : AIM_REACHED;
+        aim->state = hits[i].t > 1 + aim->tolerance   ? AIM_LEAKED
+                     : hits[i].t < 1 - aim->tolerance ? AIM_HIDDEN
+                                                      : AIM_REACHED;
     }
 }

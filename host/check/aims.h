@@ -47,8 +47,8 @@ void aims_free(Aims *aims);
 
 // Store rays that reach their aims at t = 1, and in targets the index of each ray's aim. Return the
 // number of rays, at most aims->count.
-size_t aims_shoot_from_afar(Aims *aims, CastRay *rays, uint32_t *targets);
-size_t aims_shoot_from_close(Aims *aims, CastRay *rays, uint32_t *targets);
+size_t aims_shoot_from_afar(Aims *aims, RayData *rays, uint32_t *targets);
+size_t aims_shoot_from_close(Aims *aims, RayData *rays, uint32_t *targets);
 
-// Sets the state of each target from its ray's hit distance t, which is INFINITY for a miss.
-void aims_judge(Aims *aims, const uint32_t *targets, const float *distances, size_t count);
+// Sets the state of each target from its ray's hit.
+void aims_judge(Aims *aims, const uint32_t *targets, const HitData *hits, size_t count);

@@ -9,6 +9,7 @@ typedef struct {
     Scene scene; // borrows the mesh
     CompileStages stages;
     FlatScene flat;
+    SceneBuffers buffers;
     Aims aims;
 } StagedMesh;
 
@@ -30,35 +31,37 @@ static bool make_aims(StagedMesh *staged, const Mesh *mesh, const LeakSetting *s
 }
 
 typedef struct {
-    CastRay *rays;
+    RayData *rays;
     uint32_t *targets;
-    float *distances;
+    HitData *hits;
 } RayBatch;
 
 static bool make_batch(RayBatch *batch, size_t count, Error *error)
 {
     *batch = (RayBatch){memory_raw(count, sizeof *batch->rays, error),
                         memory_raw(count, sizeof *batch->targets, error),
-                        memory_raw(count, sizeof *batch->distances, error)};
-    return batch->rays != NULL && batch->targets != NULL && batch->distances != NULL;
+                        memory_raw(count, sizeof *batch->hits, error)};
+    return batch->rays != NULL && batch->targets != NULL && batch->hits != NULL;
 }
 
-static bool trace_aims(Aims *aims, LeakCount *count, const RayCaster *caster, Error *error)
+static bool trace_aims(StagedMesh *staged, LeakCount *count, const RayCaster *caster, Error *error)
 {
-    size_t (*const make_rays[2])(Aims *, CastRay *, uint32_t *) = {aims_shoot_from_afar,
+    Aims *aims = &staged->aims;
+    size_t (*const make_rays[2])(Aims *, RayData *, uint32_t *) = {aims_shoot_from_afar,
                                                                    aims_shoot_from_close};
     RayBatch batch;
     bool ok = make_batch(&batch, aims->count, error);
     for (int from = 0; ok && from < 2; from++) {
         const size_t rays = make_rays[from](aims, batch.rays, batch.targets);
-        ok = ray_caster_cast(caster, batch.rays, rays, batch.distances, error);
+        const RayCast cast = {&staged->buffers, batch.rays, rays, RAYS_FREE};
+        ok = ray_caster_cast(caster, &cast, batch.hits, error);
         if (ok)
-            aims_judge(aims, batch.targets, batch.distances, rays);
+            aims_judge(aims, batch.targets, batch.hits, rays);
         count->rays += rays;
     }
     free(batch.rays);
     free(batch.targets);
-    free(batch.distances);
+    free(batch.hits);
     return ok;
 }
 
@@ -90,10 +93,10 @@ bool leaks_count(LeakCount *count, RayCaster *caster, const MeshObject *given,
               array_push(&staged.scene.objects, object, error) &&
               scene_compile(&staged.flat, &staged.stages, &source, error) &&
               make_aims(&staged, &given->mesh, setting, error) &&
-              ray_caster_load(caster, &staged.flat, error) &&
-              trace_aims(&staged.aims, count, caster, error);
+              scene_buffers_make(&staged.buffers, caster->kernel->device, &staged.flat, error) &&
+              trace_aims(&staged, count, caster, error);
     sum_up(&staged.aims, given, count);
-    ray_caster_unload(caster);
+    scene_buffers_free(&staged.buffers);
     aims_free(&staged.aims);
     flat_free(&staged.flat);
     compile_stages_free(&staged.stages);

@@ -341,6 +341,78 @@ CLRT_API bool clrt_reference(ClrtRenderer *renderer, const ClrtScene *scene,
 // `clrt --hash`.
 CLRT_API void clrt_hash(const float *rgb, uint32_t width, uint32_t height, char hash[33]);
 
+// Rays
+
+// The number of no primitive, mesh or triangle.
+#define CLRT_NOTHING 0xffffffffu
+
+// Rays origin + t * direction. A ray hits what its t in [near, far] meets, faces from both sides.
+// Rays whose numbers are not finite, or whose direction is shorter than 1e-300 or longer than
+// 1e300, hit nothing.
+//
+// A ray that starts on a primitive does not hit it again, except a sphere from inside. It passes
+// neighbors from which its start differs only by rounding. Its near must be 0 (or nears NULL) for
+// that; with another, it only skips the primitive. clrt moves the start onto the triangle's plane.
+// The call fails if the start is farther than 2^-15 from the plane, in the units of clrt_trace.
+typedef struct {
+    size_t size;
+    size_t count;
+    const double *origins;                  // X Y Z per ray
+    const double *directions;               // X Y Z per ray; NULL means 0 0 1 for all
+    size_t origin_stride, direction_stride; // bytes from one ray to the next; 0 means 24
+    const double *nears, *fars;             // one per ray; NULL means 0 and INFINITY
+    const uint32_t *starts; // the primitive each ray starts on, or CLRT_NOTHING; may be NULL
+    bool one_sided;         // rays pass through the backs of triangles that are not two-sided
+    ClrtProgress *progress; // counts parts of 65536 rays; may be NULL
+    void *user;             // passed to progress
+} ClrtRays;
+
+// Arrays for the results, one entry per ray unless stated otherwise. NULL omits a result.
+typedef struct {
+    size_t size;
+    double *distances;    // t of the hit, INFINITY without one
+    uint32_t *primitives; // id: spheres in order, then triangles in order; or CLRT_NOTHING
+    uint32_t *meshes;     // number of the mesh, in order from 0; CLRT_NOTHING for spheres
+    uint32_t *triangles;  // number of the triangle in its mesh, from 0; CLRT_NOTHING for spheres
+    double *weights;      // two per ray: of the triangle's second and third corner; 0 0 for spheres
+    double *normals;      // three per ray: the unit normal of the face's front; 0 0 0 without a hit
+    uint8_t *fronts;      // 1 if the ray comes from the front
+
+    // Only for clrt_trace_all.
+    uint32_t *counts; // number of triangles that the ray crosses; may be above room
+    size_t room;      // entries for each ray in the other arrays, at most 1048576
+} ClrtHits;
+
+// Finds each ray's nearest hit. Equal distances go to the lowest id. The results depend only on the
+// ray and on the scene, not on the batch, the threads or the device. A ray through an edge or
+// vertex of a closed mesh hits it.
+//
+// This is exact for the scene as it is traced. clrt centers the scene in double precision, scales
+// it by a power of two so that the longest side of the box around all triangles is in [1, 2), and
+// rounds coordinates to float. Origins more than 4 from the box's center first move along the ray
+// to within 4, unless the scene has spheres. In these units, a distance is off by at most 18 *
+// 2^-24 times the distance of the triangle's farthest corner from the origin, along the longest
+// axis of the direction.
+CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                         const ClrtHits *hits, ClrtError *error);
+
+// Finds all triangles that each ray crosses, and stores the nearest hits->room of them, by distance
+// and then by id. Results of ray i start at entry i * room; CLRT_NOTHING fills unused entries. A
+// ray through an edge or vertex of a closed mesh crosses it in one triangle, or in none or two
+// where it only touches a ridge. Spheres are not crossed.
+CLRT_API bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                             const ClrtHits *hits, ClrtError *error);
+
+// Stores in inside[i] whether the ray's origin is inside of the meshes: the ray crosses an odd
+// number of triangles. The meshes must be closed. Any direction gives the same result, but for
+// origins within rounding of a surface. NULL for directions is fastest.
+CLRT_API bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                            uint8_t *inside, ClrtError *error);
+
+// Stores in occluded[i] whether clrt_trace would find a hit of ray i.
+CLRT_API bool clrt_occluded(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                            uint8_t *occluded, ClrtError *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -111,7 +111,7 @@ bool drawing_begin(Drawing *drawing, const ClrtPicture *picture, ClrtError *erro
         !check_given(error, "the scene", drawing->handle))
         return false;
     if (atomic_exchange(&drawing->renderer->is_busy, true))
-        return check_fail(error, CLRT_ARGUMENT, "the renderer is drawing another picture");
+        return check_fail(error, CLRT_ARGUMENT, "the renderer is busy with another call");
     if (take_request(drawing, picture, error))
         return true;
     drawing_end(drawing);

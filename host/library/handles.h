@@ -6,6 +6,7 @@
 #include "library/clrt.h"
 #include "scene/scene.h"
 #include "session/picture.h"
+#include "session/ray_scene.h"
 
 #include <stdatomic.h>
 
@@ -54,9 +55,11 @@ bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *e
 // The inside of a ClrtRenderer.
 struct ClrtRenderer {
     Session session;
-    atomic_bool is_busy; // true while a picture is drawn
+    RayScene rays;       // empty until rays are cast
+    atomic_bool is_busy; // true while a picture is drawn or rays are cast
     uint64_t state;      // ClrtScene::state of the session's scene; 0 without a scene
 };
 
-// Compiles and uploads the scene, unless the renderer already has the scene in this state.
+// Gives the session the scene, unless it already has the scene in this state. Pictures and rays
+// compile the scene when they need it.
 bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);

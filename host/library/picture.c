@@ -13,6 +13,8 @@ static bool draw_colors(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};
     const RenderObserver observer = {drawing_continues, drawing};
+    if (session_own_form(&drawing->renderer->session, &cause) == NULL)
+        return check_fail_for(error, CLRT_SCENE, &cause);
     return session_draw(&drawing->renderer->session, &drawing->request, &observer,
                         &drawing->framebuffer, &drawing->drawn, &cause) ||
            check_fail_for(error, CLRT_DEVICE, &cause);

@@ -89,6 +89,7 @@ void clrt_renderer_free(ClrtRenderer *renderer)
 {
     if (renderer == NULL)
         return;
+    ray_scene_free(&renderer->rays);
     session_close(&renderer->session);
     free(renderer);
 }
@@ -97,15 +98,13 @@ bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtEr
 {
     Error cause = {0};
     Session *session = &renderer->session;
-    PictureResult unused;
     session->scene.scene = &scene->scene;
     if (renderer->state == scene->state)
         return true;
     renderer->state = 0;
-    if (!session_take(session, &scene->scene, &cause) || session_own_form(session, &cause) == NULL)
+    ray_scene_drop(&renderer->rays);
+    if (!session_take(session, &scene->scene, &cause))
         return check_fail_for(error, CLRT_SCENE, &cause);
-    if (!session_prepare(session, &(SessionPicture){0}, &unused, &cause))
-        return check_fail_for(error, CLRT_DEVICE, &cause);
     renderer->state = scene->state;
     return true;
 }

@@ -3,9 +3,3 @@
 #pragma once
 
 #include "accel/flat.h"
-
-// A ray in the device's layout. The fourth components are zero.
-typedef struct {
-    float origin[4];
-    float direction[4];
-} CastRay;

@@ -13,52 +13,48 @@
 #define FIRST_ARRAY 2
 #define ARRAYS      3
 
-// kernels/rays.cl, embedded at build time.
-extern const char rays_source[];
+// Rays in a launch that finds crossings, one in each work-item.
+#define LAUNCH_CROSSED 16384
 
-void ray_caster_unload(RayCaster *caster)
+// kernels/rays.cl and kernels/crossings.cl, embedded at build time.
+extern const char rays_source[], crossings_source[];
+
+// Sets the arguments that both kernels have first: the scene and the rays.
+static cl_int set_rays(cl_kernel kernel, const SceneBuffers *scene, cl_mem rays, cl_uint count)
 {
-    scene_buffers_free(&caster->scene);
-}
-
-bool ray_caster_load(RayCaster *caster, const FlatScene *flat, Error *error)
-{
-    ray_caster_unload(caster);
-    return scene_buffers_make(&caster->scene, caster->kernel->device, flat, error);
-}
-
-// A scene and the buffers of its rays.
-typedef struct {
-    const Kernel *kernel;
-    const SceneBuffers *scene;
-    cl_mem rays, distances;
-} Launch;
-
-static bool launch(const Launch *input, cl_uint count, Error *error)
-{
-    const bool is_wide = input->kernel->choice.nodes == NODES_WIDE;
-    const size_t grid = is_wide ? LAUNCH_RAYS / FEWEST_LANES : LAUNCH_RAYS;
-    const size_t group = is_wide ? 4 : 64;
-    cl_kernel kernel = input->kernel->handle;
-    cl_int status = clSetKernelArg(kernel, 0, sizeof input->scene->frame, &input->scene->frame);
+    cl_int status = clSetKernelArg(kernel, 0, sizeof scene->frame, &scene->frame);
     for (cl_uint i = 0; i < ARRAYS; i++)
-        status |=
-            clSetKernelArg(kernel, i + 1, sizeof(cl_mem), &input->scene->arrays[FIRST_ARRAY + i]);
-    status |= clSetKernelArg(kernel, 4, sizeof(cl_mem), &input->rays);
-    status |= clSetKernelArg(kernel, 5, sizeof count, &count);
-    status |= clSetKernelArg(kernel, 6, sizeof(cl_mem), &input->distances);
-    if (!cl_succeeded(status, "set the arguments of the kernel trace_rays", error))
+        status |= clSetKernelArg(kernel, i + 1, sizeof(cl_mem), &scene->arrays[FIRST_ARRAY + i]);
+    status |= clSetKernelArg(kernel, 4, sizeof(cl_mem), &rays);
+    return status | clSetKernelArg(kernel, 5, sizeof count, &count);
+}
+
+static bool run(const Kernel *kernel, cl_int status, size_t grid, size_t group, Error *error)
+{
+    if (!cl_succeeded(status, "set the arguments of a kernel for rays", error))
         return false;
-    status = clEnqueueNDRangeKernel(input->kernel->device->queue, kernel, 1, NULL, &grid, &group, 0,
-                                    NULL, NULL);
-    return cl_succeeded(status, "run the kernel trace_rays", error);
+    status = clEnqueueNDRangeKernel(kernel->device->queue, kernel->handle, 1, NULL, &grid, &group,
+                                    0, NULL, NULL);
+    return cl_succeeded(status, "run a kernel for rays", error);
+}
+
+static bool launch(const RayCaster *caster, const SceneBuffers *scene, cl_uint count, cl_uint kind,
+                   Error *error)
+{
+    cl_kernel kernel = caster->kernel->handle;
+    const bool is_wide = caster->kernel->choice.nodes == NODES_WIDE;
+    cl_int status = set_rays(kernel, scene, caster->rays, count);
+    status |= clSetKernelArg(kernel, 6, sizeof kind, &kind);
+    status |= clSetKernelArg(kernel, 7, sizeof(cl_mem), &caster->hits);
+    return run(caster->kernel, status, is_wide ? LAUNCH_RAYS / FEWEST_LANES : LAUNCH_RAYS,
+               is_wide ? 4 : 64, error);
 }
 
 static bool cast_nothing(Renderer *renderer, Error *error)
 {
     const cl_mem nothing = renderer->scene->arrays[0];
-    const Launch input = {renderer->kernel, renderer->scene, nothing, nothing};
-    return launch(&input, 0, error) &&
+    const RayCaster caster = {renderer->kernel, nothing, nothing};
+    return launch(&caster, renderer->scene, 0, RAYS_FREE, error) &&
            cl_succeeded(clFinish(renderer->kernel->device->queue), "finish the first run", error);
 }
 
@@ -75,8 +71,8 @@ bool ray_caster_open(RayCaster *caster, Session *session, Error *error)
     const SceneTraits traits = traits_general(false);
     *caster = (RayCaster){.kernel = session_kernel(session, &use, &traits, error)};
     if (caster->kernel != NULL &&
-        device_buffer(&session->device, LAUNCH_RAYS * sizeof(CastRay), &caster->rays, error) &&
-        device_buffer(&session->device, LAUNCH_RAYS * sizeof(float), &caster->distances, error))
+        device_buffer(&session->device, LAUNCH_RAYS * sizeof(RayData), &caster->rays, error) &&
+        device_buffer(&session->device, LAUNCH_RAYS * sizeof(HitData), &caster->hits, error))
         return true;
     ray_caster_close(caster);
     return false;
@@ -84,30 +80,100 @@ bool ray_caster_open(RayCaster *caster, Session *session, Error *error)
 
 void ray_caster_close(RayCaster *caster)
 {
-    ray_caster_unload(caster);
     device_release(&caster->rays);
-    device_release(&caster->distances);
+    device_release(&caster->hits);
     *caster = (RayCaster){0};
 }
 
-static bool cast_launch(const RayCaster *caster, const CastRay *rays, size_t count,
-                        float *distances, Error *error)
+static bool write_rays(const Device *device, cl_mem buffer, const RayData *rays, size_t count,
+                       Error *error)
 {
-    const Device *device = caster->kernel->device;
-    const Launch input = {caster->kernel, &caster->scene, caster->rays, caster->distances};
-    const cl_int status = clEnqueueWriteBuffer(device->queue, caster->rays, CL_TRUE, 0,
-                                               count * sizeof *rays, rays, 0, NULL, NULL);
-    return cl_succeeded(status, "write rays", error) && launch(&input, (cl_uint)count, error) &&
-           device_read(device, caster->distances, distances, count * sizeof *distances, error);
+    return cl_succeeded(clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, 0,
+                                             count * sizeof *rays, rays, 0, NULL, NULL),
+                        "write rays", error);
 }
 
-bool ray_caster_cast(const RayCaster *caster, const CastRay *rays, size_t count, float *distances,
-                     Error *error)
+static size_t smaller(size_t a, size_t b)
 {
-    for (size_t first = 0; first < count; first += LAUNCH_RAYS) {
-        const size_t left = count - first;
-        if (!cast_launch(caster, rays + first, left < LAUNCH_RAYS ? left : LAUNCH_RAYS,
-                         distances + first, error))
+    return a < b ? a : b;
+}
+
+bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, Error *error)
+{
+    const Device *device = caster->kernel->device;
+    for (size_t first = 0; first < cast->count; first += LAUNCH_RAYS) {
+        const size_t count = smaller(cast->count - first, LAUNCH_RAYS);
+        if (!write_rays(device, caster->rays, cast->rays + first, count, error) ||
+            !launch(caster, cast->scene, (cl_uint)count, cast->start, error) ||
+            !device_read(device, caster->hits, hits + first, count * sizeof *hits, error))
+            return false;
+    }
+    return true;
+}
+
+static bool find_launch(const CrossingFinder *finder, const SceneBuffers *scene, cl_uint count,
+                        cl_uint room, Error *error)
+{
+    cl_kernel kernel = finder->kernel->handle;
+    cl_int status = set_rays(kernel, scene, finder->rays, count);
+    status |= clSetKernelArg(kernel, 6, sizeof room, &room);
+    status |= clSetKernelArg(kernel, 7, sizeof(cl_mem), &finder->hits);
+    status |= clSetKernelArg(kernel, 8, sizeof(cl_mem), &finder->counts);
+    return run(finder->kernel, status, LAUNCH_CROSSED, 64, error);
+}
+
+static bool find_nothing(Renderer *renderer, Error *error)
+{
+    const cl_mem nothing = renderer->scene->arrays[0];
+    const CrossingFinder finder = {renderer->kernel, nothing, nothing, nothing};
+    return find_launch(&finder, renderer->scene, 0, 0, error) &&
+           cl_succeeded(clFinish(renderer->kernel->device->queue), "finish the first run", error);
+}
+
+static bool first_find(const Kernel *kernel, Error *error)
+{
+    return renderer_run_first(kernel, find_nothing, error);
+}
+
+static const KernelEntry crossings_entry = {"find_crossings", crossings_source, NULL, first_find};
+
+bool crossing_finder_open(CrossingFinder *finder, Session *session, Error *error)
+{
+    const RendererUse use = {.entry = &crossings_entry, .is_general = true};
+    const SceneTraits traits = traits_general(false);
+    const Device *device = &session->device;
+    *finder = (CrossingFinder){.kernel = session_kernel(session, &use, &traits, error)};
+    if (finder->kernel != NULL &&
+        device_buffer(device, LAUNCH_CROSSED * sizeof(RayData), &finder->rays, error) &&
+        device_buffer(device, CROSSINGS_MAX * sizeof(HitData), &finder->hits, error) &&
+        device_buffer(device, LAUNCH_CROSSED * sizeof(uint32_t), &finder->counts, error))
+        return true;
+    crossing_finder_close(finder);
+    return false;
+}
+
+void crossing_finder_close(CrossingFinder *finder)
+{
+    device_release(&finder->rays);
+    device_release(&finder->hits);
+    device_release(&finder->counts);
+    *finder = (CrossingFinder){0};
+}
+
+bool crossing_finder_find(const CrossingFinder *finder, const RayCast *cast, CrossingList *found,
+                          Error *error)
+{
+    const Device *device = finder->kernel->device;
+    const size_t room = found->room;
+    const size_t most = smaller(LAUNCH_CROSSED, room > 0 ? CROSSINGS_MAX / room : SIZE_MAX);
+    for (size_t first = 0; first < cast->count; first += most) {
+        const size_t count = smaller(cast->count - first, most);
+        if (!write_rays(device, finder->rays, cast->rays + first, count, error) ||
+            !find_launch(finder, cast->scene, (cl_uint)count, found->room, error) ||
+            !device_read(device, finder->counts, found->counts + first,
+                         count * sizeof *found->counts, error) ||
+            (room > 0 && !device_read(device, finder->hits, found->hits + first * room,
+                                      count * room * sizeof *found->hits, error)))
             return false;
     }
     return true;

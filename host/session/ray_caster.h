@@ -1,25 +1,51 @@
 // SPDX-License-Identifier: MIT
-// Rays -> hit distances, computed by the traversal that renders pictures. The rays meet a scene of
-// the caster's own, not the session's.
+// Rays -> hits, computed by the search that renders pictures.
 #pragma once
 
 #include "session/session.h"
 
 typedef struct {
     const Kernel *kernel;
-    cl_mem rays, distances; // room for one launch
-    SceneBuffers scene;
+    cl_mem rays, hits; // room for one launch
 } RayCaster;
 
-// Compiles the session's kernel. To cast rays, callers also load a scene.
+// Compiles the session's kernel.
 bool ray_caster_open(RayCaster *caster, Session *session, Error *error);
 void ray_caster_close(RayCaster *caster);
 
-// Replaces the scene. flat must have the node layout of caster->kernel. Callers call
-// ray_caster_unload before they free flat, also after a failed load.
-bool ray_caster_load(RayCaster *caster, const FlatScene *flat, Error *error);
-void ray_caster_unload(RayCaster *caster);
+// How rays start. The numbers are those of the kernels' RayKind.
+typedef enum {
+    RAYS_FREE,      // anywhere
+    RAYS_ON_SURFACE // on the primitives that they name
+} RayStart;
 
-// Stores the hit distance t of each ray in distances, or INFINITY for a miss.
-bool ray_caster_cast(const RayCaster *caster, const CastRay *rays, size_t count, float *distances,
-                     Error *error);
+typedef struct {
+    const SceneBuffers *scene; // in the node layout of the caster's kernel
+    const RayData *rays;
+    size_t count;
+    RayStart start;
+} RayCast;
+
+// Stores the nearest hit of each ray.
+bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, Error *error);
+
+// Finds all crossings (kernels/crossings.cl).
+typedef struct {
+    const Kernel *kernel;
+    cl_mem rays, hits, counts; // room for one launch
+} CrossingFinder;
+
+bool crossing_finder_open(CrossingFinder *finder, Session *session, Error *error);
+void crossing_finder_close(CrossingFinder *finder);
+
+// Results for each ray: the number of crossings, and the nearest `room` of them in order.
+typedef struct {
+    uint32_t *counts;
+    HitData *hits; // NULL if room is 0
+    uint32_t room; // at most CROSSINGS_MAX
+} CrossingList;
+
+#define CROSSINGS_MAX 1048576
+
+bool crossing_finder_find(const CrossingFinder *finder, const RayCast *cast, CrossingList *found,
+                          Error *error);

@@ -94,6 +94,9 @@ bool session_take(Session *session, const Scene *scene, Error *error);
 // Releases the compiled forms of a scene.
 void session_scene_free(SessionScene *scene);
 
+// Returns whether a tree pays for the session's scene in this layout.
+bool session_wants_tree(const Session *session, NodeLayout layout);
+
 // Returns the scene in a layout of nodes, compiled once, or NULL. The tree is left out if
 // has_tree is false, or if the settings or the number of triangles say so.
 SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Error *error);

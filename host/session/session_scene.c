@@ -21,7 +21,7 @@ void session_scene_free(SessionScene *scene)
     *scene = (SessionScene){0};
 }
 
-static bool wants_tree(const Session *session, NodeLayout layout)
+bool session_wants_tree(const Session *session, NodeLayout layout)
 {
     const uint64_t triangles = scene_triangle_count(session->scene.scene);
     return session->settings.tree == TREE_ALWAYS || layout != NODES_WIDE ||
@@ -69,7 +69,7 @@ static bool make_form(Session *session, SceneForm *form, NodeLayout layout, bool
 
 SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Error *error)
 {
-    const bool uses_tree = has_tree && wants_tree(session, layout);
+    const bool uses_tree = has_tree && session_wants_tree(session, layout);
     SceneForm *form = &session->scene.forms[layout][uses_tree];
     const bool is_made = form->flat.lights != NULL;
     return is_made || make_form(session, form, layout, uses_tree, error) ? form : NULL;

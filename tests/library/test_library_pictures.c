@@ -200,7 +200,7 @@ TEST(a_renderer_that_draws_refuses_another_picture)
     picture.progress = draw_again;
     picture.user = &error;
     assert_true(render(picture, NULL));
-    faults_assert(false, &error, CLRT_ARGUMENT, "the renderer is drawing another picture");
+    faults_assert(false, &error, CLRT_ARGUMENT, "the renderer is busy with another call");
 }
 
 static void use_everything(void)

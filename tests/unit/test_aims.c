@@ -16,7 +16,7 @@ typedef struct {
     Edges edges;
     Triangles triangles;
     Aims aims;
-    CastRay rays[64];
+    RayData rays[64];
     uint32_t targets[64];
 } Fixture;
 
@@ -107,8 +107,8 @@ TEST(rays_are_judged_by_where_they_end)
 {
     FREED_BY(release) Fixture all = aimed(faces, 4, 64, false);
     aims_shoot_from_afar(&all.aims, all.rays, all.targets);
-    const float distances[4] = {1, 0.9f, 1.1f, INFINITY};
-    aims_judge(&all.aims, all.targets, distances, 4);
+    const HitData hits[4] = {{.t = 1}, {.t = 0.9f}, {.t = 1.1f}, {.t = INFINITY}};
+    aims_judge(&all.aims, all.targets, hits, 4);
     assert_int_equal(all.aims.aims[all.targets[0]].state, AIM_REACHED);
     assert_int_equal(all.aims.aims[all.targets[1]].state, AIM_HIDDEN);
     assert_int_equal(all.aims.aims[all.targets[2]].state, AIM_LEAKED);

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// Coordinates are the normalized frame's, directions have a largest component in [1, 2).
+#include "library/ray_parts.h"
+
+#include <math.h>
+
+// Rays that start outside of a cube of twice this side, around the frame's origin, enter it first.
+// The scene's triangles are within 1.
+#define CUBE 2.0
+
+// How far a ray's start may be off the plane of its triangle.
+#define OFF_PLANE 0x1p-15
+
+// Beyond this distance from the frame's origin, rays hit nothing (is_searchable in intersect.cl).
+#define FARTHEST 0x1p45
+
+typedef struct {
+    Vec3 origin, direction;
+    double near, far;
+    uint32_t own;
+} GivenRay;
+
+static Vec3 vector_at(const double *vectors, size_t stride, size_t index)
+{
+    const size_t bytes = index * (stride != 0 ? stride : 3 * sizeof(double));
+    return vec3_of_doubles((const double *)(const void *)((const char *)vectors + bytes));
+}
+
+static GivenRay given_at(const ClrtRays *rays, size_t index)
+{
+    return (GivenRay){vector_at(rays->origins, rays->origin_stride, index),
+                      rays->directions != NULL
+                          ? vector_at(rays->directions, rays->direction_stride, index)
+                          : vec3(0, 0, 1),
+                      rays->nears != NULL ? rays->nears[index] : 0,
+                      rays->fars != NULL ? rays->fars[index] : INFINITY,
+                      rays->starts != NULL ? rays->starts[index] : NOTHING};
+}
+
+typedef struct {
+    Vec3 at[3];
+} FaceCorners;
+
+static FaceCorners corners_of(const Triangles *triangles, size_t triangle)
+{
+    return (FaceCorners){{vec3_of_floats(triangles_corner(triangles, triangle, 0)),
+                          vec3_of_floats(triangles_corner(triangles, triangle, 1)),
+                          vec3_of_floats(triangles_corner(triangles, triangle, 2))}};
+}
+
+static Vec3 normal_of(const FaceCorners *corners)
+{
+    const Vec3 *at = corners->at;
+    return vec3_normalize(vec3_cross(vec3_sub(at[1], at[0]), vec3_sub(at[2], at[0])));
+}
+
+static double entry_of_axis(double origin, double direction)
+{
+    return direction == 0 ? -INFINITY : (-copysign(CUBE, direction) - origin) / direction;
+}
+
+// Returns the t at which the ray enters the cube; below 0 if it starts there or moves away.
+static double cube_entry(Vec3 origin, Vec3 direction)
+{
+    return fmax(fmax(entry_of_axis(origin.x, direction.x), entry_of_axis(origin.y, direction.y)),
+                entry_of_axis(origin.z, direction.z));
+}
+
+// An entry of a part, with the frame of its scene.
+typedef struct {
+    RayPart *part;
+    const RayScene *scene;
+    const Normalization *normalization;
+    size_t entry;
+} Entry;
+
+// Converts a ray. It becomes no ray if it can hit nothing.
+static Vec3 convert(const Entry *entry, const GivenRay *given)
+{
+    const double largest = vec3_extent(given->direction);
+    const bool is_usable = largest >= 1e-300 && largest <= 1e300;
+    const double shrink = is_usable ? scalbn(1, -ilogb(largest)) : 0;
+    const double unit = shrink / entry->normalization->scale;
+    const Vec3 direction = vec3_scale(given->direction, shrink);
+    double start = given->near;
+    Vec3 origin = normalize_point(entry->normalization, given->origin);
+    if (start != 0)
+        origin = vec3_add(origin, vec3_scale(direction, start / unit));
+    const double ahead = entry->scene->flat.sphere_count == 0 && vec3_extent(origin) > 2 * CUBE
+                             ? cube_entry(origin, direction)
+                             : 0;
+    if (ahead > 0) {
+        origin = vec3_add(origin, vec3_scale(direction, ahead));
+        start += ahead * unit;
+    }
+    const double limit = (given->far - start) / unit;
+    RayData *ray = &entry->part->rays[entry->entry];
+    ray->limit = is_usable && vec3_extent(origin) < FARTHEST && limit >= 0
+                     ? (float)fmin(limit, 0x1p127)
+                     : -1;
+    vec3_store(ray->direction, direction);
+    entry->part->starts[entry->entry] = start;
+    entry->part->units[entry->entry] = unit;
+    return origin;
+}
+
+// Moves the start of a ray onto the plane of its triangle.
+static bool move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle)
+{
+    const FaceCorners corners = corners_of(&scene->triangles, triangle);
+    const Vec3 normal = normal_of(&corners);
+    const double off = vec3_dot(normal, vec3_sub(*origin, corners.at[0]));
+    if (!(fabs(off) <= OFF_PLANE))
+        return false;
+    *origin = vec3_sub(*origin, vec3_scale(normal, off));
+    return true;
+}
+
+// Returns whether the ray starts on the primitive that it names.
+static bool is_on_surface(const GivenRay *given)
+{
+    return given->own != NOTHING && given->near == 0;
+}
+
+static bool fill_entry(const Entry *entry, const GivenRay *given, size_t number, ClrtError *error)
+{
+    RayData *ray = &entry->part->rays[entry->entry];
+    const uint32_t spheres = entry->scene->flat.sphere_count;
+    const uint64_t primitives = (uint64_t)spheres + entry->scene->flat.triangle_count;
+    Vec3 origin = convert(entry, given);
+    ray->own = given->own;
+    ray->own_index = NOTHING;
+    if (given->own != NOTHING && given->own >= primitives)
+        return check_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu", number,
+                          given->own, (unsigned long long)primitives);
+    if (is_on_surface(given) && given->own >= spheres && ray->limit >= 0) {
+        ray->own_index = entry->scene->places[given->own - spheres];
+        if (!move_to_plane(&origin, entry->scene, given->own - spheres))
+            return check_fail(error, CLRT_ARGUMENT,
+                              "ray %zu starts too far from primitive %u, on which it should start",
+                              number, given->own);
+    }
+    vec3_store(ray->origin, origin);
+    return true;
+}
+
+bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *rays,
+                   size_t *on_surface, ClrtError *error)
+{
+    Entry entry = {part, &renderer->rays, &renderer->session.scene.normalization, 0};
+    size_t first = 0, last = part->count;
+    for (size_t i = 0; i < part->count; i++) {
+        const size_t number = part->first + i;
+        const GivenRay given = given_at(rays, number);
+        entry.entry = is_on_surface(&given) ? --last : first++;
+        part->order[entry.entry] = (uint32_t)i;
+        if (!fill_entry(&entry, &given, number, error))
+            return false;
+    }
+    *on_surface = part->count - last;
+    return true;
+}
+
+static Vec3 sphere_center(const SphereData *sphere)
+{
+    return vec3_add(vec3_of_floats(sphere->center), vec3_of_floats(sphere->center_low));
+}
+
+static void store3(double out[3], Vec3 v)
+{
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
+}
+
+// Returns the weights of the second and third corner at the point where the ray's line is in the
+// triangle's plane (Moeller and Trumbore, JGT 2(1) 1997), limited to the triangle.
+static void weights_at(double weights[2], const FaceCorners *corners, Vec3 origin, Vec3 direction)
+{
+    const Vec3 ab = vec3_sub(corners->at[1], corners->at[0]);
+    const Vec3 ac = vec3_sub(corners->at[2], corners->at[0]);
+    const Vec3 from = vec3_sub(origin, corners->at[0]), across = vec3_cross(direction, ac);
+    const double determinant = vec3_dot(ab, across);
+    weights[0] = weights[1] = 0;
+    if (determinant == 0)
+        return;
+    const double second = vec3_dot(from, across) / determinant;
+    const double third = vec3_dot(direction, vec3_cross(from, ab)) / determinant;
+    weights[0] = fmin(fmax(second, 0), 1);
+    weights[1] = fmin(fmax(third, 0), 1 - weights[0]);
+}
+
+// The surface of a hit, as callers may request it.
+typedef struct {
+    double weights[2];
+    Vec3 normal;
+    bool front;
+} HitSurface;
+
+static HitSurface surface_of(const RayData *ray, const RayScene *scene, HitData hit)
+{
+    HitSurface surface = {0};
+    const uint32_t spheres = scene->flat.sphere_count;
+    const Vec3 origin = vec3_of_floats(ray->origin), direction = vec3_of_floats(ray->direction);
+    if (hit.id == NOTHING)
+        return surface;
+    if (hit.id < spheres) {
+        const Vec3 point = vec3_add(origin, vec3_scale(direction, (double)hit.t));
+        surface.normal =
+            vec3_normalize(vec3_sub(point, sphere_center(&scene->flat.spheres[hit.id])));
+    } else {
+        const FaceCorners corners = corners_of(&scene->triangles, hit.id - spheres);
+        weights_at(surface.weights, &corners, origin, direction);
+        surface.normal = normal_of(&corners);
+    }
+    surface.front = vec3_dot(surface.normal, direction) <= 0;
+    return surface;
+}
+
+static void store_surface(const ClrtHits *hits, size_t ray, const HitSurface *surface)
+{
+    for (int i = 0; hits->weights != NULL && i < 2; i++)
+        hits->weights[2 * ray + (size_t)i] = surface->weights[i];
+    if (hits->normals != NULL)
+        store3(hits->normals + 3 * ray, surface->normal);
+    if (hits->fronts != NULL)
+        hits->fronts[ray] = surface->front;
+}
+
+// Stores the mesh of a triangle and the triangle's number in it.
+static void store_place(const ClrtRenderer *renderer, const ClrtHits *hits, size_t ray, uint32_t id)
+{
+    const RayScene *rays = &renderer->rays;
+    const Scene *scene = renderer->session.scene.scene;
+    uint32_t mesh = NOTHING, number = NOTHING;
+    if (id != NOTHING && id >= rays->flat.sphere_count) {
+        const uint32_t triangle = id - rays->flat.sphere_count;
+        mesh = ray_scene_mesh(rays, triangle);
+        number = (uint32_t)mesh_original_number(&scene->objects.data[mesh].mesh,
+                                                triangle - rays->mesh_starts[mesh]);
+    }
+    if (hits->meshes != NULL)
+        hits->meshes[ray] = mesh;
+    if (hits->triangles != NULL)
+        hits->triangles[ray] = number;
+}
+
+void ray_part_store(const RayPart *part, const ClrtRenderer *renderer, const PartHit *hit,
+                    const ClrtHits *hits)
+{
+    const size_t place = hit->place;
+    const uint32_t id = hit->hit.id;
+    if (hits->distances != NULL)
+        hits->distances[place] =
+            id == NOTHING ? INFINITY
+                          : part->starts[hit->entry] + (double)hit->hit.t * part->units[hit->entry];
+    if (hits->primitives != NULL)
+        hits->primitives[place] = id;
+    if (hits->meshes != NULL || hits->triangles != NULL)
+        store_place(renderer, hits, place, id);
+    if (hits->weights != NULL || hits->normals != NULL || hits->fronts != NULL) {
+        const HitSurface surface = surface_of(&part->rays[hit->entry], &renderer->rays, hit->hit);
+        store_surface(hits, place, &surface);
+    }
+}

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// Batches of rays -> hits, part by part, so that batches of any size need little memory.
+#include "library/ray_parts.h"
+
+#include <stdlib.h>
+
+// The caller's arrays for results.
+typedef struct {
+    ClrtHits hits;
+    uint8_t *occluded, *inside; // NULL for none
+    bool finds_all;             // crossings, not the nearest hits
+} RayResults;
+
+// A batch that is being traced.
+typedef struct {
+    ClrtRenderer *renderer;
+    ClrtRays rays;
+    RayResults results;
+    RayPart part;
+    uint32_t counts[PART_RAYS]; // crossings of each ray
+    HitData *hits;              // room for one part
+} Batch;
+
+// Returns the number of hits that are kept for each ray.
+static size_t room_of(const RayResults *results)
+{
+    return results->finds_all ? results->hits.room : 1;
+}
+
+static size_t part_rays(const RayResults *results)
+{
+    const size_t most = CROSSINGS_MAX / (room_of(results) > 0 ? room_of(results) : 1);
+    return most < PART_RAYS ? most : PART_RAYS;
+}
+
+static bool trace_part(Batch *batch, size_t on_surface, Error *error)
+{
+    const RayScene *scene = &batch->renderer->rays;
+    const size_t free_rays = batch->part.count - on_surface;
+    const RayCast casts[2] = {
+        {&scene->buffers, batch->part.rays, free_rays, RAYS_FREE},
+        {&scene->buffers, batch->part.rays + free_rays, on_surface, RAYS_ON_SURFACE}};
+    const RayCast all = {&scene->buffers, batch->part.rays, batch->part.count, RAYS_FREE};
+    CrossingList found = {batch->counts, batch->hits, (uint32_t)room_of(&batch->results)};
+    if (batch->results.finds_all)
+        return crossing_finder_find(&scene->finder, &all, &found, error);
+    return ray_caster_cast(&scene->caster, &casts[0], batch->hits, error) &&
+           ray_caster_cast(&scene->caster, &casts[1], batch->hits + free_rays, error);
+}
+
+// Stores the results of one ray.
+static void store(const Batch *batch, size_t entry)
+{
+    const RayResults *results = &batch->results;
+    const size_t room = room_of(results), ray = batch->part.first + batch->part.order[entry];
+    const uint32_t count = results->finds_all ? batch->counts[entry] : 1;
+    for (size_t i = 0; i < room; i++) {
+        const HitData none = {INFINITY, NOTHING};
+        const PartHit hit = {entry, ray * room + i,
+                             i < count ? batch->hits[entry * room + i] : none};
+        ray_part_store(&batch->part, batch->renderer, &hit, &results->hits);
+    }
+    if (results->occluded != NULL)
+        results->occluded[ray] = batch->hits[entry].id != NOTHING;
+    if (results->inside != NULL)
+        results->inside[ray] = count % 2;
+    if (results->finds_all && results->hits.counts != NULL)
+        results->hits.counts[ray] = count;
+}
+
+static bool trace_parts(Batch *batch, ClrtError *error)
+{
+    Error cause = {0};
+    const ClrtRays *rays = &batch->rays;
+    const size_t most = part_rays(&batch->results);
+    const uint64_t parts = (rays->count + most - 1) / most;
+    for (uint64_t done = 0; done < parts; done++) {
+        size_t on_surface = 0;
+        batch->part.first = done * most;
+        batch->part.count = rays->count - batch->part.first;
+        if (batch->part.count > most)
+            batch->part.count = most;
+        if (!ray_part_fill(&batch->part, batch->renderer, rays, &on_surface, error))
+            return false;
+        if (!trace_part(batch, on_surface, &cause))
+            return check_fail_for(error, CLRT_DEVICE, &cause);
+        for (size_t entry = 0; entry < batch->part.count; entry++)
+            store(batch, entry);
+        if (rays->progress != NULL && !rays->progress(rays->user, done + 1, parts) &&
+            done + 1 < parts)
+            return check_fail(error, CLRT_STOPPED, "the rays were stopped after %llu of %llu parts",
+                              (unsigned long long)(done + 1), (unsigned long long)parts);
+    }
+    return true;
+}
+
+static bool open_kernel(ClrtRenderer *renderer, const RayResults *results, Error *error)
+{
+    RayScene *scene = &renderer->rays;
+    if (results->finds_all)
+        return scene->finder.kernel != NULL ||
+               crossing_finder_open(&scene->finder, &renderer->session, error);
+    return scene->caster.kernel != NULL ||
+           ray_caster_open(&scene->caster, &renderer->session, error);
+}
+
+static bool prepare(const Batch *batch, const ClrtScene *scene, ClrtError *error)
+{
+    Error cause = {0};
+    ClrtRenderer *renderer = batch->renderer;
+    if (!renderer_handle_take(renderer, scene, error))
+        return false;
+    return (open_kernel(renderer, &batch->results, &cause) &&
+            ray_scene_take(&renderer->rays, &renderer->session, batch->rays.one_sided, &cause)) ||
+           check_fail_for(error, CLRT_DEVICE, &cause);
+}
+
+static bool trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                  const RayResults *results, ClrtError *error)
+{
+    Error cause = {0};
+    Batch *batch = memory_raw(1, sizeof *batch, &cause);
+    if (batch == NULL)
+        return check_fail_for(error, CLRT_DEVICE, &cause);
+    batch->renderer = renderer;
+    batch->results = *results;
+    batch->hits = memory_raw(part_rays(results) * room_of(results), sizeof *batch->hits, &cause);
+    const bool ok =
+        (batch->hits != NULL || check_fail_for(error, CLRT_DEVICE, &cause)) &&
+        check_struct(error, "the rays", rays, &batch->rays, sizeof batch->rays) &&
+        (batch->rays.count == 0 || check_given(error, "the origins", batch->rays.origins)) &&
+        prepare(batch, scene, error) && trace_parts(batch, error);
+    free(batch->hits);
+    free(batch);
+    return ok;
+}
+
+static bool trace_alone(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                        const RayResults *results, ClrtError *error)
+{
+    if (!check_given(error, "the renderer", renderer) || !check_given(error, "the scene", scene))
+        return false;
+    if (atomic_exchange(&renderer->is_busy, true))
+        return check_fail(error, CLRT_ARGUMENT, "the renderer is busy with another call");
+    const bool ok = trace(renderer, scene, rays, results, error);
+    atomic_store(&renderer->is_busy, false);
+    return ok;
+}
+
+bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                const ClrtHits *hits, ClrtError *error)
+{
+    RayResults results = {0};
+    return check_struct(error, "the hits", hits, &results.hits, sizeof results.hits) &&
+           trace_alone(renderer, scene, rays, &results, error);
+}
+
+bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                    const ClrtHits *hits, ClrtError *error)
+{
+    RayResults results = {.finds_all = true};
+    return check_struct(error, "the hits", hits, &results.hits, sizeof results.hits) &&
+           check_number(error, "the room for hits", (double)results.hits.room, 0, CROSSINGS_MAX) &&
+           trace_alone(renderer, scene, rays, &results, error);
+}
+
+bool clrt_occluded(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                   uint8_t *occluded, ClrtError *error)
+{
+    const RayResults results = {.occluded = occluded};
+    return check_given(error, "the array of results", occluded) &&
+           trace_alone(renderer, scene, rays, &results, error);
+}
+
+bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                   uint8_t *inside, ClrtError *error)
+{
+    const RayResults results = {.inside = inside, .finds_all = true};
+    return check_given(error, "the array of results", inside) &&
+           trace_alone(renderer, scene, rays, &results, error);
+}

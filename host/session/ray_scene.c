@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "session/ray_scene.h"
+
+#include <stdlib.h>
+
+void ray_scene_drop(RayScene *ray_scene)
+{
+    scene_buffers_free(&ray_scene->buffers);
+    flat_free(&ray_scene->flat);
+    triangles_free(&ray_scene->triangles);
+    free(ray_scene->places);
+    free(ray_scene->mesh_starts);
+    *ray_scene = (RayScene){.caster = ray_scene->caster, .finder = ray_scene->finder};
+}
+
+void ray_scene_free(RayScene *ray_scene)
+{
+    ray_scene_drop(ray_scene);
+    ray_caster_close(&ray_scene->caster);
+    crossing_finder_close(&ray_scene->finder);
+    *ray_scene = (RayScene){0};
+}
+
+static bool compile(RayScene *ray_scene, const Session *session, const Scene *scene, Error *error)
+{
+    CompileStages stages = {0};
+    const NodeLayout layout = session->choice.nodes;
+    const CompileSource source = {
+        .scene = scene,
+        .normalization = &session->scene.normalization,
+        .layout = layout,
+        .builder = session->settings.builder,
+        .has_tree = session->settings.tree != TREE_NEVER && session_wants_tree(session, layout),
+        .pool = thread_pool_open(threads_allowed(session->settings.threads))};
+    const bool ok = scene_compile(&ray_scene->flat, &stages, &source, error);
+    thread_pool_close(source.pool);
+    ray_scene->triangles = stages.triangles;
+    stages.triangles = (Triangles){0};
+    compile_stages_free(&stages);
+    return ok;
+}
+
+// The copy borrows everything but the list of its objects.
+static bool compile_both_sides(RayScene *ray_scene, const Session *session, Error *error)
+{
+    Scene both = *session->scene.scene;
+    const size_t count = both.objects.count;
+    both.objects.data = memory_raw(count, sizeof *both.objects.data, error);
+    if (both.objects.data == NULL)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        both.objects.data[i] = session->scene.scene->objects.data[i];
+        both.objects.data[i].two_sided = true;
+    }
+    const bool ok = compile(ray_scene, session, &both, error);
+    free(both.objects.data);
+    return ok;
+}
+
+static bool find_places(RayScene *ray_scene, Error *error)
+{
+    const FlatScene *flat = &ray_scene->flat;
+    const uint32_t spheres = flat->sphere_count;
+    uint32_t *places = memory_raw(flat->triangle_count, sizeof *places, error);
+    ray_scene->places = places;
+    if (places == NULL)
+        return false;
+    for (uint32_t i = 0; flat->layout == NODES_PAIR && i < flat->triangle_count; i++)
+        places[flat->triangles[i].id - spheres] = i;
+    for (uint32_t i = 0; i < flat->block_count * WIDE; i++) {
+        const uint32_t word = flat->blocks[i / WIDE].id[i % WIDE];
+        if (word != NOTHING)
+            places[(word & ~TRIANGLE_MARKS) - spheres] = i;
+    }
+    return true;
+}
+
+static bool list_meshes(RayScene *ray_scene, const Scene *scene, Error *error)
+{
+    const uint32_t count = (uint32_t)scene->objects.count;
+    uint32_t *starts = memory_zeroed(count + 1, sizeof *starts, error);
+    ray_scene->mesh_starts = starts;
+    ray_scene->mesh_count = count;
+    for (uint32_t i = 0; starts != NULL && i < count; i++)
+        starts[i + 1] = starts[i] + (uint32_t)scene->objects.data[i].mesh.triangle_count;
+    return starts != NULL;
+}
+
+uint32_t ray_scene_mesh(const RayScene *ray_scene, uint32_t triangle)
+{
+    uint32_t low = 0, high = ray_scene->mesh_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (ray_scene->mesh_starts[middle] <= triangle)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+bool ray_scene_take(RayScene *ray_scene, Session *session, bool one_sided, Error *error)
+{
+    if (ray_scene->is_loaded && ray_scene->one_sided == one_sided)
+        return true;
+    ray_scene_drop(ray_scene);
+    const bool ok =
+        (one_sided ? compile(ray_scene, session, session->scene.scene, error)
+                   : compile_both_sides(ray_scene, session, error)) &&
+        find_places(ray_scene, error) && list_meshes(ray_scene, session->scene.scene, error) &&
+        scene_buffers_make(&ray_scene->buffers, &session->device, &ray_scene->flat, error);
+    if (!ok)
+        ray_scene_drop(ray_scene);
+    ray_scene->is_loaded = ok;
+    ray_scene->one_sided = one_sided;
+    return ok;
+}

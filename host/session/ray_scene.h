@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A scene that rays are cast at: the session's scene, with faces on both sides unless requested
+// otherwise, on the device and as the host examines hits.
+#pragma once
+
+#include "session/ray_caster.h"
+
+typedef struct {
+    RayCaster caster;      // open after the first rays
+    CrossingFinder finder; // open after the first search for crossings
+    FlatScene flat;
+    SceneBuffers buffers;
+    Triangles triangles;   // as traced, in the order of their ids
+    uint32_t *places;      // index of each triangle in the device's arrays
+    uint32_t *mesh_starts; // first triangle of each mesh, then the number of triangles
+    uint32_t mesh_count;
+    bool is_loaded, one_sided;
+} RayScene;
+
+// Compiles the scene, unless ray_scene has it already. On failure, ray_scene
+// has no scene.
+bool ray_scene_take(RayScene *ray_scene, Session *session, bool one_sided, Error *error);
+
+// Releases the scene, after which the session's scene may change.
+void ray_scene_drop(RayScene *ray_scene);
+
+// Releases everything, before the session closes.
+void ray_scene_free(RayScene *ray_scene);
+
+// Returns the number of the mesh that has the triangle.
+uint32_t ray_scene_mesh(const RayScene *ray_scene, uint32_t triangle);

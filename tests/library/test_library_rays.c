@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: MIT
+// Casts rays at a bumpy ball: a closed mesh that is far from convex.
+#include "library/faults.h"
+#include "unit/cmocka_all.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ROWS     24
+#define COLUMNS  40
+#define VERTICES (ROWS * COLUMNS + 2)
+#define FACES    (2 * ROWS * COLUMNS)
+#define RAYS     20000
+
+static double vertices[VERTICES][3];
+static uint32_t faces[FACES][3];
+static double origins[RAYS][3], directions[RAYS][3];
+static ClrtRenderer *renderer;
+static ClrtScene *scene;
+
+static uint32_t vertex_number(int row, int column)
+{
+    if (row < 0)
+        return VERTICES - 2;
+    return row == ROWS ? VERTICES - 1 : (uint32_t)(row * COLUMNS + column % COLUMNS);
+}
+
+static void place_vertex(uint32_t number, double height, double turn)
+{
+    const double bumps = 1 + 0.3 * sin(7 * turn) * sin(9 * height);
+    const double across = sqrt(1 - height * height) * bumps;
+    vertices[number][0] = across * cos(turn);
+    vertices[number][1] = across * sin(turn);
+    vertices[number][2] = height * bumps;
+}
+
+static void fill_ball(void)
+{
+    uint32_t count = 0;
+    for (int row = 0; row < ROWS; row++)
+        for (int column = 0; column < COLUMNS; column++)
+            place_vertex(vertex_number(row, column), 2 * (row + 0.5) / ROWS - 1,
+                         2 * 3.14159265358979 * column / COLUMNS);
+    place_vertex(VERTICES - 2, -1, 0);
+    place_vertex(VERTICES - 1, 1, 0);
+    for (int row = -1; row < ROWS; row++)
+        for (int column = 0; column < COLUMNS; column++) {
+            const uint32_t a = vertex_number(row, column), b = vertex_number(row, column + 1);
+            const uint32_t c = vertex_number(row + 1, column + 1);
+            const uint32_t d = vertex_number(row + 1, column);
+            const uint32_t halves[2][3] = {{a, b, c}, {a, c, d}};
+            if (row >= 0)
+                memcpy(faces[count++], halves[0], sizeof halves[0]);
+            if (row < ROWS - 1)
+                memcpy(faces[count++], halves[1], sizeof halves[1]);
+        }
+    assert_int_equal(count, FACES);
+}
+
+static double random_number(void)
+{
+    static uint64_t state = 7;
+    state = state * 6364136223846793005 + 1442695040888963407;
+    return (double)(state >> 11) * 0x1p-52 - 1;
+}
+
+static ClrtScene *ball_scene(void)
+{
+    const ClrtMesh mesh = {.size = sizeof mesh,
+                           .positions = vertices[0],
+                           .triangles = faces[0],
+                           .vertex_count = VERTICES,
+                           .triangle_count = FACES};
+    ClrtScene *made = clrt_scene_create(NULL);
+    assert_true(clrt_scene_add_mesh(made, &mesh, NULL));
+    return made;
+}
+
+SET_UP(open_all)
+{
+    fill_ball();
+    scene = ball_scene();
+    renderer = clrt_renderer_create(NULL, NULL);
+    for (int i = 0; i < RAYS; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            origins[i][axis] = 2 * random_number();
+            directions[i][axis] = 0.5 * random_number() - origins[i][axis];
+        }
+    return scene == NULL || renderer == NULL;
+}
+
+TEAR_DOWN(close_all)
+{
+    clrt_renderer_free(renderer);
+    clrt_scene_free(scene);
+    return 0;
+}
+
+static ClrtRays rays_given(size_t count)
+{
+    return (ClrtRays){.size = sizeof(ClrtRays),
+                      .count = count,
+                      .origins = origins[0],
+                      .directions = directions[0]};
+}
+
+typedef struct {
+    double distances[RAYS], weights[RAYS][2], normals[RAYS][3];
+    uint32_t primitives[RAYS], meshes[RAYS], triangles[RAYS];
+    uint8_t fronts[RAYS];
+} Results;
+
+static ClrtHits hits_in(Results *results, size_t first)
+{
+    return (ClrtHits){.size = sizeof(ClrtHits),
+                      .distances = results->distances + first,
+                      .primitives = results->primitives + first,
+                      .meshes = results->meshes + first,
+                      .triangles = results->triangles + first,
+                      .weights = results->weights[first],
+                      .normals = results->normals[first],
+                      .fronts = results->fronts + first};
+}
+
+static Results all, others;
+
+static void trace_all_by(ClrtRenderer *by, Results *results)
+{
+    const ClrtRays rays = rays_given(RAYS);
+    const ClrtHits hits = hits_in(results, 0);
+    memset(results, 0x55, sizeof *results);
+    assert_true(clrt_trace(by, scene, &rays, &hits, NULL));
+}
+
+TEST(hits_have_a_place_on_the_mesh)
+{
+    size_t found = 0;
+    trace_all_by(renderer, &all);
+    for (size_t i = 0; i < RAYS; i++) {
+        const uint32_t *face = faces[all.triangles[i] % FACES];
+        const double second = all.weights[i][0], third = all.weights[i][1];
+        if (all.primitives[i] == CLRT_NOTHING) {
+            assert_true(all.distances[i] == INFINITY && all.meshes[i] == CLRT_NOTHING);
+            continue;
+        }
+        double facing = 0;
+        found++;
+        assert_int_equal(all.meshes[i], 0);
+        assert_int_equal(all.triangles[i], all.primitives[i]);
+        for (int axis = 0; axis < 3; axis++) {
+            const double point = origins[i][axis] + all.distances[i] * directions[i][axis];
+            const double on_face = (1 - second - third) * vertices[face[0]][axis] +
+                                   second * vertices[face[1]][axis] +
+                                   third * vertices[face[2]][axis];
+            facing += all.normals[i][axis] * directions[i][axis];
+            // 18 units of 2^-24 of a distance of at most 6, and as many across
+            assert_true(fabs(point - on_face) < 12 * 18 * 0x1p-24);
+        }
+        assert_int_equal(all.fronts[i], facing <= 0);
+    }
+    assert_true(found > RAYS / 2);
+}
+
+TEST(batches_and_kernels_change_no_bit)
+{
+    const ClrtSettings settings[] = {
+        {.size = sizeof *settings, .kernel = CLRT_KERNEL_PAIR},
+        {.size = sizeof *settings, .kernel = CLRT_KERNEL_WIDE, .lanes = 4},
+        {.size = sizeof *settings, .tree = CLRT_TREE_NONE}};
+    static uint8_t inside[RAYS], others_inside[RAYS];
+    const ClrtRays all_rays = rays_given(RAYS);
+    trace_all_by(renderer, &all);
+    assert_true(clrt_contains(renderer, scene, &all_rays, inside, NULL));
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        ClrtRenderer *other = clrt_renderer_create(&settings[i], NULL);
+        assert_non_null(other);
+        trace_all_by(other, &others);
+        assert_memory_equal(&others, &all, sizeof all);
+        assert_true(clrt_contains(other, scene, &all_rays, others_inside, NULL));
+        assert_memory_equal(others_inside, inside, sizeof inside);
+        clrt_renderer_free(other);
+    }
+    memset(&others, 0x55, sizeof others);
+    for (size_t first = 0, count = 1; first < RAYS; first += count) {
+        count = RAYS - first < 97 ? RAYS - first : 97;
+        ClrtRays rays = rays_given(count);
+        const ClrtHits hits = hits_in(&others, first);
+        rays.origins += 3 * first;
+        rays.directions += 3 * first;
+        assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
+    }
+    assert_memory_equal(&others, &all, sizeof all);
+}
+
+TEST(rays_at_vertices_hit_and_cross_once)
+{
+    static double aims[VERTICES][3];
+    static uint32_t counts[VERTICES], primitives[VERTICES];
+    static uint8_t inside[VERTICES];
+    const double eye[3] = {0.01, 0.02, 0.03};
+    for (size_t i = 0; i < VERTICES; i++)
+        for (int axis = 0; axis < 3; axis++)
+            aims[i][axis] = vertices[i][axis] - eye[axis];
+    static double eyes[VERTICES][3];
+    for (size_t i = 0; i < VERTICES; i++)
+        memcpy(eyes[i], eye, sizeof eye);
+    const ClrtRays rays = {
+        .size = sizeof rays, .count = VERTICES, .origins = eyes[0], .directions = aims[0]};
+    const ClrtHits hits = {.size = sizeof hits, .primitives = primitives};
+    const ClrtHits crossings = {.size = sizeof crossings, .counts = counts};
+    assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
+    assert_true(clrt_trace_all(renderer, scene, &rays, &crossings, NULL));
+    assert_true(clrt_contains(renderer, scene, &rays, inside, NULL));
+    for (size_t i = 0; i < VERTICES; i++) {
+        assert_true(primitives[i] != CLRT_NOTHING);
+        assert_int_equal(counts[i] % 2, 1);
+        assert_true(inside[i]);
+    }
+}
+
+// Directions along axes and diagonals, from points of a grid, pass exactly through the cube's edges
+// and corners and along its faces.
+TEST(rays_through_edges_cross_a_cube_once)
+{
+    static const double cube[8][3] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},
+                                      {-1, -1, 1},  {1, -1, 1},  {-1, 1, 1},  {1, 1, 1}};
+    static const uint32_t sides[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                          {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                          {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    enum { SIDE = 9, POINTS = SIDE * SIDE * SIDE, WAYS = 27 };
+    static double points[POINTS][3], ways[POINTS][3];
+    uint8_t inside[POINTS];
+    const ClrtMesh mesh = {.size = sizeof mesh,
+                           .positions = cube[0],
+                           .triangles = sides[0],
+                           .vertex_count = 8,
+                           .triangle_count = 12};
+    ClrtScene *box = clrt_scene_create(NULL);
+    assert_true(clrt_scene_add_mesh(box, &mesh, NULL));
+    const ClrtRays rays = {
+        .size = sizeof rays, .count = POINTS, .origins = points[0], .directions = ways[0]};
+    for (int way = 0; way < WAYS; way++) {
+        if (way == WAYS / 2) // 0 0 0
+            continue;
+        for (int i = 0; i < POINTS; i++)
+            for (int axis = 0, place = i, turn = way; axis < 3; axis++, place /= SIDE, turn /= 3) {
+                points[i][axis] = 0.5 * (place % SIDE - SIDE / 2);
+                ways[i][axis] = turn % 3 - 1;
+            }
+        assert_true(clrt_contains(renderer, box, &rays, inside, NULL));
+        for (int i = 0; i < POINTS; i++) {
+            const double *at = points[i];
+            const double most = fmax(fmax(fabs(at[0]), fabs(at[1])), fabs(at[2]));
+            if (most != 1) // on the surface, the result is either
+                assert_int_equal(inside[i], most < 1);
+        }
+    }
+    clrt_scene_free(box);
+}
+
+TEST(crossings_are_in_order_and_begin_with_the_hit)
+{
+    enum { ROOM = 3 };
+    static double distances[RAYS][ROOM];
+    static uint32_t primitives[RAYS][ROOM], counts[RAYS];
+    static uint8_t inside[RAYS], upward[RAYS];
+    const ClrtRays rays = rays_given(RAYS);
+    const ClrtHits hits = {.size = sizeof hits,
+                           .distances = distances[0],
+                           .primitives = primitives[0],
+                           .counts = counts,
+                           .room = ROOM};
+    ClrtRays points = rays;
+    points.directions = NULL;
+    trace_all_by(renderer, &all);
+    assert_true(clrt_trace_all(renderer, scene, &rays, &hits, NULL));
+    assert_true(clrt_contains(renderer, scene, &rays, inside, NULL));
+    assert_true(clrt_contains(renderer, scene, &points, upward, NULL));
+    for (size_t i = 0; i < RAYS; i++) {
+        assert_int_equal(inside[i], counts[i] % 2);
+        assert_int_equal(inside[i], upward[i]);
+        assert_int_equal(primitives[i][0], all.primitives[i]);
+        assert_true(distances[i][0] == all.distances[i]);
+        for (uint32_t k = 1; k < ROOM; k++)
+            assert_true(k < counts[i] ? distances[i][k] >= distances[i][k - 1]
+                                      : primitives[i][k] == CLRT_NOTHING);
+    }
+}
+
+TEST(rays_that_start_on_a_triangle_leave_it)
+{
+    static uint32_t starts[RAYS];
+    static double points[RAYS][3], away[RAYS][3];
+    uint32_t primitives[2];
+    size_t count = 0;
+    trace_all_by(renderer, &all);
+    for (size_t i = 0; i < RAYS; i++) {
+        if (all.primitives[i] == CLRT_NOTHING || !all.fronts[i])
+            continue;
+        for (int axis = 0; axis < 3; axis++) {
+            points[count][axis] = origins[i][axis] + all.distances[i] * directions[i][axis];
+            away[count][axis] = directions[i][axis];
+        }
+        starts[count++] = all.primitives[i];
+    }
+    const ClrtRays inward = {.size = sizeof inward,
+                             .count = count,
+                             .origins = points[0],
+                             .directions = away[0],
+                             .starts = starts};
+    const ClrtHits hits = hits_in(&others, 0);
+    assert_true(clrt_trace(renderer, scene, &inward, &hits, NULL));
+    for (size_t i = 0; i < count; i++) {
+        assert_true(others.primitives[i] != CLRT_NOTHING); // the mesh is closed
+        assert_true(others.primitives[i] != starts[i]);
+    }
+    ClrtRays wrong = inward;
+    wrong.count = 1;
+    const ClrtHits few = {.size = sizeof few, .primitives = primitives};
+    starts[0] = FACES;
+    REFUSES(clrt_trace(renderer, scene, &wrong, &few, &error), "ray 0 starts on primitive");
+    starts[0] = 0;
+    points[0][2] += 1;
+    REFUSES(clrt_trace(renderer, scene, &wrong, &few, &error), "too far from primitive 0");
+}
+
+TEST(limits_end_rays)
+{
+    static double nears[RAYS], fars[RAYS];
+    static uint8_t occluded[RAYS];
+    trace_all_by(renderer, &all);
+    for (size_t i = 0; i < RAYS; i++) {
+        nears[i] = i % 2 ? 0 : 0.25;
+        fars[i] = i % 3 ? INFINITY : all.distances[i] * 0.999;
+    }
+    ClrtRays rays = rays_given(RAYS);
+    const ClrtHits hits = hits_in(&others, 0);
+    rays.nears = nears;
+    rays.fars = fars;
+    assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
+    assert_true(clrt_occluded(renderer, scene, &rays, occluded, NULL));
+    for (size_t i = 0; i < RAYS; i++) {
+        const double t = others.distances[i];
+        assert_int_equal(occluded[i], others.primitives[i] != CLRT_NOTHING);
+        assert_true(t == INFINITY || (t >= nears[i] - 1e-5 && t <= fars[i]));
+        if (i % 3 && all.distances[i] > 0.26)
+            assert_int_equal(others.primitives[i], all.primitives[i]);
+    }
+}
+
+TEST(rays_without_finite_numbers_hit_nothing)
+{
+    const double bad[5][6] = {{NAN, 0, 0, 1, 0, 0},
+                              {0, 0, 0, 0, 0, 0},
+                              {0, 0, 0, INFINITY, 0, 0},
+                              {-INFINITY, 0, 0, 1, 0, 0},
+                              {0, 0, 0, 1, NAN, 0}};
+    uint32_t primitives[5];
+    const ClrtRays rays = {.size = sizeof rays,
+                           .count = 5,
+                           .origins = bad[0],
+                           .directions = bad[0] + 3,
+                           .origin_stride = sizeof bad[0],
+                           .direction_stride = sizeof bad[0]};
+    const ClrtHits hits = {.size = sizeof hits, .primitives = primitives};
+    assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(primitives[i], CLRT_NOTHING);
+}
+
+static bool stop(void *user, uint64_t done, uint64_t parts)
+{
+    (void)done, (void)parts;
+    ++*(int *)user;
+    return false;
+}
+
+TEST(progress_stops_large_batches)
+{
+    int calls = 0;
+    const size_t count = 70000;
+    double *zeros = calloc(count, 3 * sizeof *zeros);
+    uint8_t *inside = calloc(count, 1);
+    const ClrtRays rays = {
+        .size = sizeof rays, .count = count, .origins = zeros, .progress = stop, .user = &calls};
+    ClrtError error = faults_blank();
+    const bool ok = clrt_contains(renderer, scene, &rays, inside, &error);
+    faults_assert(ok, &error, CLRT_STOPPED, "stopped after 1 of 2");
+    assert_int_equal(calls, 1);
+    assert_true(inside[0] && !inside[count - 1]);
+    free(zeros);
+    free(inside);
+}
