@@ -413,6 +413,76 @@ CLRT_API bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, cons
 CLRT_API bool clrt_occluded(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                             uint8_t *occluded, ClrtError *error);
 
+// Explanations
+
+// How clrt computes a pixel's color: its samples, their rays, and the lights at the hit points.
+typedef struct ClrtExplanation ClrtExplanation;
+
+// Traces the pixel in column pixel[0] and row pixel[1], from 0, as clrt_render does. The picture
+// has no goal and no crop. Its channels are ignored.
+CLRT_API ClrtExplanation *clrt_explain(ClrtRenderer *renderer, const ClrtScene *scene,
+                                       const ClrtPicture *picture, const uint32_t pixel[2],
+                                       ClrtError *error);
+
+// Frees the explanation. Accepts NULL.
+CLRT_API void clrt_explanation_free(ClrtExplanation *explanation);
+
+typedef struct {
+    size_t size;
+    float color[3]; // as clrt_render draws it
+    uint32_t sample_count;
+} ClrtExplainedPixel;
+
+typedef struct {
+    size_t size;
+    double color[3];
+    double background_weight; // of the background in the color
+    uint32_t ray_count;       // the camera ray and its reflections
+} ClrtExplainedSample;
+
+typedef struct {
+    size_t size;
+    double origin[3], direction[3]; // direction has length 1
+    double weight;                  // in the sample's color
+    uint32_t primitive;             // as the channel of this name; CLRT_NOTHING: all below is zero
+    uint32_t material;
+    double distance, distance_error; // distance_error bounds the error of distance
+    double point[3], normal[3];
+    double share;         // weight of shaded in the sample's color
+    double shaded[3];     // the surface's color without reflections
+    uint32_t light_count; // the scene's lights, in their order; 0 for silhouettes
+} ClrtExplainedRay;
+
+typedef enum {
+    CLRT_LIGHT_BEHIND,     // the surface's normal faces away from the light
+    CLRT_LIGHT_REACHES,    // the point receives light
+    CLRT_LIGHT_BLOCKED,    // a primitive is between the point and the light
+    CLRT_LIGHT_BEHIND_FACE // the triangle itself faces away, although its normal does not
+} ClrtLightState;
+
+typedef struct {
+    size_t size;
+    ClrtLightState state;
+    uint32_t blocker; // the primitive of CLRT_LIGHT_BLOCKED; otherwise CLRT_NOTHING
+    double cosine;    // between the normal and the direction to the light
+    double distance, blocker_distance;
+    // Zero unless the light reaches the point.
+    double diffuse;  // intensity * cosine
+    double specular; // intensity * (normal . half vector) ^ shininess
+} ClrtExplainedLight;
+
+// Describe a part of the explanation in the first `size` bytes of the struct, which the caller
+// sets. place contains the numbers, from 0, of the sample, the ray and the light.
+CLRT_API bool clrt_explanation_get_pixel(const ClrtExplanation *explanation,
+                                         ClrtExplainedPixel *pixel, ClrtError *error);
+CLRT_API bool clrt_explanation_get_sample(const ClrtExplanation *explanation, uint32_t place,
+                                          ClrtExplainedSample *sample, ClrtError *error);
+CLRT_API bool clrt_explanation_get_ray(const ClrtExplanation *explanation, const uint32_t place[2],
+                                       ClrtExplainedRay *ray, ClrtError *error);
+CLRT_API bool clrt_explanation_get_light(const ClrtExplanation *explanation,
+                                         const uint32_t place[3], ClrtExplainedLight *light,
+                                         ClrtError *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -34,6 +34,13 @@ bool check_struct(ClrtError *error, const char *what, const void *given, void *c
 // has accepted the given struct.
 void fill_struct(void *given, const void *filled, size_t size);
 
+static inline void copy_vector(double copy[3], Vec3 vector)
+{
+    copy[0] = vector.x;
+    copy[1] = vector.y;
+    copy[2] = vector.z;
+}
+
 struct ClrtScene {
     Scene scene;
     uint64_t state; // a number unique to the scene and its latest change

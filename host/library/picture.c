@@ -3,7 +3,6 @@
 #include "library/drawing.h"
 
 #include "base/clock.h"
-#include "scene/camera.h"
 #include "session/reference.h"
 
 #include <stdlib.h>

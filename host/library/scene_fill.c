@@ -115,13 +115,6 @@ bool clrt_scene_add_camera(ClrtScene *scene, const ClrtCamera *camera, ClrtError
     return scene_handle_changed(scene, ok, &cause, error);
 }
 
-static void copy_vector(double copy[3], Vec3 vector)
-{
-    copy[0] = vector.x;
-    copy[1] = vector.y;
-    copy[2] = vector.z;
-}
-
 bool clrt_scene_get_camera(const ClrtScene *scene, uint32_t view, ClrtCamera *camera,
                            ClrtError *error)
 {

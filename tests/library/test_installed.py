@@ -96,7 +96,7 @@ class Installed(unittest.TestCase):
         (cls.work / "picture.scn").write_text(SCENE)
         (cls.work / "ground.ply").write_text(GROUND)
         picture = cls.work / "picture.pfm"
-        run(CLRT, cls.work / "picture.scn", "-q", "--aa=2", "-s", "320x240", "-o", picture)
+        run(CLRT, cls.work / "picture.scn", "-q", "--error", "1%", "-s", "320x240", "-o", picture)
         return picture.read_bytes()
 
     def build_by_pkg_config(self, program, *options):
@@ -107,6 +107,20 @@ class Installed(unittest.TestCase):
         program = self.work / "by-pkg-config"
         self.build_by_pkg_config(program, "-std=c99", *STRICT)
         self.assertEqual(run(program, env=self.environment), self.expected)
+
+    def test_the_example_lists_devices_meets_its_goal_and_explains_a_pixel(self):
+        program = self.work / "talking"
+        self.build_by_pkg_config(program)
+        printed = subprocess.run([program], capture_output=True, check=True, env=self.environment).stderr.decode()
+        self.assertRegex(printed, r"(?m)^device \d+:\d+: \S")
+        (error,) = re.findall(r"error at most (\S+) after", printed)
+        self.assertLessEqual(float(error), 0.01)
+        (depth,) = re.findall(r"center at depth (\S+)", printed)
+        (point,) = re.findall(r"ray 0: primitive 0 at (\S+ \S+ \S+), weight 1", printed)
+        x, y, z = map(float, point.split())
+        self.assertAlmostEqual(x * x + y * y + (z - 1) ** 2, 1, delta=0.01)
+        # The camera looks along -(3, -5, 3) from (3, -5, 3).
+        self.assertAlmostEqual((3 * (3 - x) + 5 * (5 + y) + 3 * (3 - z)) / 43 ** 0.5, float(depth), delta=0.01)
 
     # Not even root can create a folder in /proc, so PoCL has no cache.
     def test_without_a_writable_cache_the_message_names_the_variable(self):
@@ -126,7 +140,7 @@ class Installed(unittest.TestCase):
         self.build_by_pkg_config(program)
         environment = {**self.environment, "POCL_CACHE_DIR": str(cache), "XDG_CACHE_HOME": str(home)}
         self.assertEqual(run(program, env=environment), self.expected)
-        self.assertEqual(len(list(cache.glob("clrt/*.bin"))), 1)
+        self.assertGreater(len(list(cache.glob("clrt/*.bin"))), 0)
         self.assertFalse((home / "clrt").exists())
 
     def test_damaged_kernels_are_compiled_again(self):
@@ -135,11 +149,12 @@ class Installed(unittest.TestCase):
         environment = {k: v for k, v in self.environment.items() if k != "POCL_CACHE_DIR"}
         environment["XDG_CACHE_HOME"] = str(cache)
         self.assertEqual(run(program, env=environment), self.expected)
-        (kernel,) = cache.glob("clrt/*.bin")
-        size = kernel.stat().st_size
-        os.truncate(kernel, 5000)
+        sizes = {kernel: kernel.stat().st_size for kernel in cache.glob("clrt/*.bin")}
+        for kernel in sizes:
+            os.truncate(kernel, 5000)
         self.assertEqual(run(program, env=environment), self.expected)
-        self.assertAlmostEqual(kernel.stat().st_size, size, delta=1000)  # binaries contain paths
+        for kernel, size in sizes.items():
+            self.assertAlmostEqual(kernel.stat().st_size, size, delta=1000)  # binaries contain paths
 
     def test_cmake_builds_the_example_and_its_picture_is_the_programs(self):
         source, build = self.work / "source", self.work / "build"
