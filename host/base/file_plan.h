@@ -11,7 +11,7 @@ typedef enum { FILE_INPUT, FILE_OUTPUT } FileUse;
 
 typedef struct {
     FileUse use;
-    const char *role;       // prefix of the path in messages, such as "--stats="; borrowed
+    const char *role;       // prefix of the path in messages, such as "--json="; borrowed
     char *path;             // as the user wrote it; owned
     uint64_t device, inode; // of the file or, for a new file, of its folder
     char *name;             // of a new file, in its folder; NULL for an existing file; owned

@@ -50,7 +50,6 @@ static bool add_outputs(FilePlan *plan, const Options *options, Error *error)
     } outputs[] = {
         {"-o ", are_many ? NULL : options->output_path},
         {"--reference=", options->reference_path},
-        {"--stats=", options->statistics_path},
         {"--json=", options->json_path},
     };
     for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++)

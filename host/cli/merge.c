@@ -70,7 +70,7 @@ static void note_device(Merging *merging, const StoredImage *image)
 static bool can_join(const Options *options, const ExrFile *file)
 {
     return image_format_takes_layers(options->format) && file->tile_width == EXR_TILE &&
-           file->tile_height == EXR_TILE && !options->hash && options->expected_hash == NULL;
+           file->tile_height == EXR_TILE && !options->hash;
 }
 
 static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *file, const char *path,

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/output_file.h"
+#include "cli/options/option.h"
 #include "cli/picture.h"
 #include "cli/process.h"
 #include "image/image_file.h"
@@ -187,13 +188,9 @@ static bool write_statistics(Run *run, double start, Error *error)
 {
     const Options *options = run->options;
     run->report.total = clock_seconds() - start;
-    if (!options->statistics)
-        return true;
-    if (options->statistics_path == NULL) {
+    if (option_is_given(options, "stats"))
         report_write_text(run, stderr);
-        return true;
-    }
-    return report_write_json(run, options->statistics_path, error);
+    return options->json_path == NULL || report_write_json(run, options->json_path, error);
 }
 
 // Rejects an invalid SOURCE_DATE_EPOCH, and outputs that are unwritable or cannot be resumed,

@@ -80,7 +80,7 @@ void report_fill_provenance(Provenance *provenance, const Run *run)
 bool report_print_hash(const Options *options, const char *hash, Error *error)
 {
     const char *expected = options->expected_hash;
-    if (options->hash)
+    if (options->hash && expected == NULL)
         printf("%s\n", hash);
     return expected == NULL || strcasecmp(hash, expected) == 0 ||
            error_set(error, "the hash of the pixels is %s, not the expected %s", hash, expected);

@@ -41,7 +41,7 @@ def main(clrt, peer):
     faults = []
     with tempfile.TemporaryDirectory() as folder:
         ours, theirs, report = (f"{folder}/{name}" for name in ("a.pfm", "b.pfm", "report.json"))
-        subprocess.run([clrt, str(SCENE), "-q", "-o", ours, f"--stats={report}"], check=True)
+        subprocess.run([clrt, str(SCENE), "-q", "-o", ours, f"--json={report}"], check=True)
         expected = json.loads(pathlib.Path(report).read_text())["rays"]
         for mode in MODES:
             for words in (["-c", "csr"], ["-c", "", "-j", "2"], ["-r", "-q", "high"]):

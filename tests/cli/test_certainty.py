@@ -13,9 +13,9 @@ CERTAIN = ["--aov", "certainty"]
 
 class Certainty(SharedWork):
     def prepare(self):
-        self.clrt(*PICTURE, "plain.exr", "--stats=plain.json")
+        self.clrt(*PICTURE, "plain.exr", "--json=plain.json")
         self.clrt(*PICTURE, "fp64.exr", "--precision", "fp64")
-        self.clrt(*PICTURE, "certain.exr", *CERTAIN, "--stats=certain.json")
+        self.clrt(*PICTURE, "certain.exr", *CERTAIN, "--json=certain.json")
 
     def pixels(self, name):
         """Returns the color and the certainty of each pixel."""

@@ -34,7 +34,7 @@ REFUSALS = [
     (2, AFTER_EQUALS_SIGN, ["a.scn", "--aa", "4", "-o", "a.pfm"]),
     (2, AFTER_EQUALS_SIGN, ["--aa", "4", "a.scn", "-o", "a.pfm"]),
     (2, AFTER_EQUALS_SIGN, ["--aa", "4", "-o", "a.pfm"]),
-    (2, TOO_MANY.format("b.json"), ["a.scn", "--stats", "b.json", "-o", "a.pfm"]),
+    (2, TOO_MANY.format("b.json"), ["a.scn", "--json", "b.json", "-o", "a.pfm"]),
     (2, SIZE.format("640") + ", perhaps 640x640", ["a.scn", "-s", "640"]),
     (2, SIZE.format("0"), ["a.scn", "-s", "0"]),
     (2, SIZE.format("640x"), ["a.scn", "-s", "640x"]),
@@ -58,6 +58,8 @@ REFUSALS = [
     *((2, "--tune wants KEY=VALUE, where KEY is one of kernel, tile, group, specialize, bvh", [*FILE, f"--tune={text}"])
       for text in ("", "kernel", "nodes=wide", "bvh=sah,", ",", "bvh=sah,,", "tile=" + 99 * "0")),
     (2, "--tune bvh wants auto, sah, midpoint or none, not 'both'", [*FILE, "--tune", "tile=8x8,bvh=both"]),
+    (2, "unknown option '--stats=a.json', perhaps --json=FILE", [*FILE, "--stats=a.json"]),
+    (2, "unknown option '--expect-hash', perhaps --hash=EXPECTED", [*FILE, "--expect-hash", 32 * "0"]),
     (2, "unknown option '--nodes', perhaps --tune kernel=FORM", [*FILE, "--nodes", "wide"]),
     (2, "unknown option '--work-group=8x8', perhaps --tune group=WxH", [*FILE, "--work-group=8x8"]),
     (3, f"none.scn: {NO_FILE}", ["none.scn", "-o", "a.pfm"]),
@@ -117,7 +119,7 @@ class Usage(Work):
 class SamePictures(SharedWork):
     def prepare(self):
         self.assertEqual(self.run_clrt(*SMALL, "plain.pfm", "-q").stderr, "")
-        type(self).fp64 = self.run_clrt(*SMALL, "fp64.pfm", "--precision", "fp64", "-v", "--stats=fp64.json").stderr
+        type(self).fp64 = self.run_clrt(*SMALL, "fp64.pfm", "--precision", "fp64", "-v", "--json=fp64.json").stderr
 
     def expect_same(self, words, values=None):
         words = [*SMALL, "same.pfm", *words]
@@ -216,7 +218,7 @@ class Samples(Work):
         self.assertIn("clrt: the error may be 1e+02 %, more than --error allows", told)
 
     def test_an_error_too_small_for_the_ladder_is_exit_1_in_doubles(self):
-        words = [*SMALL, "a.pfm", "--error", "0.01%", "--stats=a.json"]
+        words = [*SMALL, "a.pfm", "--error", "0.01%", "--json=a.json"]
         self.assertRegex(self.clrt(*words, code=1), r"clrt: the error may be 0\.0[0-9]* %, more than --error allows")
         found = self.json_of("a.json")
         self.expect(found, samples__goal_reached=False, settings__precision="fp64")

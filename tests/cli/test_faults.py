@@ -55,7 +55,7 @@ class Disks(Faults):
         self.assertEqual(run.stdout, "old\n")
 
     def test_a_full_disk_keeps_no_part_of_a_report(self):
-        words = [SCENE, "-s", "8x8", "-q", "-o", "a.pfm", "--stats=target/a.json"]
+        words = [SCENE, "-s", "8x8", "-q", "-o", "a.pfm", "--json=target/a.json"]
         run = self.clrt_on_disk((os.sysconf("SC_PAGE_SIZE"), "rw"), *words)
         self.assert_fails(run, 5, "target/a.json: cannot be written: No space left on device")
         self.assertEqual(run.stdout, "old\n")

@@ -172,9 +172,9 @@ class Frames(Work):
         many = "--frames and --turntable draw many pictures, and "
         for words, sentence in (
             (["-o", "-"], many + "standard output takes one: give -o FILE"),
-            (["-o", "a.pfm", "--stats=a.json"], many + "--stats=FILE describes one"),
+            (["-o", "a.pfm", "--json=a.json"], many + "--json describes one"),
             (["-o", "a.pfm", "--reference=b.pfm"], many + "--reference=FILE holds one"),
-            (["-o", "a.pfm", "--expect-hash", 32 * "0"], "--expect-hash exclude each other"),
+            (["-o", "a.pfm", "--hash=" + 32 * "0"], many + "--hash=EXPECTED describes one"),
             (["-o", "a.pfm", "--turntable", "1"], "--turntable 1 has no picture 2"),
         ):
             self.refuses(2, sentence, *SMALL, "--frames", "1-2", *words)

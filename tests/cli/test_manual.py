@@ -229,7 +229,7 @@ class Completions(Work):
         for word in ("room.scn", "bunny.ply", "check"):
             self.assertIn(word, text)
         self.assertNotIn("notes.txt", text)
-        self.assertIn("notes.txt", self.offered(shell, "clrt a.scn --stats=n"))
+        self.assertIn("notes.txt", self.offered(shell, "clrt a.scn --json=n"))
         self.assertIn("notes.txt", self.offered(shell, "clrt a.scn -o n"))
 
 

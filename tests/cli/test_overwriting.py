@@ -40,14 +40,14 @@ class Pictures(Overwriting):
                       ["-o", str(self.work / "a.scn"), "--format", "pfm"]):
             self.refuses_files(f"-o {words[1]}", "the scene a.scn", "a.scn", *words)
         picture = ["a.scn", "-o", "a.pfm"]
-        self.refuses_files("--stats=a.scn", "the scene a.scn", *picture, "--stats=a.scn")
+        self.refuses_files("--json=a.scn", "the scene a.scn", *picture, "--json=a.scn")
         self.write(b_png=SCENE)
         self.refuses_files("--reference=b.png", "the scene b.png", "b.png", "-o", "a.pfm", "--reference=b.png")
 
     def test_the_scenes_meshes_are_kept(self):
-        for words in (["-o", "a.ply", "--format", "pfm"], ["-o", "a.pfm", "--stats=a.ply"]):
+        for words in (["-o", "a.ply", "--format", "pfm"], ["-o", "a.pfm", "--json=a.ply"]):
             name = words[1] if words[1] == "a.ply" else "a.ply"
-            option = "-o " if words[1] == "a.ply" else "--stats="
+            option = "-o " if words[1] == "a.ply" else "--json="
             self.refuses_files(option + name, "the scene's file a.ply", "a.scn", *words)
         self.refuses_files("-o a.ply", "the scene a.ply", "a.ply", "-o", "a.ply", "--format", "pfm")
 
@@ -55,10 +55,10 @@ class Pictures(Overwriting):
         for there in False, True:
             if there:
                 self.write(a_png="an earlier picture")
-            self.refuses_files("--stats=a.png", "-o a.png", "a.scn", "-o", "a.png", "--stats=a.png")
+            self.refuses_files("--json=a.png", "-o a.png", "a.scn", "-o", "a.png", "--json=a.png")
             self.refuses_files("--reference=a.png", "-o a.png", "a.scn", "-o", "a.png", "--reference=a.png")
-            self.refuses_files("--stats=./b.png", "--reference=b.png",
-                         "a.scn", "-o", "a.png", "--reference=b.png", "--stats=./b.png")
+            self.refuses_files("--json=./b.png", "--reference=b.png",
+                         "a.scn", "-o", "a.png", "--reference=b.png", "--json=./b.png")
 
     def test_links_lead_to_the_same_file(self):
         (self.work / "soft.pfm").symlink_to("a.scn")
@@ -70,7 +70,7 @@ class Pictures(Overwriting):
         self.refuses_files("-o hard.pfm", "the scene a.scn", "a.scn", "-o", "hard.pfm")
         self.refuses_files("-o a.scn", "the scene soft.pfm", "soft.pfm", "-o", "a.scn", "--format", "pfm")
         for new in "new.pfm", "here/new.pfm", "nothing.pfm":
-            self.refuses_files(f"--stats={new}", "-o chain.pfm", "a.scn", "-o", "chain.pfm", f"--stats={new}")
+            self.refuses_files(f"--json={new}", "-o chain.pfm", "a.scn", "-o", "chain.pfm", f"--json={new}")
 
     def test_every_frame_counts(self):
         self.write(turn_0002_png=SCENE)
@@ -85,8 +85,8 @@ class Pictures(Overwriting):
         self.refuses_files("-o old.0003.png", "-o old.0001.png", "a.scn", "-o", "old.png", "--turntable", "3")
 
     def test_the_journal_counts(self):
-        self.refuses_files("the journal a.pfm.part", "--stats=a.pfm.part",
-                     "a.scn", "-o", "a.pfm", "--resume", "--stats=a.pfm.part")
+        self.refuses_files("the journal a.pfm.part", "--json=a.pfm.part",
+                     "a.scn", "-o", "a.pfm", "--resume", "--json=a.pfm.part")
         os.link(self.work / "a.ply", self.work / "b.pfm.part")
         self.refuses_files("the journal b.pfm.part", "the scene's file a.ply", "a.scn", "-o", "b.pfm", "--resume")
 
@@ -99,16 +99,16 @@ class Pictures(Overwriting):
                              "a.scn", "-o", name, "--format", "pfm", stdout=mesh)
 
     def test_devices_and_pipes_may_coincide(self):
-        self.accepts("a.scn", "-o", "/dev/null", "--format", "pfm", "--stats=/dev/null")
-        self.accepts("a.scn", "-o", "/dev/stdout", "--format", "pfm", "--stats=/dev/stdout")
+        self.accepts("a.scn", "-o", "/dev/null", "--format", "pfm", "--json=/dev/null")
+        self.accepts("a.scn", "-o", "/dev/stdout", "--format", "pfm", "--json=/dev/stdout")
 
     def test_different_files_of_one_name_or_content_are_no_clash(self):
         (self.work / "inner").mkdir()
         self.write(b_scn=SCENE)
-        self.accepts("a.scn", "-o", "a.pfm", "--stats=inner/a.pfm")
+        self.accepts("a.scn", "-o", "a.pfm", "--json=inner/a.pfm")
         self.accepts("a.scn", "-o", "b.scn", "--format", "pfm")
         self.refuses(5, "no/a.pfm: cannot be written: No such file or directory",
-                     "a.scn", "-o", "no/a.pfm", "--stats=none/a.pfm")
+                     "a.scn", "-o", "no/a.pfm", "--json=none/a.pfm")
 
     def test_a_missing_scene_is_reported_before_a_clash(self):
         self.refuses(3, "none.scn: cannot be opened: No such file or directory",

@@ -145,8 +145,8 @@ class Parts(SharedWork):
         right = self.clrt(*SMALL, "-o", "a.pfm", "--hash")
         self.assertEqual(self.clrt("merge", *self.thirds, "-o", "b.pfm", "--hash"), right)
         self.assert_same_bytes("a.pfm", "b.pfm")
-        self.clrt("merge", *self.thirds, "-o", "b.pfm", "--expect-hash", right.strip())
-        self.clrt("merge", *self.thirds, "-o", "b.pfm", "--expect-hash", 32 * "0", code=1)
+        self.clrt("merge", *self.thirds, "-o", "b.pfm", "--hash=" + right.strip())
+        self.clrt("merge", *self.thirds, "-o", "b.pfm", "--hash=" + 32 * "0", code=1)
 
     def test_merge_leaves_out_metadata_on_request(self):
         self.clrt("merge", *self.thirds, "-o", "a.exr", "--no-metadata")

@@ -129,7 +129,7 @@ class Provenance(Work):
             self.assertEqual(told, [], ending)
 
     def test_the_hash_is_that_of_the_pixels_whatever_the_file(self):
-        texts = self.draw(*SMALL, "--stats=a.json")
+        texts = self.draw(*SMALL, "--json=a.json")
         found = {texts["clrt:pixel_hash"], self.json_of("a.json")["pixel_hash"]}
         for words in (["-o", "b.pfm"], ["-o", "b.png", "--encode", "srgb"], ["-o", "b.png", "-j", "1"]):
             done = self.run_clrt(*SMALL, *words, "--hash")
@@ -142,22 +142,22 @@ class Provenance(Work):
     def test_another_hash_than_expected_is_exit_1_and_the_picture_is_there(self):
         right = self.clrt(*SMALL, "-o", "a.pfm", "--hash").removesuffix("\n")
         for same in right, right.upper():
-            self.clrt(*SMALL, "-o", "a.pfm", "--expect-hash", same)
+            self.clrt(*SMALL, "-o", "a.pfm", "--hash=" + same)
         wrong = right[:-1] + ("1" if right[-1] == "0" else "0")
         self.refuses(1, f"the hash of the pixels is {right}, not the expected {wrong}",
-                     *SMALL, "-o", "b.pfm", "--expect-hash", wrong)
+                     *SMALL, "-o", "b.pfm", "--hash=" + wrong)
         self.assert_same_bytes("a.pfm", "b.pfm")
-        self.refuses(2, "--expect-hash wants 32 hexadecimal digits, not 'abc'",
-                     *SMALL, "-o", "b.pfm", "--expect-hash", "abc")
+        self.refuses(2, "--hash= wants 32 hexadecimal digits, not 'abc'",
+                     *SMALL, "-o", "b.pfm", "--hash=abc")
 
     def test_one_thing_at_most_goes_to_standard_output(self):
-        for words, thing in ((["-o", "-"], "picture"), (["-o", "a.pfm", "--stats=-"], "statistics")):
+        for words, thing in ((["-o", "-"], "picture"), (["-o", "a.pfm", "--json=-"], "statistics")):
             self.refuses(2, f"the {thing} and the hash cannot both go to standard output", *SMALL, *words, "--hash")
 
     def test_json_replaces_a_file_whole_or_not_at_all(self):
         self.write(a_json="what was there")
         (self.work / "other.json").hardlink_to(self.work / "a.json")
-        self.clrt(*SMALL, "-o", "a.pfm", "--stats=a.json")
+        self.clrt(*SMALL, "-o", "a.pfm", "--json=a.json")
         self.assertEqual(self.bytes_of("other.json"), b"what was there")
         self.assertEqual(self.json_of("a.json")["schema"], 1)
         self.assertEqual(sorted(os.listdir(self.work)), ["a.json", "a.pfm", "other.json"])

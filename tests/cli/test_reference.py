@@ -38,7 +38,7 @@ class Reference(SharedWork):
         return self.statistics(*SMALL, to, *words)["reference"]
 
     def prepare(self):
-        done = self.run_clrt(*SMALL, "one.pfm", "--reference=one-reference.pfm", "--stats=one.json")
+        done = self.run_clrt(*SMALL, "one.pfm", "--reference=one-reference.pfm", "--json=one.json")
         self.assertEqual(done.returncode, 0, done.stderr)
         type(self).talk, type(self).one = done.stderr, self.json_of("one.json")["reference"]
         type(self).four = self.measure("--aa=4", "--reference")

@@ -180,7 +180,7 @@ class Stopped(Talk):
 
     def test_a_signal_exits_with_128_plus_its_number_and_keeps_finished_tiles(self):
         for number in signal.SIGINT, signal.SIGTERM:
-            process = self.start(*LONG, "-o", "a.pfm", "--stats=a.json")
+            process = self.start(*LONG, "-o", "a.pfm", "--json=a.json")
             self.assertIn("tracing", process.stderr.readline())
             process.send_signal(number)
             process.communicate()
@@ -200,7 +200,7 @@ class Schemas(Talk):
         return schema, found
 
     def test_statistics(self):
-        picture = ["-o", "a.pfm", "--stats=-"]
+        picture = ["-o", "a.pfm", "--json=-"]
         for words in ([], ["--tune=bvh=none"], ["--precision", "fp64"], ["--repeat", "3", "--aa"], ["--reference"],
                       ["--aa-adaptive"]):
             schema, found = self.validate("statistics", *SMALL, *picture, *words)

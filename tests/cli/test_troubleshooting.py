@@ -36,7 +36,7 @@ class Messages(Work):
         yield scene("mesh a.ply\n", "check")
         yield scene("mesh models/figure.ply\n")
         yield scene("sphear 0 0 0 1\n")
-        yield run(SCENE, *SMALL, "--expect-hash", "0123456789abcdef0123456789abcdef")
+        yield run(SCENE, *SMALL, "--hash=0123456789abcdef0123456789abcdef")
         yield run(SCENE, *SMALL, "--time", "1e-6")
         yield run(SCENE, *SMALL, "--error", "1e-9")
 

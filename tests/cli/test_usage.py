@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Tests the messages for contradictory options, and the notes on probable mistakes.
 # Usage: test_usage.py CLRT FORMATS WINDOW; WINDOW is ON for a build with a window
+import json
 import os
 import sys
 import unittest
@@ -30,11 +31,17 @@ class Combinations(Work):
     def test_a_file_is_named_once(self):
         self.refuses("--output is given twice: name one file", *PICTURE, "-o", "b.pfm")
         self.refuses("--output is given twice: name one file", *PICTURE, "--output=a.pfm")
-        for name, value in ("stats", "=a.json"), ("reference", "=b.pfm"), ("stats", ""):
+        for name, value in ("json", "=a.json"), ("reference", "=b.pfm"), ("json", ""):
             sentence = f"--{name} is given twice: name one file"
             self.refuses(sentence, *PICTURE, f"--{name}{value}", f"--{name}")
         words = ["check", SCENE, "--json=a.json", "--json=b.json"]
         self.refuses("--json is given twice: name one file", *words)
+
+    def test_statistics_are_text_and_json(self):
+        done = self.run_clrt(*PICTURE, "--stats", "--json")
+        self.assertIn("rays", done.stderr)
+        self.assertEqual(json.loads(done.stdout)["schema"], 1)
+        self.assertNotIn("rays", self.run_clrt(*PICTURE, "--json=b.json").stderr)
 
     def test_the_last_of_two_settings_counts(self):
         self.clrt(*SMALL, "-s", "4x4", "--view", "2", "--view", "1", "-o", "a.pfm")
@@ -55,12 +62,12 @@ class Combinations(Work):
     def test_hashes_need_no_file(self):
         whole = self.clrt(*PICTURE, "--hash")
         os.remove(self.work / "a.pfm")
-        for words in ["--tune", "tile=4x4"], ["-q", "--expect-hash", whole.strip()]:
-            self.assertEqual(self.clrt(*SMALL, "--hash", *words, DISPLAY=None, WAYLAND_DISPLAY=None), whole)
-        self.assertEqual(self.clrt(*SMALL, "--expect-hash", whole.strip(), DISPLAY=None, WAYLAND_DISPLAY=None), "")
-        self.assertIn("the hash of the pixels is", self.clrt(*SMALL, "--expect-hash", 32 * "0", code=1))
-        self.refuses("the statistics and the hash cannot both go to standard output", *SMALL, "--hash", "--stats=-")
-        self.clrt(*SMALL, "--hash", "--stats=a.json", "--reference=r.pfm", "--reference-samples", "2", "-q")
+        for words in ["--tune", "tile=4x4"], ["-q", "--hash=" + 32 * "0"]:
+            self.assertEqual(self.clrt(*SMALL, *words, "--hash", DISPLAY=None, WAYLAND_DISPLAY=None), whole)
+        self.assertEqual(self.clrt(*SMALL, "--hash=" + whole.strip(), DISPLAY=None, WAYLAND_DISPLAY=None), "")
+        self.assertIn("the hash of the pixels is", self.clrt(*SMALL, "--hash=" + 32 * "0", code=1))
+        self.refuses("the statistics and the hash cannot both go to standard output", *SMALL, "--hash", "--json=-")
+        self.clrt(*SMALL, "--hash", "--json=a.json", "--reference=r.pfm", "--reference-samples", "2", "-q")
         self.assertEqual(sorted(os.listdir(self.work)), ["a.json", "r.pfm"])
 
     def test_options_without_effect_beside_another_are_refused(self):
@@ -77,7 +84,7 @@ class Combinations(Work):
     def test_a_requested_precision_is_kept(self):
         self.write(a_scn="sphere 0 0 0 1\n")
         for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"), (["--tune", "kernel=wide"], "fp32"):
-            self.run_clrt("a.scn", "-s", "4x4", "-o", "a.pfm", "--stats=a.json", "--error", "0.015%", *words)
+            self.run_clrt("a.scn", "-s", "4x4", "-o", "a.pfm", "--json=a.json", "--error", "0.015%", *words)
             self.expect(self.json_of("a.json"), settings__precision=precision)
 
     def test_references_have_an_even_number_of_samples(self):

@@ -112,7 +112,7 @@ class Work(unittest.TestCase):
         return json.loads(done.stdout)
 
     def statistics(self, *words, code=0, **environment):
-        self.clrt(*words, "--stats=stats.json", code=code, **environment)
+        self.clrt(*words, "--json=stats.json", code=code, **environment)
         return self.json_of("stats.json")
 
     def expect(self, report, **values):

@@ -55,7 +55,7 @@ class Clrt:
         """Draws a.pfm. Returns the exit status and the statistics."""
         report = self.folder / "a.json"
         done = self.run(self.scene, "-q", "-s", self.size, "-o", self.folder / "a.pfm",
-                        f"--stats={report}", *words, statuses=statuses)
+                        f"--json={report}", *words, statuses=statuses)
         return done.returncode, json.loads(report.read_text())
 
     def rmse(self, reference):

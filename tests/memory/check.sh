@@ -12,7 +12,7 @@ for scene in "$@"; do
   for command in "valgrind -q --error-exitcode=9 --leak-check=full --suppressions=$root/tests/memory/drivers.supp $root/build/release/clrt" \
     "$root/build/debug/clrt"; do
     # shellcheck disable=SC2086
-    if $command "$scene" -s 16x16 --aa -o "$work/a.exr" --stats="$work/a.json" >"$work/log" 2>&1; then
+    if $command "$scene" -s 16x16 --aa -o "$work/a.exr" --json="$work/a.json" >"$work/log" 2>&1; then
       echo "clean: ${command##*/build/} $scene"
     else
       failed=1

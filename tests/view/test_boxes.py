@@ -16,7 +16,7 @@ SIDE = 4  # clusters along a side of the scene
 
 def statistics(scene, *options):
     done = subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", "8x8", "-o", "/dev/null",
-                           "--format", "pfm", "--stats=-", *options], check=True,
+                           "--format", "pfm", "--json=-", *options], check=True,
                           capture_output=True, text=True)
     return json.loads(done.stdout)["bvh"]
 

@@ -35,7 +35,7 @@ def draw(scene, options, folder, frames=1):
 def report(scene, options, folder):
     """Returns the statistics of one picture, including rays and tests."""
     path = pathlib.Path(folder) / "clrt.json"
-    subprocess.run([CLRT, str(scene), "-q", "-o", f"{folder}/clrt.pfm", f"--stats={path}",
+    subprocess.run([CLRT, str(scene), "-q", "-o", f"{folder}/clrt.pfm", f"--json={path}",
                     *options], check=True)
     return json.loads(path.read_text())
 

@@ -40,7 +40,7 @@ def draw_reference(scene, options, folder):
     report = folder / "reference.json"
     run_clrt([scene, "-q", "-o", folder / "unused.pfm", *options.clrt_words,
               f"--reference={folder / 'reference.pfm'}",
-              f"--reference-samples={options.reference_samples}", f"--stats={report}"])
+              f"--reference-samples={options.reference_samples}", f"--json={report}"])
     return json.loads(report.read_text())
 
 
@@ -61,7 +61,7 @@ def first_row(place, setting, scene, options, folder):
     # Otherwise, clrt would draw settings with few samples by kernels that compile sooner.
     kernels = [word for word in setting.words if not word.startswith(("--aa=", "--max-level"))]
     run_clrt(["warm", "-q", scene, *kernels])
-    draw(setting, scene, options, picture, f"--stats={report}")
+    draw(setting, scene, options, picture, f"--json={report}")
     if setting.kind == "time":  # counting is slow, so a time goal would give another picture
         draw(setting, scene, options, picture)
     told = compare(picture, folder / "reference.pfm", folder / f"{place}-map.png")

@@ -12,7 +12,6 @@ const Exclusion exclusion_table[] = {
     {{"crop", "part", "tune tile"}, {REFINES}},
     {{"part"}, {"reference", "reference-samples", "no-metadata"}},
     {{"resume"}, {"repeat"}},
-    {{"frames", "turntable"}, {"expect-hash"}},
     {{"quiet", "verbose"}, {NULL}},
 };
 const size_t exclusion_count = sizeof exclusion_table / sizeof exclusion_table[0];
@@ -160,7 +159,8 @@ static bool check_frames(Options *options, Error *error)
     const Frames *frames = &options->frames;
     const Rule rules[] = {
         {is_standard_output(options->output_path), MANY "standard output takes one: give -o FILE"},
-        {options->statistics_path != NULL, MANY "--stats=FILE describes one"},
+        {options->json_path != NULL, MANY "--json describes one"},
+        {options->expected_hash != NULL, MANY "--hash=EXPECTED describes one"},
         {options->reference_path != NULL, MANY "--reference=FILE holds one"},
         {options->resume && frames->is_film,
          MANY "--resume wants a file for each: give another format"},
@@ -201,10 +201,11 @@ static bool check_kernel(const KernelRequest *kernel, Error *error)
 static bool check_streams(const Options *options, Error *error)
 {
     const bool picture = is_standard_output(options->output_path),
-               statistics = is_standard_output(options->statistics_path);
+               statistics = is_standard_output(options->json_path),
+               hash = options->hash && options->expected_hash == NULL;
     if (picture && statistics)
         return error_set(error, "the picture and the statistics cannot both go to standard output");
-    return !options->hash || !(picture || statistics) ||
+    return !hash || !(picture || statistics) ||
            error_set(error, "the %s and the hash cannot both go to standard output",
                      picture ? "picture" : "statistics");
 }
@@ -212,6 +213,7 @@ static bool check_streams(const Options *options, Error *error)
 static bool check_picture(Options *options, Error *error)
 {
     choose_precision(options);
+    options->statistics = options->statistics || options->json_path != NULL;
     if (options->output_path == NULL)
         options->format = "pfm"; // stores the traced pixels
     else if (!check_format(options, error))
@@ -241,8 +243,6 @@ static bool check_merge(Options *options, Error *error)
 
 static bool check_action(Options *options, Error *error)
 {
-    if (options->statistics_path != NULL && options->action != ACTION_RENDER)
-        return error_set(error, "--stats=FILE is for pictures in files: give one with -o FILE");
     switch (options->action) {
     case ACTION_VIEW:
         return check_window(options, error);

@@ -162,12 +162,14 @@ bool set_aov(Options *options, const char *text, Error *error)
     return true;
 }
 
-bool set_expect_hash(Options *options, const char *text, Error *error)
+bool set_hash(Options *options, const char *text, Error *error)
 {
+    options->hash = true;
     options->expected_hash = text;
-    return (strlen(text) == FRAMEBUFFER_HASH_SIZE - 1 &&
+    return text == NULL ||
+           (strlen(text) == FRAMEBUFFER_HASH_SIZE - 1 &&
             strspn(text, "0123456789abcdefABCDEF") == FRAMEBUFFER_HASH_SIZE - 1) ||
-           error_set(error, "--expect-hash wants %d hexadecimal digits, not '%s'",
+           error_set(error, "--hash= wants %d hexadecimal digits, not '%s'",
                      FRAMEBUFFER_HASH_SIZE - 1, text);
 }
 
@@ -281,13 +283,6 @@ bool set_part(Options *options, const char *text, Error *error)
     options->part = share.index;
     options->parts = share.count;
     return true;
-}
-
-bool set_stats(Options *options, const char *text, Error *error)
-{
-    options->statistics = true;
-    options->statistics_path = text;
-    return text == NULL || text[0] != '\0' || error_set(error, "--stats= wants the name of a file");
 }
 
 bool set_reference(Options *options, const char *text, Error *error)

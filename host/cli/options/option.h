@@ -131,8 +131,8 @@ extern const size_t exclusion_count;
 bool options_check(Options *options, const Command *command, Error *error);
 
 // Setters of options whose values fit none of the kinds.
-SetOption set_output, set_format, set_exposure, set_aov, set_expect_hash, set_crop, set_max_level,
-    set_error, set_time, set_tune, set_kernel, set_frames, set_part, set_stats, set_reference,
+SetOption set_output, set_format, set_exposure, set_aov, set_hash, set_crop, set_max_level,
+    set_error, set_time, set_tune, set_kernel, set_frames, set_part, set_reference,
     set_reference_samples, set_normals, set_pixel, set_fail, set_json;
 
 // The table of all options and of the keys of --tune. The parser, --help, the man page and the

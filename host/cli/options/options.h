@@ -178,13 +178,12 @@ typedef struct {
     Specialization specialization;
     uint32_t tile_width, tile_height;   // 0: the default
     uint32_t group_width, group_height; // 0: the kernel's default
-    bool statistics;
-    const char *statistics_path; // NULL: text on standard error; "-": JSON on standard output
+    bool statistics;                    // count rays and tests
     Encoding encoding;
     double exposure;           // in stops
     bool no_metadata;          // omit the metadata of picture files
-    bool hash;                 // print the hash of the pixels
-    const char *expected_hash; // of the pixels; NULL: do not check
+    bool hash;                 // print the hash of the pixels, or check it
+    const char *expected_hash; // NULL: print it
     const char *keys;          // key presses to play in the window; NULL for none
     uint32_t quit_after;       // frames before the window closes; 0: the user closes it
     BadGeometry bad_geometry;

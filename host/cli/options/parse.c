@@ -57,6 +57,8 @@ static const struct {
     {"specialize", "--tune specialize=WORD"},
     {"bvh", "--tune bvh=WORD"},
     {"no-bvh", "--tune bvh=none"},
+    {"expect-hash", "--hash=EXPECTED"},
+    {"stats", "--json=FILE"}, // with a value
 };
 
 static const char *find_synonym(const char *name, size_t length)
@@ -111,9 +113,8 @@ static bool mark_given(Options *options, size_t row, Error *error)
 // no more than `count` operands, or else the first row with its name.
 static const Command *find_command(const Options *options, const char *name, int count)
 {
-    const bool hashes = options->hash || options->expected_hash != NULL;
     const unsigned picture = options->output_path != NULL ? FOR_FILE
-                             : hashes                     ? FOR_HASH
+                             : options->hash              ? FOR_HASH
                                                           : FOR_WINDOW;
     const Command *found = NULL;
     for (size_t i = 0; i < command_count; i++) {

@@ -32,10 +32,9 @@ const Option option_table[] = {
      "add channels to an EXR file; the names are below; all means every channel but error"},
     {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
      "omit the metadata that records how the picture was made"},
-    {"hash", NULL, 0, FLAG(hash), GROUP_OUTPUT, CLASS_NONE, FOR_DRAWING | FOR_MERGE,
-     "print a hash of the traced pixels on standard output; without -o, write no picture"},
-    {"expect-hash", "HASH", 0, ODD(set_expect_hash), GROUP_OUTPUT, CLASS_NONE,
-     FOR_DRAWING | FOR_MERGE, "exit with status 1 if the pixels have another hash"},
+    {"hash", "[=EXPECTED]", 0, ODD(set_hash), GROUP_OUTPUT, CLASS_NONE, FOR_DRAWING | FOR_MERGE,
+     "print a hash of the traced pixels, or exit with status 1 unless it is EXPECTED; without -o, "
+     "write no picture"},
 
     {"size", "WxH", 's', AREA(width, PICTURE_SIZE_MAX), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
@@ -113,17 +112,16 @@ const Option option_table[] = {
     {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "threads of a CPU device (default: all that the process may use)"},
 
-    {"stats", "[=FILE]", 0, ODD(set_stats), GROUP_STATISTICS, CLASS_NONE,
+    {"stats", NULL, 0, FLAG(statistics), GROUP_STATISTICS, CLASS_NONE,
      FOR_PICTURE | FOR_EXPLAIN | FOR_GENERAL | FOR_WARM,
-     "count rays and tests; write them as JSON to FILE (- is standard output); in the window, "
-     "time frames"},
+     "count rays and tests, and print them; in the window, time frames"},
     {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_STATISTICS, CLASS_NONE, FOR_DRAWING,
      "measure the picture against a reference in fp64 with many samples; write the reference to "
      "FILE"},
     {"reference-samples", "N", 0, ODD(set_reference_samples), GROUP_STATISTICS, CLASS_NONE,
      FOR_DRAWING, "samples per pixel of the reference, an even number (default: 256)"},
     {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_STATISTICS, CLASS_NONE, FOR_DRAWING,
-     "draw the picture N times, for timing; -v and --stats=FILE report each time (default: 1)"},
+     "draw the picture N times, for timing; -v and --json report each time (default: 1)"},
 
     {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_GEOMETRY, CLASS_NONE,
      FOR_DRAWING | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
@@ -133,8 +131,8 @@ const Option option_table[] = {
      "compare: exit with status 1 above rmse=V, max=V, share1=V, share4=V or hits=V, or below "
      "psnr=V"},
     {"json", "[=FILE]", 0, ODD(set_json), GROUP_REPORT, CLASS_NONE,
-     FOR_CHECK | FOR_COMPARE | FOR_EXPLAIN | FOR_PIXEL | FOR_DEVICES,
-     "write the report or explanation as JSON, to FILE or instead of the text"},
+     FOR_DRAWING | FOR_CHECK | FOR_COMPARE | FOR_EXPLAIN | FOR_PIXEL | FOR_DEVICES,
+     "write the report as JSON, to FILE or standard output; of a picture, its statistics"},
 
     {"keys", "KEYS", 0, TEXT(keys), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
      "play these keys in the window, one per displayed frame"},
@@ -155,17 +153,10 @@ _Static_assert(sizeof option_table / sizeof option_table[0] <= OPTIONS_MOST,
                "arrays of OPTIONS_MOST hold the table");
 
 const char *const option_group_names[OPTION_GROUPS] = {
-    [GROUP_OUTPUT] = "Output",
-    [GROUP_PICTURE] = "Picture",
-    [GROUP_QUALITY] = "Quality",
-    [GROUP_SPEED] = "Speed",
-    [GROUP_JOB] = "Long jobs",
-    [GROUP_DEVICE] = "Device",
-    [GROUP_STATISTICS] = "Statistics",
-    [GROUP_GEOMETRY] = "Geometry",
-    [GROUP_REPORT] = "Reports of check and compare",
-    [GROUP_WINDOW] = "Window",
-    [GROUP_TALK] = "Messages",
+    [GROUP_OUTPUT] = "Output",         [GROUP_PICTURE] = "Picture",   [GROUP_QUALITY] = "Quality",
+    [GROUP_SPEED] = "Speed",           [GROUP_JOB] = "Long jobs",     [GROUP_DEVICE] = "Device",
+    [GROUP_STATISTICS] = "Statistics", [GROUP_GEOMETRY] = "Geometry", [GROUP_REPORT] = "Reports",
+    [GROUP_WINDOW] = "Window",         [GROUP_TALK] = "Messages",
 };
 
 const char *const option_class_names[OPTION_CLASSES] = {
