@@ -363,7 +363,7 @@ typedef struct {
     const double *nears, *fars;             // one per ray; NULL means 0 and INFINITY
     const uint32_t *starts; // the primitive each ray starts on, or CLRT_NOTHING; may be NULL
     bool one_sided;         // rays pass through the backs of triangles that are not two-sided
-    ClrtProgress *progress; // counts parts of 65536 rays; may be NULL
+    ClrtProgress *progress; // counts parts of up to 16384 rays; may be NULL
     void *user;             // passed to progress
 } ClrtRays;
 

@@ -5,7 +5,7 @@
 #include "library/handles.h"
 
 // Rays in one part of a batch.
-#define PART_RAYS 65536
+#define PART_RAYS 16384
 
 // A part of a batch, on its way to the device and back.
 typedef struct {

@@ -46,8 +46,8 @@ static bool launch(const RayCaster *caster, const SceneBuffers *scene, cl_uint c
     cl_int status = set_rays(kernel, scene, caster->rays, count);
     status |= clSetKernelArg(kernel, 6, sizeof kind, &kind);
     status |= clSetKernelArg(kernel, 7, sizeof(cl_mem), &caster->hits);
-    return run(caster->kernel, status, is_wide ? LAUNCH_RAYS / FEWEST_LANES : LAUNCH_RAYS,
-               is_wide ? 4 : 64, error);
+    const size_t group = is_wide ? 4 : 64, items = is_wide ? count / FEWEST_LANES + 1 : count + 1;
+    return run(caster->kernel, status, (items + group - 1) / group * group, group, error);
 }
 
 static bool cast_nothing(Renderer *renderer, Error *error)

@@ -379,7 +379,7 @@ static bool stop(void *user, uint64_t done, uint64_t parts)
 TEST(progress_stops_large_batches)
 {
     int calls = 0;
-    const size_t count = 70000;
+    const size_t count = 20000;
     double *zeros = calloc(count, 3 * sizeof *zeros);
     uint8_t *inside = calloc(count, 1);
     const ClrtRays rays = {
