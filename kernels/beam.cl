@@ -26,7 +26,7 @@ typedef struct {
     Bounds own[PACKETS]; // over each packet's rays, if its bit is set in bounded
     uint bounded;
     uint live[PACKETS];   // bits of the lanes that search
-    float reach[PACKETS]; // largest hit distance of the live lanes
+    float reach[PACKETS]; // largest search_reach of the live lanes
     Hit hits[PACKETS];
     WideStack stack;
     uint inside[WIDE_STACK_SIZE]; // for each child on the stack: the packets inside its parent
@@ -88,8 +88,9 @@ static inline uint packets_entering(Beam *beam, uint child, uint packets, uint b
     uint entering = 0;
     for (; packets != 0; packets &= packets - 1) {
         const uint number = lowest_bit(packets);
-        const Mask inside = lanes_in_child(node, child % WIDE, &beam->packets[number],
-                                           &beam->bounds, beam->hits[number].t);
+        const Mask inside =
+            lanes_in_child(node, child % WIDE, &beam->packets[number], &beam->bounds,
+                           search_reach(&beam->packets[number].rays, &beam->hits[number]));
         bits[number] = lane_bits(inside) & beam->live[number];
         entering |= bits[number] != 0 ? 1u << number : 0;
         if (CLRT_STATISTICS)
@@ -104,7 +105,8 @@ static inline void update_packet(Beam *beam, uint number)
     const Hit *hit = &beam->hits[number];
     if (beam->kind == RAY_SHADOW)
         beam->live[number] &= lane_bits(hit->id == NOTHING);
-    beam->reach[number] = highest(lanes_of(beam->live[number]) ? hit->t : (Real)(0.0f));
+    const Real reach = search_reach(&beam->packets[number].rays, hit);
+    beam->reach[number] = highest(lanes_of(beam->live[number]) ? reach : (Real)(0.0f));
 }
 
 // Tests a block against the given lanes of the given packets. At least one packet must be given.

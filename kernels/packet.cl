@@ -115,7 +115,7 @@ static ALWAYS_INLINE bool intersect_packet_triangle(const BlockPlace *at, const 
     test.inside = test.inside && packet->rays.ray->own != id;
     if (!any_lane(test.inside))
         return false;
-    const Real t = packet_distances(at, packet, &test, best->t + packet->rays.tie);
+    const Real t = packet_distances(at, packet, &test, search_reach(&packet->rays, best));
     Mask precedes = hit_precedes(t, id, best);
     const Mask close = is_close(&packet->rays, t, best);
     if (any_lane(close)) {

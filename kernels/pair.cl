@@ -135,18 +135,18 @@ static inline void traverse_pairs(const Search *search, Hit *best)
     const Tracer *tracer = search->tracer;
     PairStack stack;
     stack.count = 0;
-    push_children(&stack, search, 0, best->t);
+    push_children(&stack, search, 0, search_reach(search, best));
     if (CLRT_STATISTICS)
         tracer->tally->box_tests += 2;
     while (stack.count > 0) {
         stack.count--;
-        if (stack.entry[stack.count] > best->t)
+        if (stack.entry[stack.count] > search_reach(search, best))
             continue;
         const uint child = stack.child[stack.count];
         const uint first = tracer->nodes[child >> 1].first[child & 1];
         const uint count = tracer->nodes[child >> 1].count[child & 1];
         if (count == 0) {
-            push_children(&stack, search, first, best->t);
+            push_children(&stack, search, first, search_reach(search, best));
             if (CLRT_STATISTICS)
                 tracer->tally->box_tests += 2;
             continue;

@@ -100,4 +100,12 @@ static inline Search search_along(const Tracer *tracer, const Ray *ray, Real lim
     return search;
 }
 
+// Returns the distance beyond which no triangle precedes the best hit. Nearness may prefer a
+// triangle that is farther by up to `tie` (order.cl). A small triangle's box can be narrower than
+// this, so boxes must not be culled at the best distance itself.
+static inline Real search_reach(const Search *search, const Hit *best)
+{
+    return best->t + search->tie;
+}
+
 #endif

@@ -20,6 +20,12 @@ static inline uint lane_uint(const UInt *lanes, uint lane)
     return ((const uint *)lanes)[lane];
 }
 
+// search_reach for one lane.
+static inline float lane_reach(const Search *search, const Hit *hits, uint lane)
+{
+    return lane_real(&hits->t, lane) + lane_real(&search->tie, lane);
+}
+
 // The planes by which rays enter boxes: for each axis and lane, the place of a row of
 // BvhWide::planes. place ^ OTHER_PLANES is the row of the opposite planes.
 typedef struct {
@@ -204,7 +210,8 @@ static inline bool update_lane_hit(const float8 *distances, const BlockPlace *st
     const float tie = lane_real(&search->tie, lane), limit = lane_real(&search->limit, lane);
     float *best_t = (float *)&hits->t + lane;
     uint *best_id = (uint *)&hits->id + lane, *best_index = (uint *)&hits->index + lane;
-    uint candidates = lane_bits(*distances <= *best_t + tie && *distances < INFINITY);
+    uint candidates =
+        lane_bits(*distances <= lane_reach(search, hits, lane) && *distances < INFINITY);
     bool changed = false;
     for (; candidates != 0; candidates &= candidates - 1) {
         const uint place = lowest_bit(candidates);
@@ -239,7 +246,7 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     test.inside = edges_contain(&test.edges);
     if (lane_bits(test.inside) == 0)
         return false;
-    const float reach = lane_real(&hits->t, lane) + lane_real(&search->tie, lane);
+    const float reach = lane_reach(search, hits, lane);
     const float8 distances = block_distances(start, search, lane, &test, reach);
     return update_lane_hit(&distances, start, search, lane, hits);
 }
@@ -281,7 +288,8 @@ static inline void advance_lane(LaneSearches *searches, uint lane)
 {
     uint child;
     const uint bit = 1u << lane;
-    if (!pop_child(&searches->stack[lane], lane_real(&searches->hits->t, lane), &child)) {
+    const float reach = lane_reach(searches->search, searches->hits, lane);
+    if (!pop_child(&searches->stack[lane], reach, &child)) {
         searches->ended |= bit;
         return;
     }
@@ -301,7 +309,7 @@ static inline void visit_nodes(LaneSearches *searches)
         global const BvhWide *node = &tracer->nodes[searches->child[lane]];
         // Read early, while the other cache lines of the node are loading.
         const uint8 children = vload8(0, node->child);
-        const float reach = lane_real(&searches->hits->t, lane);
+        const float reach = lane_reach(searches->search, searches->hits, lane);
         float8 entry;
         const int8 met =
             children_hit(node, searches->search, &searches->near_planes, lane, reach, &entry);

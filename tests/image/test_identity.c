@@ -4,8 +4,10 @@
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
 static const char *const scenes[] = {
     CLRT_SOURCE_FOLDER "/scenes/reflections.scn",
@@ -25,22 +27,76 @@ static PictureRequest small_request(size_t scene)
     return request;
 }
 
+static void expect_same_in_every_form_and_tree(PictureRequest usual)
+{
+    PictureRequest others[FORMS_FP32][3];
+    usual = rendered_in_form(usual, &form_all[0]);
+    usual.samples = 1;
+    for (size_t i = 0; i < FORMS_FP32; i++) {
+        PictureRequest *form = others[i];
+        form[0] = form[1] = form[2] = rendered_in_form(usual, &form_all[i]);
+        form[1].builder = BVH_MIDPOINT;
+        form[1].tile_width = 13;
+        form[1].tile_height = 7;
+        form[2].uses_bvh = false;
+    }
+    rendered_expect_same(&usual, others[0], FORMS_FP32 * 3);
+}
+
 TEST(every_form_and_tree_draws_the_same)
 {
-    for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
-        PictureRequest usual = rendered_in_form(small_request(scene), &form_all[0]),
-                       others[FORMS_FP32][3];
-        usual.samples = 1;
-        for (size_t i = 0; i < FORMS_FP32; i++) {
-            PictureRequest *form = others[i];
-            form[0] = form[1] = form[2] = rendered_in_form(usual, &form_all[i]);
-            form[1].builder = BVH_MIDPOINT;
-            form[1].tile_width = 13;
-            form[1].tile_height = 7;
-            form[2].uses_bvh = false;
+    for (size_t scene = 0; scene < SCENE_COUNT; scene++)
+        expect_same_in_every_form_and_tree(small_request(scene));
+}
+
+// Writes a floor from -1 to 1 and, in a second mesh, triangles that are at most 2e-7 off the floor.
+// The coordinates of all their corners are at most 1e-4.
+#define SCRAPS 100
+static void write_floor_and_scraps(char floor[TEMPORARY_PATH], char scraps[TEMPORARY_PATH])
+{
+    static double corners[][3] = {{-1, -0.93, 0}, {1, -1, 0}, {0.91, 1, 0}, {-0.88, 0.95, 0}};
+    static uint32_t halves[][3] = {{0, 1, 2}, {0, 2, 3}};
+    double positions[3 * SCRAPS][3];
+    uint32_t triangles[SCRAPS][3];
+    uint64_t state = 29;
+    for (uint32_t i = 0; i < SCRAPS; i++) {
+        const double x = random_between(&state, -6e-5, 6e-5);
+        const double y = random_between(&state, -6e-5, 6e-5);
+        for (uint32_t corner = 3 * i; corner < 3 * i + 3; corner++) {
+            triangles[i][corner % 3] = corner;
+            positions[corner][0] = x + random_between(&state, -4e-5, 4e-5);
+            positions[corner][1] = y + random_between(&state, -4e-5, 4e-5);
+            positions[corner][2] = random_between(&state, -2e-7, 2e-7);
         }
-        rendered_expect_same(&usual, others[0], FORMS_FP32 * 3);
     }
+    temporary_mesh(
+        floor,
+        &(Mesh){.positions = corners, .triangles = halves, .vertex_count = 4, .triangle_count = 2});
+    temporary_mesh(scraps, &(Mesh){.positions = positions,
+                                   .triangles = triangles,
+                                   .vertex_count = 3 * SCRAPS,
+                                   .triangle_count = SCRAPS});
+}
+
+// The floor's distances have larger errors than the slack of the boxes of its scraps. A search must
+// find scraps beyond the floor's distance, because their nearness may still precede the floor's.
+TEST(boxes_smaller_than_the_errors_of_a_large_triangle_are_not_culled)
+{
+    char floor[TEMPORARY_PATH], scraps[TEMPORARY_PATH], scene[TEMPORARY_PATH];
+    write_floor_and_scraps(floor, scraps);
+    FILE *stream = temporary_open(scene);
+    fprintf(stream,
+            "define floor silhouette diffuse 1 0 0\ndefine scrap silhouette diffuse 0 1 0\n"
+            "sides two\ncamera 8e-5 -1e-4 5e-5 0 0 0 60\n"
+            "material floor\nply_file %s\nmaterial scrap\nply_file %s\n",
+            floor, scraps);
+    temporary_close(stream);
+    PictureRequest request = picture_request(scene, 1);
+    request.width = request.height = 97;
+    expect_same_in_every_form_and_tree(request);
+    unlink(floor);
+    unlink(scraps);
+    unlink(scene);
 }
 
 TEST(every_form_draws_pictures_of_a_few_pixels)
