@@ -16,7 +16,8 @@ static json_t *device_json(const Device *device)
         FIELD("name", device->name), FIELD("driver", device->version),
         FIELD("type", device_type_name(device)), FIELD("compute_units", device->compute_units),
         FIELD("largest_allocation", device->largest_allocation), FIELD("fp64", device->has_fp64),
-        FIELD("correctly_rounded", device->correct_division));
+        FIELD("correctly_rounded", device->correct_division),
+        FIELD("denormals", device->has_denormals), FIELD("fma", device->has_fma));
 }
 
 static json_t *list_json(const DeviceList *list)

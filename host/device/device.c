@@ -44,6 +44,8 @@ static void describe(Device *device)
                     NULL);
     device->is_cpu = (device->type & CL_DEVICE_TYPE_CPU) != 0;
     device->shares_memory = shares_memory == CL_TRUE;
+    device->has_denormals = (config & CL_FP_DENORM) != 0;
+    device->has_fma = (config & CL_FP_FMA) != 0;
     device->correct_division = (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
     device->has_fp64 = double_config != 0;
 }

@@ -25,6 +25,8 @@ typedef struct {
     bool is_cpu;
     bool shares_memory;    // reads the host's arrays in place
     bool correct_division; // offers correctly rounded division and square root
+    bool has_denormals;    // keeps floats below 2^-126, which other devices set to zero
+    bool has_fma;          // in hardware; other devices calculate fma in software
     bool has_fp64;         // supports double precision
 } Device;
 

@@ -60,7 +60,8 @@ static bool make_program(KernelSet *set, Kernel *kernel, const ProgramSource *so
         free(kernel->program);
         return false;
     }
-    if (program_make(kernel->program, source, &first, error))
+    set->source.arithmetic_is_exact = program_make(kernel->program, source, &first, error);
+    if (set->source.arithmetic_is_exact)
         return true;
     set->programs.count--;
     program_free(kernel->program);

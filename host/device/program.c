@@ -3,6 +3,7 @@
 #include "device/program.h"
 
 #include "base/array.h"
+#include "device/arithmetic.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -55,11 +56,11 @@ static bool create_program(Program *program, const ProgramSource *source, Error 
     const bool embedded = source->kernel_folder == NULL;
     if (!embedded && !write_include(include, source->kernel_folder, error))
         return false;
-    const char *texts[2] = {embedded ? kernel_source : include, entry_of(source)->source};
-    const cl_uint count = texts[1] != NULL ? 2 : 1;
+    const char *texts[3] = {embedded ? kernel_source : include,
+                            text_or_nothing(entry_of(source)->source),
+                            source->arithmetic_is_exact ? "" : arithmetic_source};
     cl_int status;
-    program->handle =
-        clCreateProgramWithSource(source->device->context, count, texts, NULL, &status);
+    program->handle = clCreateProgramWithSource(source->device->context, 3, texts, NULL, &status);
     return cl_succeeded(status, "create the kernel program", error);
 }
 
@@ -86,9 +87,11 @@ bool program_build(Program *program, const ProgramSource *source, Error *error)
     if (!create_program(program, source, error))
         return false;
     const cl_int status = clBuildProgram(program->handle, 1, &device->id, options, NULL, NULL);
-    if (status == CL_SUCCESS)
+    if (status != CL_SUCCESS)
+        report_build_log(program, device, status, options, error);
+    else if (source->arithmetic_is_exact ||
+             arithmetic_is_exact(device, program->handle, options, error))
         return true;
-    report_build_log(program, device, status, options, error);
     program_free(program);
     return false;
 }

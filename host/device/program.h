@@ -36,9 +36,11 @@ typedef struct {
     const KernelEntry *entry;  // NULL for kernel_source alone
     KernelChoice choice;
     SceneTraits traits;
+    bool arithmetic_is_exact; // the device needs no test
 } ProgramSource;
 
-// Builds the program from source. The error message contains the compiler's log.
+// Tests the device's arithmetic and builds the program from source. The error message contains the
+// compiler's log.
 bool program_build(Program *program, const ProgramSource *source, Error *error);
 
 // Runs a program's kernels for the first time.

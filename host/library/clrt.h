@@ -177,6 +177,8 @@ typedef struct {
     uint64_t largest_allocation; // bytes
     bool fp64;                   // has double arithmetic
     bool correctly_rounded;      // offers division and square roots with the same bits as others
+    bool denormals;              // keeps floats below 2^-126
+    bool fma;                    // calculates fma in hardware
 } ClrtDevice;
 
 // Stores the number of OpenCL devices, at most 64. Fails if there are none.

@@ -142,7 +142,9 @@ bool clrt_device_get(uint32_t number, ClrtDevice *device, ClrtError *error)
                           .compute_units = found->compute_units,
                           .largest_allocation = found->largest_allocation,
                           .fp64 = found->has_fp64,
-                          .correctly_rounded = found->correct_division};
+                          .correctly_rounded = found->correct_division,
+                          .denormals = found->has_denormals,
+                          .fma = found->has_fma};
     snprintf(filled.device, sizeof filled.device, "%u:%u", found->platform_number, found->number);
     snprintf(filled.type, sizeof filled.type, "%s", device_type_name(found));
     memcpy(filled.platform, found->platform, sizeof filled.platform);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // If preloaded, makes the device fail as if it ran out of memory or were lost. CLRT_FAIL_NAME names
 // an OpenCL function of this file. Its calls fail from number CLRT_FAIL_CALL on, counted from 1.
+// The text of CLRT_FIRST_LINES precedes every program; macros in it make the device round wrongly.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <stdatomic.h>
@@ -27,6 +28,19 @@ cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t size, void 
     if (status != NULL)
         *status = CL_MEM_OBJECT_ALLOCATION_FAILURE;
     return NULL;
+}
+
+cl_program clCreateProgramWithSource(cl_context context, cl_uint count, const char **texts,
+                                     const size_t *lengths, cl_int *status)
+{
+    const char *all[9], *first = getenv("CLRT_FIRST_LINES");
+    __typeof__(clCreateProgramWithSource) *real;
+    *(void **)&real = dlsym(RTLD_NEXT, "clCreateProgramWithSource");
+    if (first == NULL || count > 8 || lengths != NULL)
+        return real(context, count, texts, lengths, status);
+    all[0] = first;
+    memcpy(all + 1, texts, count * sizeof *texts);
+    return real(context, count + 1, all, NULL, status);
 }
 
 cl_context clCreateContext(const cl_context_properties *properties, cl_uint count,

@@ -196,6 +196,16 @@ class Device(Faults):
             self.assertEqual(os.listdir(self.target), [], call)
         return None
 
+    def test_a_device_that_rounds_wrongly_is_refused_before_its_first_program(self):
+        for macro, operation in (("fma(a, b, c) ((a) * (b) + (c))", "fma"), ("rint floor", "rint"),
+                                 ("max min", "min and max")):
+            name = macro.split("(")[0].split(" ")[0]
+            lines = f"#undef {name}\n#define {macro}\n"
+            run = self.run_clrt(*self.TILES, "-o", "target/a.pfm", LD_PRELOAD=FAIL_DEVICE, CLRT_FIRST_LINES=lines,
+                                POCL_CACHE_DIR=str(self.work)) # an empty cache
+            self.assert_fails(run, 4, f".* calculates wrongly, so clrt cannot use it: .* {operation} has the bits ")
+            self.assertEqual(os.listdir(self.target), [])
+
     def test_every_failed_allocation_on_the_device_is_reported(self):
         sentence = r"cannot (allocate|upload) [\w' ]+: CL_MEM_OBJECT_ALLOCATION_FAILURE \(-4\)$"
         count = self.count_failures("clCreateBuffer", sentence, *self.TILES, "-o", "target/a.pfm")
