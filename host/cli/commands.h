@@ -14,7 +14,7 @@ ExitCode picture_make(Run *run, Error *error);
 // clrt SCENE: shows the scene in a window until the user closes it.
 ExitCode show_scene(Run *run, Error *error);
 
-// Prints the window's keys; prints nothing in a build without a window.
+// Prints the window's keys for the man page; prints nothing in a build without a window.
 void show_write_keys(FILE *stream);
 
 // clrt warm: compiles kernels in advance.

@@ -17,10 +17,9 @@
 
 void show_write_keys(FILE *stream)
 {
-    fprintf(stream, "\nIn the window:\n");
     for (const char *line = status_text_help(); line[0] != '\0';) {
         const int length = (int)strcspn(line, "\n");
-        fprintf(stream, "  %.*s\n", length, line);
+        fprintf(stream, "%.*s\n", length, line);
         line += length + (line[length] == '\n');
     }
 }

@@ -64,11 +64,12 @@ class Pages(Work):
         for name in ("exact", "bounded", "statistical"):
             self.assertEqual(program.count(f"[{name}]"), HELP.count(f"[{name}]"))
         codes = re.findall(r"(\d+) ", re.search(r"Exit status: (.*)", HELP, re.DOTALL)[1])
-        channels = HELP.split("\nChannels of --aov", 1)[1].split("\n\n", 1)[0]
+        channels = HELP.split("\nChannels of --aov:", 1)[1].split("\n\n", 1)[0]
+        self.assertIn("[--quiet | --verbose]", program)
         properties = [f" {name} " for name in grammar.properties()]
         for page, names, pattern in (
             (program, codes, "EXIT STATUS.* {} "), (program, COMMANDS, "COMMANDS .*{} [A-Z]"),
-            (program, re.findall(r"^  (\w+)", channels, re.MULTILINE), "CHANNELS .* {} .* CLASSES"),
+            (program, re.findall(r"\w+", channels), "CHANNELS .* {} .* CLASSES"),
             (scenes, grammar.usages(), r" {} [A-Z0o\[s]"), (scenes, properties, "{}"),
         ):
             self.assertGreater(len(names), 2, pattern)

@@ -143,8 +143,10 @@ TEST(help_names_every_option_with_its_class)
     }
 }
 
-TEST(help_fits_a_wide_terminal)
+TEST(help_fits_a_wide_terminal_and_a_tall_page)
 {
-    for (const char *line = help_text(); *line != '\0'; line += strcspn(line, "\n") + 1)
+    int lines = 0;
+    for (const char *line = help_text(); *line != '\0'; line += strcspn(line, "\n") + 1, lines++)
         assert_true(strcspn(line, "\n") <= 100);
+    assert_true(lines <= 110);
 }

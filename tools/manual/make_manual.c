@@ -11,6 +11,7 @@ static const struct {
     {"%SYNOPSIS%", write_synopsis},
     {"%COMMANDS%", write_commands},
     {"%OPTIONS%", write_options},
+    {"%EXCLUSIONS%", write_exclusions},
     {"%CLASSES%", write_classes},
     {"%CHANNELS%", write_channels},
     {"%KEYS%", write_keys},

@@ -135,6 +135,18 @@ void write_commands(FILE *stream)
     fputs(".El\n", stream);
 }
 
+void write_exclusions(FILE *stream)
+{
+    for (size_t i = 0; i < exclusion_count; i++) {
+        char text[EXCLUSION_TEXT_SIZE];
+        exclusion_write(&exclusion_table[i], text);
+        fputs(".Dl ", stream);
+        for (const char *c = text; *c != '\0'; c++)
+            fprintf(stream, *c == '-' ? "\\-" : "%c", *c);
+        fputc('\n', stream);
+    }
+}
+
 void write_classes(FILE *stream)
 {
     fputs(".Bl -tag -width Ds\n", stream);
@@ -145,8 +157,7 @@ void write_classes(FILE *stream)
     fputs(".El\n", stream);
 }
 
-// Writes the window's keys. --help lists one key per line, and two spaces separate a key from its
-// meaning.
+// Writes the window's keys. Each has a line, in which two spaces separate it from its meaning.
 void write_keys(FILE *stream)
 {
     char text[4096] = "";
@@ -162,7 +173,6 @@ void write_keys(FILE *stream)
     fputs(".Bl -tag -width \"middle or Shift drag\" -compact\n", stream);
     char *rest = text;
     for (char *line = strsep(&rest, "\n"); line != NULL; line = strsep(&rest, "\n")) {
-        line += strspn(line, " ");
         char *gap = strstr(line, "  ");
         if (gap == NULL)
             continue;

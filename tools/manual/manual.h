@@ -8,7 +8,8 @@
 typedef void WritePart(FILE *stream);
 
 // Parts of clrt(1), as lines of mdoc.
-WritePart write_synopsis, write_commands, write_options, write_classes, write_channels, write_keys;
+WritePart write_synopsis, write_commands, write_options, write_exclusions, write_classes,
+    write_channels, write_keys;
 
 // The names of the commands, separated by spaces.
 WritePart write_command_names;

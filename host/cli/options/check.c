@@ -38,6 +38,21 @@ static bool check_exclusions(const Options *options, Error *error)
     return true;
 }
 
+static void append_names(char *text, const char *const names[], const char *separator)
+{
+    for (int i = 0; i < EXCLUSION_NAMES && names[i] != NULL; i++)
+        strcat(strcat(strcat(text, i > 0 ? separator : ""), "--"), names[i]);
+}
+
+void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE])
+{
+    const bool has_others = exclusion->others[0] != NULL;
+    strcpy(text, "[");
+    append_names(text, exclusion->names, has_others ? ", " : " | ");
+    append_names(strcat(text, has_others ? " | " : ""), exclusion->others, ", ");
+    strcat(text, "]");
+}
+
 // Returns the first command that accepts the option.
 static const Command *first_taker(const Option *option)
 {

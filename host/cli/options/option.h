@@ -15,8 +15,6 @@ typedef enum {
     GROUP_SPEED,
     GROUP_JOB,
     GROUP_DEVICE,
-    GROUP_STATISTICS,
-    GROUP_GEOMETRY,
     GROUP_REPORT,
     GROUP_WINDOW,
     GROUP_TALK,
@@ -126,6 +124,13 @@ typedef struct {
 
 extern const Exclusion exclusion_table[];
 extern const size_t exclusion_count;
+
+#define EXCLUSION_TEXT_SIZE 160
+
+// Writes the options of a row in the syntax of a command line: "[--a | --b]", of which at most one
+// may be given, or "[--a, --b | --c, --d]", of which no option of the left goes with one of the
+// right.
+void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE]);
 
 // Checks the options of a command and their combination. Determines the format of the picture.
 bool options_check(Options *options, const Command *command, Error *error);

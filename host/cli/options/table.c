@@ -23,18 +23,18 @@ const Option option_table[] = {
      "write the picture; the file's ending sets the format; - is standard output"},
     {"format", "NAME", 0, ODD(set_format), GROUP_OUTPUT, CLASS_NONE,
      FOR_FILE | FOR_COMPARE | FOR_MERGE,
-     "write this format regardless of the ending (default for standard output: png)"},
+     "write this format regardless of the ending; standard output has png without this option"},
     {"encode", "raw|srgb", 0, WORD(encoding), GROUP_OUTPUT, CLASS_NONE,
      FOR_FILE | FOR_WINDOW | FOR_PIXEL, "values of 8-bit files: raw (default) or srgb"},
     {"exposure", "EV", 0, ODD(set_exposure), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_WINDOW,
-     "multiply the colors of 8-bit files by 2^EV, as the keys + and - do in the window"},
+     "multiply the colors of 8-bit files by 2^EV; in the window, the keys + and - do this"},
     {"aov", "LIST", 0, ODD(set_aov), GROUP_OUTPUT, CLASS_NONE, FOR_FILE,
      "add channels to an EXR file; the names are below; all means every channel but error"},
     {"no-metadata", NULL, 0, FLAG(no_metadata), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_MERGE,
      "omit the metadata that records how the picture was made"},
     {"hash", "[=EXPECTED]", 0, ODD(set_hash), GROUP_OUTPUT, CLASS_NONE, FOR_DRAWING | FOR_MERGE,
-     "print a hash of the traced pixels, or exit with status 1 unless it is EXPECTED; without -o, "
-     "write no picture"},
+     "print the pixels' hash, or exit with status 1 unless it is EXPECTED; without -o, write no "
+     "picture"},
 
     {"size", "WxH", 's', AREA(width, PICTURE_SIZE_MAX), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
@@ -46,11 +46,14 @@ const Option option_table[] = {
      "use the scene's N-th camera (default: 1); a scene without cameras has the course's six"},
     {"up", "auto|x|y|z|-x|-y|-z", 0, WORD(load.up), GROUP_PICTURE, CLASS_NONE,
      FOR_SCENE | FOR_CONVERT,
-     "axis that points up in a mesh file without a scene (default: auto, by format and shape)"},
+     "axis that points up in a lone mesh (default: auto); auto chooses by format and shape"},
     {"normals", "flat|smooth", 0, ODD(set_normals), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN | FOR_CONVERT,
-     "ignore the normals of a mesh file without a scene, or compute those that it lacks (default); "
-     "with smooth=DEGREES, larger angles stay sharp (default: 33 or 70, by shape)"},
+     "ignore a lone mesh's normals, or compute those that it lacks (default); with smooth=DEGREES, "
+     "larger angles stay sharp (default: 33 or 70, by shape)"},
+    {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_PICTURE, CLASS_NONE,
+     FOR_DRAWING | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
+     "drop triangles with equal corners, or fail at any without area; drop is the default"},
 
     {"aa", "[=N]", 0, FIELD(COUNT, samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
@@ -58,45 +61,45 @@ const Option option_table[] = {
      "and files of lone meshes 3 x 3; the window takes N x N when the camera rests, unless N is 1"},
     {"aa-adaptive", "[=T]", 0, FIELD(PART, contrast), 0, "0.02", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_DRAWING | FOR_GENERAL | FOR_WARM,
-     "add samples where neighbors differ, until a pixel's contrast is at most T (default: 0.02)"},
+     "add samples to a contrast of at most T (default: 0.02); they go where neighbors differ"},
     {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
-     "rays of level N see the background (default: the scene's N, or 3); the error is at most "
-     "R^N, where R is the highest reflectivity; auto: the smallest N whose error is below half a "
-     "step of the file's values"},
+     "rays of level N see the background (default: the scene's); N is 3 if the scene has no level; "
+     "the error is at most R^N, where R is the highest reflectivity; auto: the smallest N whose "
+     "error is below half a step of the file's values"},
     {"error", "E", 0, ODD(set_error), GROUP_QUALITY, CLASS_STATISTICAL,
      FOR_DRAWING | FOR_GENERAL | FOR_WARM,
-     "choose samples, levels and precision for a root mean square error of E, such as 0.5%"},
+     "reach a root mean square error of E, such as 0.5%; clrt chooses samples, levels and "
+     "precision"},
     {"time", "S", 0, ODD(set_time), GROUP_QUALITY, CLASS_STATISTICAL,
-     FOR_DRAWING | FOR_GENERAL | FOR_WARM,
-     "choose the number of samples so that tracing takes S seconds"},
+     FOR_DRAWING | FOR_GENERAL | FOR_WARM, "take as many samples as fit in S seconds of tracing"},
     {"precision", "fp32|fp64", 0, WORD(kernel.precision), GROUP_QUALITY, CLASS_STATISTICAL,
      FOR_KERNELS,
-     "arithmetic: fp32 (default), or fp64 as a reference, with single rays and pair nodes"},
+     "arithmetic: fp32 (default), or fp64 as a reference; fp64 has single rays and pair nodes"},
 
     {"tune", "LIST", 0, ODD(set_tune), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
-     "settings for experiments, separated by commas, such as kernel=pair,tile=64x64"},
+     "settings for experiments, such as kernel=pair,tile=64x64; they change no bit of the picture"},
     {"tune kernel", "auto|pair|wide[:LANES]|packet[:LANES]", 0, ODD(set_kernel), GROUP_SPEED,
      CLASS_EXACT, FOR_KERNELS,
-     "trace single rays through nodes of two (pair) or eight (wide), or packets of rays through "
-     "nodes of eight; auto (default) chooses by the device; LANES: 4, 8 or 16 for the width of "
+     "single rays through nodes of 2 (pair) or 8 (wide), or packets; packets of rays use nodes of "
+     "8; auto (default) chooses by the device; LANES: 4, 8 or 16 for the width of "
      "vectors"},
     {"tune tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT,
-     FOR_DRAWING,
-     "size of the tiles in which the picture is traced (default: 128x128; for parts 64x64)"},
+     FOR_DRAWING, "size of the picture's tiles (default: 128x128, in parts 64x64)"},
     {"tune group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_GENERAL | FOR_WARM,
-     "size of the device's work-groups (default: 8x8; with wide nodes 2x2)"},
+     "size of work-groups (default: 8x8, with wide nodes 2x2)"},
     {"tune specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
-     "compile kernels for this scene: if it pays (auto, default), always or never"},
+     "compile kernels for the scene if it pays (auto), always or never; auto is the default"},
     {"tune bvh", "auto|sah|midpoint|none", 0, WORD(bvh), GROUP_SPEED, CLASS_EXACT,
      FOR_SCENE | FOR_WARM,
-     "build the tree by the surface area heuristic or by midpoints, or test every triangle; auto "
-     "(default) is sah, but up to 32 triangles get no tree with wide nodes"},
+     "build the tree by surface areas, by midpoints or not at all; without a tree, rays test every "
+     "triangle; auto (default) is sah, but up to 32 triangles get no tree with wide nodes"},
 
     {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw N pictures and turn the camera about its look-at point by an N-th of a circle for "
-     "each; numbers replace #### in the file's name or precede its ending; FILE.gif holds all"},
+     "draw N pictures, and turn the camera by an N-th of a circle for each; it turns about its "
+     "look-at point; numbers replace #### in the file's name or precede its ending; FILE.gif holds "
+     "all"},
     {"frames", "A-B[:S][,I/N]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw views A to B, or pictures A to B of the turntable; S: every S-th of them; I/N: the "
      "I-th of N equal runs of them; auto/N: as for --part"},
@@ -104,32 +107,27 @@ const Option option_table[] = {
      "draw only the I-th of N parts, an N-th of the tiles; clrt merge joins the N parts; auto/N "
      "takes I from the task number of Slurm, AWS Batch, Kubernetes or MPI"},
     {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
-     "keep finished tiles in FILE.part until the picture is whole, and resume from them; for many "
-     "pictures, skip those whose files exist"},
+     "keep finished tiles in FILE.part, and resume from them; for many pictures, skip those whose "
+     "files exist"},
 
     {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
     {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "threads of a CPU device (default: all that the process may use)"},
 
-    {"stats", NULL, 0, FLAG(statistics), GROUP_STATISTICS, CLASS_NONE,
+    {"stats", NULL, 0, FLAG(statistics), GROUP_REPORT, CLASS_NONE,
      FOR_PICTURE | FOR_EXPLAIN | FOR_GENERAL | FOR_WARM,
      "count rays and tests, and print them; in the window, time frames"},
-    {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_STATISTICS, CLASS_NONE, FOR_DRAWING,
+    {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_REPORT, CLASS_NONE, FOR_DRAWING,
      "measure the picture against a reference in fp64 with many samples; write the reference to "
      "FILE"},
-    {"reference-samples", "N", 0, ODD(set_reference_samples), GROUP_STATISTICS, CLASS_NONE,
-     FOR_DRAWING, "samples per pixel of the reference, an even number (default: 256)"},
-    {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_STATISTICS, CLASS_NONE, FOR_DRAWING,
+    {"reference-samples", "N", 0, ODD(set_reference_samples), GROUP_REPORT, CLASS_NONE, FOR_DRAWING,
+     "samples per pixel of the reference, an even number (default: 256)"},
+    {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_REPORT, CLASS_NONE, FOR_DRAWING,
      "draw the picture N times, for timing; -v and --json report each time (default: 1)"},
-
-    {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_GEOMETRY, CLASS_NONE,
-     FOR_DRAWING | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
-     "drop triangles with two equal corners (default), or fail at triangles without area"},
-
     {"fail", "LIMITS", 0, ODD(set_fail), GROUP_REPORT, CLASS_NONE, FOR_COMPARE,
-     "compare: exit with status 1 above rmse=V, max=V, share1=V, share4=V or hits=V, or below "
-     "psnr=V"},
+     "compare: exit with status 1 above LIMITS, such as rmse=1%; LIMITS is a list of rmse=V, "
+     "max=V, share1=V, share4=V and hits=V, or psnr=V, which is a lower limit"},
     {"json", "[=FILE]", 0, ODD(set_json), GROUP_REPORT, CLASS_NONE,
      FOR_DRAWING | FOR_CHECK | FOR_COMPARE | FOR_EXPLAIN | FOR_PIXEL | FOR_DEVICES,
      "write the report as JSON, to FILE or standard output; of a picture, its statistics"},
@@ -153,10 +151,9 @@ _Static_assert(sizeof option_table / sizeof option_table[0] <= OPTIONS_MOST,
                "arrays of OPTIONS_MOST hold the table");
 
 const char *const option_group_names[OPTION_GROUPS] = {
-    [GROUP_OUTPUT] = "Output",         [GROUP_PICTURE] = "Picture",   [GROUP_QUALITY] = "Quality",
-    [GROUP_SPEED] = "Speed",           [GROUP_JOB] = "Long jobs",     [GROUP_DEVICE] = "Device",
-    [GROUP_STATISTICS] = "Statistics", [GROUP_GEOMETRY] = "Geometry", [GROUP_REPORT] = "Reports",
-    [GROUP_WINDOW] = "Window",         [GROUP_TALK] = "Messages",
+    [GROUP_OUTPUT] = "Output",  [GROUP_PICTURE] = "Picture", [GROUP_QUALITY] = "Quality",
+    [GROUP_SPEED] = "Speed",    [GROUP_JOB] = "Long jobs",   [GROUP_DEVICE] = "Device",
+    [GROUP_REPORT] = "Reports", [GROUP_WINDOW] = "Window",   [GROUP_TALK] = "Messages",
 };
 
 const char *const option_class_names[OPTION_CLASSES] = {
@@ -183,19 +180,22 @@ bool option_is_given(const Options *options, const char *name)
 }
 
 const Command command_table[] = {
-    {"", "SCENE", 1, 1, ACTION_VIEW, FOR_WINDOW, "show a scene or a mesh in a window"},
+    {"", "SCENE", 1, 1, ACTION_VIEW, FOR_WINDOW,
+     "show a scene or a mesh in a window, where h lists the keys"},
     {"", "SCENE -o FILE", 1, 1, ACTION_RENDER, FOR_FILE, "draw it to a file"},
     {"", "SCENE --hash", 1, 1, ACTION_RENDER, FOR_HASH, "print the hash of its pixels"},
     {"check", "SCENE", 1, 1, ACTION_CHECK, FOR_CHECK, "report faults in the scene's geometry"},
     {"compare", "PICTURE PICTURE", 2, 2, ACTION_COMPARE, FOR_COMPARE,
      "report how much two pictures differ; -o draws a map of the differences"},
-    {"merge", "PART...", 1, INT_MAX, ACTION_MERGE, FOR_MERGE,
-     "join the EXR files of all parts (--part) into the whole picture (-o)"},
+    {"merge", "PART... -o FILE", 1, INT_MAX, ACTION_MERGE, FOR_MERGE,
+     "join the EXR files of all parts (--part)"},
     {"convert", "SCENE FILE", 2, 2, ACTION_CONVERT, FOR_CONVERT,
-     "write a scene or mesh as FILE: a .scn with a binary .ply per mesh beside it, or one .ply "
+     "write a scene or mesh as FILE; it is a .scn with a binary .ply per mesh beside it, or one "
+     ".ply "
      "with all meshes"},
     {"explain", "SCENE", 1, 1, ACTION_EXPLAIN_SCENE, FOR_EXPLAIN,
-     "explain which kernel features and buffers the scene uses, and why the others are left out"},
+     "explain which kernel features and buffers the scene uses; the others are listed with the "
+     "reasons why they are left out"},
     {"explain", "SCENE X,Y", 2, 2, ACTION_EXPLAIN, FOR_PIXEL,
      "explain the color of a pixel, ray by ray; X counts from the left and Y from the top, both "
      "from 0"},
