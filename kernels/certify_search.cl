@@ -65,7 +65,7 @@ static inline ConeSearch search_in_cone(const RayCone *ray)
 
 // Nothing beyond the nearest certain hit can be first. Nothing beyond another possible hit can
 // certainly be first.
-static inline Real search_reach(const ConeSearch *search)
+static inline Real cone_reach(const ConeSearch *search)
 {
     if (search->ray->kind == RAY_SHADOW)
         return 1.01f * search->ray->length;
@@ -123,7 +123,7 @@ static inline Real triangle_entry(const ConeSearch *search, global const Triangl
 static inline void push_certified_children(const Tracer *tracer, const ConeSearch *search,
                                            uint node, PairStack *stack)
 {
-    const Real reach = search_reach(search);
+    const Real reach = cone_reach(search);
     const Real first = child_entry(search, &tracer->nodes[node], 0, reach);
     const Real second = child_entry(search, &tracer->nodes[node], 1, reach);
     const bool second_nearer = second < first;
@@ -167,7 +167,7 @@ static inline void search_leaf(const Tracer *tracer, ConeSearch *search, uint2 r
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
         global const TriangleData *triangle = &tracer->triangles[index];
-        if (!(triangle_entry(search, triangle, search_reach(search)) < INFINITY))
+        if (!(triangle_entry(search, triangle, cone_reach(search)) < INFINITY))
             continue;
         const Candidate candidate = leaf_candidate(tracer, search->ray, index);
         if (search->ray->kind != RAY_SHADOW)
@@ -188,7 +188,7 @@ static void search_triangles(const Tracer *tracer, ConeSearch *search)
     push_certified_children(tracer, search, 0, &stack);
     while (stack.count > 0 && !search_is_over(search)) {
         stack.count--;
-        if (stack.entry[stack.count] > search_reach(search))
+        if (stack.entry[stack.count] > cone_reach(search))
             continue;
         const uint child = stack.child[stack.count];
         const uint first = tracer->nodes[child >> 1].first[child & 1];
