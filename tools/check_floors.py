@@ -3,7 +3,8 @@
 # Reads every #include and reports violations of the layers. A layer ("floor") is a folder of host/.
 # A file may include headers of its own folder and of lower layers, but not in a cycle. NAME.c and
 # NAME.h count as one unit there, so two units must not include each other through their .c files. A
-# kernel file may include only files that precede it in the list in CMakeLists.txt.
+# kernel file may include only files that precede it in the list in CMakeLists.txt. NAME.h declares
+# only functions of NAME.c.
 import argparse
 import pathlib
 import re
@@ -53,6 +54,25 @@ SHARED_BY = "scene/scene.h"
 # The header of libclrt declares the requests of the session, and includes nothing of the host. Every
 # layer above the session may include it too.
 PUBLIC = "library/clrt.h"
+
+# A header declares only functions of the file with its name, except these headers.
+SHARED_HEADERS = {
+    "cli/commands.h": "one function for each command, in the file of that command",
+    "cli/options/option.h": "the table of options, and the files that read and check it",
+    "cli/options/options.h": "the result of the whole folder",
+    "cli/picture.h": "the steps of a picture",
+    "image/exr_file.h": "EXR files: reading, and the header for writing",
+    "image/formats.h": "the readers and writers of single formats",
+    "image/image_file.h": "also the encoding, which writers of single formats use",
+    "image/stored_image.h": "also image_read, which needs libraries",
+    "library/clrt.h": "the public header",
+    "library/handles.h": "the data behind clrt.h",
+    "mesh/ply_reader.h": "the parts of the PLY reader",
+    "scene/mesh_load.h": "also mesh_scene.c, which reads its studio with scn.c",
+    "session/session.h": "the session, whose scene has a file of its own",
+    "view/viewer_inside.h": "the viewer's data, which its files share",
+    "view/worker_inside.h": "the worker's data, which its files share",
+}
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]', re.MULTILINE)
 
@@ -157,6 +177,25 @@ def check_host(host):
         yield "host: a cycle of includes: " + " -> ".join(cycle)
 
 
+def check_headers(host):
+    """Yields functions that are declared in a header of another file."""
+    comment = re.compile(r"//.*")
+    declared = re.compile(r"\b(\w+)\([^;{}]*\)\s*;")
+    defined = re.compile(r"^(?!static|typedef|#)\w[\w *]*?\b(\w+)\([^;{}]*\)\n\{", re.MULTILINE)
+    homes = {}
+    for file in sorted(host.rglob("*.c")):
+        for match in defined.finditer(comment.sub("", file.read_text())):
+            homes.setdefault(match[1], file)
+    for header in sorted(host.rglob("*.h")):
+        name = header.relative_to(host).as_posix()
+        text = comment.sub("", header.read_text())
+        text = re.sub(r"static inline [^{;]*\{.*?\n\}", "", text, flags=re.DOTALL)
+        for match in declared.finditer(text):
+            home = homes.get(match[1])
+            if home and home != header.with_suffix(".c") and name not in SHARED_HEADERS:
+                yield f"host/{name}: {match[1]} belongs into the header of {home.name}"
+
+
 def check_kernels(root):
     match = re.search(r"set\(kernels\s+([^)]*)\)", (root / "CMakeLists.txt").read_text())
     order = match[1].split() if match else []
@@ -175,7 +214,7 @@ def main():
     own_root = pathlib.Path(__file__).resolve().parent.parent
     parser.add_argument("--root", type=pathlib.Path, default=own_root, help="the checkout to read")
     root = parser.parse_args().root
-    problems = [*check_host(root / "host"), *check_kernels(root)]
+    problems = [*check_host(root / "host"), *check_headers(root / "host"), *check_kernels(root)]
     for problem in problems:
         print(problem, file=sys.stderr)
     return 1 if problems else 0

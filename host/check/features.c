@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares squared lengths, so only a new minimum needs a square root.
-#include "check/census.h"
+#include "check/features.h"
 
 #define FLOAT_DIGITS 23 // bits of a float's fraction
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Measurements of a check -> findings -> text and JSON. A finding says whether it fails the check.
+// Measurements of a check -> findings. A finding says whether it fails the check.
 #pragma once
 
 #include "check/census.h"
 #include "check/leaks.h"
-
-#include <stdio.h>
 
 #define FINDING_SCENE SIZE_MAX // the object index of findings about the whole scene
 
@@ -36,11 +34,6 @@ typedef struct {
 bool check_find(Check *check, Error *error);
 
 size_t check_count_failing(const Check *check);
-
-void check_report_write_text(const Check *check, FILE *stream);
-
-// Writes versioned JSON with sorted keys to path ("-": standard output).
-bool check_report_write_json(const Check *check, const char *path, Error *error);
 
 // The kinds of faults in a mesh.
 typedef enum {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The text lists each mesh with its findings. JSON contains every count, including zeros.
-#include "check/findings.h"
+#include "check/report.h"
 
 #include "image/json_file.h"
 

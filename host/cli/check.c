@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "check/census.h"
-#include "check/findings.h"
+#include "check/report.h"
 #include "cli/run.h"
 
 #include <stdio.h>

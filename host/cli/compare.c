@@ -4,7 +4,7 @@
 #include "cli/commands.h"
 
 #include "base/output_file.h"
-#include "compare/difference.h"
+#include "compare/report.h"
 #include "image/image_file.h"
 #include "image/stored_image.h"
 

@@ -5,8 +5,8 @@
 #include "base/file.h"
 #include "base/output_file.h"
 #include "cli/run.h"
-#include "mesh/ply.h"
-#include "scene/scn.h"
+#include "mesh/ply_write.h"
+#include "scene/scn_write.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 // do not restore ours. The executable therefore overrides the C library's sigaction and ignores
 // requests to replace our handlers. Only SIGFPE stays replaceable, because PoCL uses it to step
 // over divisions by zero.
-#include "cli/process.h"
+#include "cli/crash.h"
 
 #include "cli/options/options.h"
 

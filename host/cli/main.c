@@ -2,8 +2,10 @@
 // The program: runs the command and prints its error.
 #include "base/processors.h"
 #include "cli/commands.h"
+#include "cli/crash.h"
 #include "cli/options/options.h"
 #include "cli/process.h"
+#include "cli/progress.h"
 
 #include <signal.h>
 #include <stdio.h>

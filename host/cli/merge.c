@@ -7,6 +7,7 @@
 
 #include "base/output_file.h"
 #include "cli/picture.h"
+#include "cli/report.h"
 #include "jobs/exr_join.h"
 #include "jobs/stored_tiles.h"
 

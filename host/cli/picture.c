@@ -7,6 +7,8 @@
 #include "cli/options/option.h"
 #include "cli/picture.h"
 #include "cli/process.h"
+#include "cli/progress.h"
+#include "cli/report.h"
 #include "image/image_file.h"
 #include "jobs/stored_tiles.h"
 #include "scene/camera.h"

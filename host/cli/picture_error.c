@@ -3,7 +3,7 @@
 #include "cli/picture.h"
 
 #include "base/clock.h"
-#include "cli/process.h"
+#include "cli/progress.h"
 #include "session/reference.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 // Prints notes about a picture, and describes pictures that miss a goal or are stopped.
 #include "cli/picture.h"
 
-#include "cli/process.h"
+#include "cli/progress.h"
 
 #include <math.h>
 #include <stdio.h>

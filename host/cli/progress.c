@@ -2,9 +2,10 @@
 // On a terminal, one line is rewritten and shows the remaining time, or the time spent on loading
 // the scene or on compiling kernels. A log gets a line for every tenth of the picture, but none in
 // the first second.
-#include "cli/process.h"
+#include "cli/progress.h"
 
 #include "base/clock.h"
+#include "cli/process.h"
 
 #include <pthread.h>
 #include <stdint.h>

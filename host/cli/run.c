@@ -5,7 +5,7 @@
 #include "base/clock.h"
 #include "cli/commands.h"
 #include "cli/options/option.h"
-#include "cli/process.h"
+#include "cli/progress.h"
 #include "image/image_file.h"
 #include "scene/scene.h"
 #include "scene/scn.h"

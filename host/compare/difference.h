@@ -6,8 +6,6 @@
 #include "image/framebuffer.h"
 #include "image/stored_image.h"
 
-#include <stdio.h>
-
 // The tolerance of off_by_1 and off_by_4. Rounding to float can make a difference of one 8-bit step
 // slightly larger than 1/255.
 #define DIFFERENCE_ROUNDING 0x1p-22
@@ -100,18 +98,3 @@ void causes_find(Causes *causes, const ImagePair *pair);
 
 // The causes' names and meanings, as reports print them.
 extern const char *const cause_names[CAUSE_KINDS], *const cause_meanings[CAUSE_KINDS];
-
-typedef struct {
-    ImagePair pair;
-    Difference difference;
-    Causes causes;
-    const Limits *limits;
-} Comparison;
-
-// Returns whether the difference is within all limits.
-bool comparison_is_kept(const Comparison *comparison);
-
-void comparison_write_text(const Comparison *comparison, FILE *stream);
-
-// Writes versioned JSON with sorted keys to path ("-": standard output).
-bool comparison_write_json(const Comparison *comparison, const char *path, Error *error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "foreign/send.h"
 
-#include "mesh/ply.h"
+#include "mesh/ply_write.h"
 
 #include <stdarg.h>
 #include <string.h>

@@ -2,6 +2,7 @@
 // The caller's arrays -> a mesh of a scene.
 #include "base/limits.h"
 #include "library/handles.h"
+#include "mesh/normals.h"
 
 #include <string.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a PLY file into a Mesh: ascii, or binary of either byte order. Writes a Mesh as binary PLY,
-// which ply_parse reads fastest, and which keeps all bits of the mesh. Format: Greg Turk, "The PLY
+// Reads a PLY file into a Mesh: ascii, or binary of either byte order. Format: Greg Turk, "The PLY
 // Polygon File Format", Stanford 1994.
 #pragma once
 
@@ -8,7 +7,6 @@
 #include "mesh/mesh.h"
 
 #include <stdbool.h>
-#include <stdio.h>
 
 // Fills mesh from the `size` bytes of a PLY file. Messages call the file `name`. The parser reads
 // vertex x y z nx ny nz and the list vertex_indices (or vertex_index) of face and tristrips, and
@@ -23,10 +21,3 @@ PlyParse ply_parse;
 // ply_parse for geometry checks. Accepts non-finite and out-of-range positions and normals, and
 // counts them in mesh. Also counts the triangles dropped because of bad positions.
 PlyParse ply_parse_tolerantly;
-
-// Returns the number of bytes that ply_write writes.
-size_t ply_write_size(const Mesh *mesh);
-
-// Writes the mesh. Positions are floats if all fit exactly, else doubles. Returns false if the
-// stream has failed.
-bool ply_write(const Mesh *mesh, FILE *stream);

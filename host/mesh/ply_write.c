@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes the machine's byte order, which ply_parse reads fastest.
-#include "mesh/ply.h"
+#include "mesh/ply_write.h"
 
 #include <string.h>
 

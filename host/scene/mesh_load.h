@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/file.h"
-#include "mesh/mesh.h"
+#include "mesh/normals.h"
 #include "mesh/ply.h"
 #include "scene/scene.h"
 
@@ -60,7 +60,3 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size);
 // top. z is up.
 bool mesh_scene_load(Scene *scene, const File *ply, const char *path,
                      const SceneLoadOptions *options, Error *error);
-
-// Returns UP_Y or UP_Z. Returns the usual axis unless the meshes would fall over with it up, and
-// stand with the other axis up. With y up instead of z, they must stand on a flat base.
-UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual);

@@ -2,7 +2,7 @@
 // The texts depend only on the arguments, so the same arguments always give the same text.
 #include "view/status_text.h"
 
-#include "scene/scn.h"
+#include "scene/scn_write.h"
 
 #include <inttypes.h>
 #include <stdarg.h>

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "view/controls.h"
-#include "view/draw/canvas.h"
-#include "view/draw/draw.h"
+#include "view/draw/ray_view.h"
+#include "view/draw/scene_view.h"
+#include "view/draw/target.h"
+#include "view/draw/text_view.h"
 
 typedef struct {
     Target target;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests the remaining time in the lines of a log.
 #include "base/clock.h"
-#include "cli/process.h"
+#include "cli/progress.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include "demand.h"
 
 #include "check/census.h"
-#include "mesh/mesh.h"
+#include "mesh/normals.h"
 #include "mesh/ply.h"
 
 #include <math.h>

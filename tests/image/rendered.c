@@ -4,6 +4,7 @@
 
 #include "image/form.h"
 #include "mesh/ply.h"
+#include "mesh/ply_write.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/array.h"
-#include "mesh/mesh.h"
+#include "mesh/normals.h"
 
 #include "unit/cmocka_all.h"
 

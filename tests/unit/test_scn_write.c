@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests that a scene written as text is read back bit for bit.
+#include "scene/scn_write.h"
 #include "unit/parsed.h"
 
 #include <stdio.h>

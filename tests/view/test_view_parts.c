@@ -4,7 +4,10 @@
 #include "unit/cmocka_all.h"
 #include "unit/triangle_sets.h"
 #include "view/draw/canvas.h"
-#include "view/draw/draw.h"
+#include "view/draw/ray_view.h"
+#include "view/draw/scene_view.h"
+#include "view/draw/target.h"
+#include "view/draw/text_view.h"
 #include "view/plan.h"
 #include "view/watch.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Uploads only new tiles. A picture with the target's size is drawn without filtering.
-#include "view/draw/draw.h"
+#include "view/draw/ray_view.h"
 
 bool ray_view_open(RayView *view, Error *error)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The target has two framebuffers. A linear blit to half the size averages the larger framebuffer
 // into the smaller one.
-#include "view/draw/draw.h"
+#include "view/draw/target.h"
 
 #include <stdlib.h>
 

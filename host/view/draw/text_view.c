@@ -2,7 +2,7 @@
 // stb_truetype draws an installed font into a texture. Text is laid out with smaller and smaller
 // fonts until it fits the window.
 #define STB_TRUETYPE_IMPLEMENTATION
-#include "view/draw/draw.h"
+#include "view/draw/text_view.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Progress of loading, compiling and tracing, on standard error.
+#pragma once
+
+#include "session/session.h"
+
+// Observes a picture's tracing: prints progress on standard error; a signal stops the tracing.
+typedef struct {
+    bool silent;
+    bool terminal;    // standard error is a terminal, so one line is rewritten
+    double start;     // from clock_seconds
+    unsigned printed; // percent in the last line of a log
+    bool line_open;   // the terminal shows the rewritten line
+} Progress;
+
+Progress progress_begin(bool silent);
+
+// Returns whether standard error is a terminal that can rewrite lines.
+bool progress_on_terminal(void);
+
+// Implements Cache::announce for terminals. Shows a line with the elapsed seconds, and clears it at
+// the end of the last build.
+void progress_show_compiling(bool begins);
+
+// Does the same while a scene is loaded and its tree is built, unless this takes less than 0.5 s.
+void progress_show_loading(bool begins);
+
+// Implements RenderObserver::tile_done; context is a Progress. Returns false after a signal.
+bool progress_tile_done(void *context, const RenderProgress *progress);
+
+// Clears the rewritten line. Returns the signal that requested the stop, or 0.
+int progress_end(Progress *progress);

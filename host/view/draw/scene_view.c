@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "view/draw/scene_view.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Triangles share vertices as in the meshes. Each object takes one draw call.
+
+typedef struct {
+    float position[3];
+    float normal[3]; // zero for none
+} Vertex;
+
+bool triangle_view_open(Drawing *view, Error *error)
+{
+    static const DrawingLayout layout = {shader_triangles,
+                                         {sizeof(Vertex), 0},
+                                         {{"position", 0, 3, offsetof(Vertex, position)},
+                                          {"normal", 0, 3, offsetof(Vertex, normal)}}};
+    return drawing_open(view, &layout, error);
+}
+
+static void store_vertex(Vertex *vertex, const float point[4], const float *normal)
+{
+    for (int axis = 0; axis < 3; axis++)
+        vertex->position[axis] = point[axis];
+    vec3_store(vertex->normal,
+               normal == NULL ? vec3(0, 0, 0) : vec3_normalize(vec3_of_floats(normal)));
+}
+
+static void store_vertices(Vertex *vertices, const Model *model)
+{
+    size_t place = 0;
+    for (size_t i = 0; i < model->scene.objects.count; i++) {
+        const Mesh *mesh = &model->scene.objects.data[i].mesh;
+        for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++, place++)
+            store_vertex(&vertices[place], model->stages.triangles.points[place],
+                         mesh->normals == NULL ? NULL : mesh->normals[vertex]);
+    }
+}
+
+bool triangle_view_load(const Drawing *view, const Model *model, Error *error)
+{
+    const Triangles *triangles = &model->stages.triangles;
+    Vertex *vertices = memory_raw(triangles->point_count, sizeof *vertices, error);
+    if (vertices == NULL)
+        return false;
+    store_vertices(vertices, model);
+    drawing_fill(view, 0, vertices, triangles->point_count * sizeof *vertices);
+    drawing_fill(view, 1, triangles->corners, triangles->count * sizeof *triangles->corners);
+    free(vertices);
+    return true;
+}
+
+static void set_material(GLuint program, const Material *material)
+{
+    float vectors[3][4];
+    light_store_material(vectors, material);
+    glUniform4fv(glGetUniformLocation(program, "diffuse"), 1, vectors[0]);
+    glUniform4fv(glGetUniformLocation(program, "specular"), 1, vectors[1]);
+    glUniform4fv(glGetUniformLocation(program, "look"), 1, vectors[2]);
+}
+
+void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens, const Tone *tone)
+{
+    const Scene *scene = &model->scene;
+    size_t first = 0;
+    drawing_use(view);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, view->buffers[1]);
+    lens_apply(lens, view->program);
+    light_apply(scene, &model->normalization, tone, view->program);
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const MeshObject *object = &scene->objects.data[i];
+        (object->two_sided ? glDisable : glEnable)(GL_CULL_FACE);
+        set_material(view->program, &scene->materials.data[object->material]);
+        glDrawElements(GL_TRIANGLES, (GLsizei)(3 * object->mesh.triangle_count), GL_UNSIGNED_INT,
+                       (void *)(3 * first * sizeof(GLuint)));
+        first += object->mesh.triangle_count;
+    }
+    glDisable(GL_CULL_FACE);
+    glBindVertexArray(0);
+}
+
+// Computes each sphere's position relative to the eye in fp64 for every frame. In float, the eye's
+// height above a ground sphere of radius 1e9 would be lost.
+
+// Floats per sphere: center, radius, and the material's three vectors. The material's unused float,
+// at HEIGHT_PLACE, holds the eye's height above the sphere.
+#define SPHERE_NUMBERS 16
+#define HEIGHT_PLACE   13
+
+bool sphere_view_open(SphereView *view, Error *error)
+{
+    static const DrawingLayout layout = {shader_spheres,
+                                         {3 * sizeof(float), SPHERE_NUMBERS * sizeof(float)},
+                                         {{"corner", 0, 3, 0},
+                                          {"sphere", 1, 4, 0},
+                                          {"diffuse", 1, 4, 4 * sizeof(float)},
+                                          {"specular", 1, 4, 8 * sizeof(float)},
+                                          {"look", 1, 4, 12 * sizeof(float)}}};
+    *view = (SphereView){0};
+    const bool ok = drawing_open(&view->drawing, &layout, error);
+    cube_fill_faces(&view->drawing);
+    return ok;
+}
+
+void sphere_view_close(SphereView *view)
+{
+    drawing_close(&view->drawing);
+    free(view->numbers.memory);
+    *view = (SphereView){0};
+}
+
+bool sphere_view_load(SphereView *view, const Model *model, Error *error)
+{
+    return array_reserve(&view->numbers.memory, &view->numbers.capacity,
+                         SPHERE_NUMBERS * model->scene.spheres.count, sizeof(float), error);
+}
+
+static void store_sphere(float *numbers, const Model *model, const Sphere *sphere, Vec3 eye)
+{
+    float material[3][4];
+    const Vec3 place = normalize_point(&model->normalization, sphere->center);
+    const Vec3 offset = vec3_sub(place, eye);
+    const double radius = sphere->radius * model->normalization.scale;
+    light_store_material(material, &model->scene.materials.data[sphere->material]);
+    vec3_store(numbers, offset);
+    numbers[3] = (float)radius;
+    memcpy(numbers + 4, material, sizeof material);
+    numbers[HEIGHT_PLACE] = (float)(sqrt(vec3_dot(offset, offset)) - radius);
+}
+
+void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, const Tone *tone)
+{
+    const Scene *scene = &model->scene;
+    const size_t count = scene->spheres.count;
+    if (count == 0)
+        return;
+    for (size_t i = 0; i < count; i++)
+        store_sphere(view->numbers.data + SPHERE_NUMBERS * i, model, &scene->spheres.data[i],
+                     lens->eye);
+    drawing_use(&view->drawing);
+    lens_apply(lens, view->drawing.program);
+    light_apply(scene, &model->normalization, tone, view->drawing.program);
+    drawing_fill(&view->drawing, 1, view->numbers.data, SPHERE_NUMBERS * count * sizeof(float));
+    // Draws back faces, because they cover the sphere even if the eye is inside the cube.
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
+    glDrawArraysInstanced(GL_TRIANGLES, 0, CUBE_FACE_VERTICES, (GLsizei)count);
+    glCullFace(GL_BACK);
+    glDisable(GL_CULL_FACE);
+    glBindVertexArray(0);
+}
+
+// Draws each box as an instance of a cube's edges or of a cube's diagonal.
+
+bool line_view_open(LineView *view, bool is_diagonal, Error *error)
+{
+    static const DrawingLayout layout = {shader_lines,
+                                         {3 * sizeof(float), sizeof(Box)},
+                                         {{"corner", 0, 3, 0},
+                                          {"low", 1, 3, offsetof(Box, low)},
+                                          {"high", 1, 3, offsetof(Box, high)}}};
+    *view = (LineView){.is_diagonal = is_diagonal};
+    const bool ok = drawing_open(&view->drawing, &layout, error);
+    cube_fill_edges(&view->drawing);
+    return ok;
+}
+
+void line_view_load(LineView *view, const Box *boxes, size_t count)
+{
+    view->count = (uint32_t)count;
+    drawing_fill(&view->drawing, 1, boxes, count * sizeof *boxes);
+}
+
+void line_view_draw(const LineView *view, const Lens *lens, const float color[3])
+{
+    drawing_use(&view->drawing);
+    lens_apply(lens, view->drawing.program);
+    shader_set_vector(view->drawing.program, "paint", color);
+    if (view->is_diagonal)
+        glDrawArraysInstanced(GL_LINES, CUBE_EDGE_VERTICES, 2, (GLsizei)view->count);
+    else
+        glDrawArraysInstanced(GL_LINES, 0, CUBE_EDGE_VERTICES, (GLsizei)view->count);
+    glBindVertexArray(0);
+}
+
+// The course's viewer draws normals of length 0.15. Its scenes have a size of 2 to 4, which
+// normalization reduces to 1 to 2. The normals here are therefore half as long.
+
+typedef struct {
+    Boxes *boxes;
+    const Bvh *bvh;
+    uint32_t level; // 0 for leaves, 1 for the root
+    Error *error;
+} Collection;
+
+// Adds a subtree's boxes of collection->level. The depth of the tree bounds the recursion.
+static bool collect(const Collection *collection, uint32_t number, uint32_t level)
+{
+    const BvhNode *node = &collection->bvh->nodes[number];
+    const bool is_leaf = node->count > 0;
+    if (is_leaf ? collection->level == 0 : collection->level == level)
+        return array_push(collection->boxes, node->box, collection->error);
+    return is_leaf || (collect(collection, node->first, level + 1) &&
+                       collect(collection, node->first + 1, level + 1));
+}
+
+uint32_t boxes_levels(const Bvh *bvh)
+{
+    return bvh->depth > 0 ? bvh->depth - 1 : 0;
+}
+
+bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t level, Error *error)
+{
+    const Collection collection = {boxes, bvh, level, error};
+    return bvh->node_count == 0 || collect(&collection, 0, 1);
+}
+
+void boxes_free(Boxes *boxes)
+{
+    free(boxes->memory);
+    *boxes = (Boxes){0};
+}
+
+#define LINE_LENGTH 0.075
+
+static bool add_line(Boxes *lines, Vec3 start, Vec3 normal, Error *error)
+{
+    const Vec3 end = vec3_add(start, vec3_scale(vec3_normalize(normal), LINE_LENGTH));
+    Box line;
+    vec3_store(line.low, start);
+    vec3_store(line.high, end);
+    return array_push(lines, line, error);
+}
+
+static bool add_vertices(Boxes *lines, const Mesh *mesh, const float (*points)[4], Error *error)
+{
+    bool ok = true;
+    for (size_t vertex = 0; ok && vertex < mesh->vertex_count; vertex++) {
+        const Vec3 normal = vec3_of_floats(mesh->normals[vertex]);
+        if (vec3_extent(normal) > 0)
+            ok = add_line(lines, vec3_of_floats(points[vertex]), normal, error);
+    }
+    return ok;
+}
+
+static bool add_faces(Boxes *lines, const Mesh *mesh, const float (*points)[4], Error *error)
+{
+    bool ok = true;
+    for (size_t triangle = 0; ok && triangle < mesh->triangle_count; triangle++) {
+        const uint32_t *corners = mesh->triangles[triangle];
+        const Vec3 a = vec3_of_floats(points[corners[0]]), b = vec3_of_floats(points[corners[1]]);
+        const Vec3 c = vec3_of_floats(points[corners[2]]);
+        const Vec3 normal = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
+        const Vec3 middle = vec3_scale(vec3_add(a, vec3_add(b, c)), 1.0 / 3);
+        ok = add_line(lines, middle, normal, error);
+    }
+    return ok;
+}
+
+bool normals_make(Boxes *lines, const Model *model, Error *error)
+{
+    const float(*points)[4] = (const float(*)[4])model->stages.triangles.points;
+    for (size_t i = 0; i < model->scene.objects.count; i++) {
+        const MeshObject *object = &model->scene.objects.data[i];
+        const bool is_smooth = object->mesh.normals != NULL;
+        if (!(is_smooth ? add_vertices : add_faces)(lines, &object->mesh, points, error))
+            return false;
+        points += object->mesh.vertex_count;
+    }
+    return true;
+}

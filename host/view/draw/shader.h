@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Builds OpenGL programs, and sets their uniforms. A shader file contains both stages; VERTEX is
+// defined only in the vertex stage.
+#pragma once
+
+#include "scene/camera.h"
+#include "scene/normalize.h"
+
+#include <epoxy/gl.h>
+#include <stdint.h>
+
+// The files of host/view/shaders, embedded by tools/embed_shaders.cmake.
+extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_picture[],
+    shader_text[];
+
+// An attribute of a shader. Buffer 0 has attributes per vertex, buffer 1 attributes per instance.
+typedef struct {
+    const char *name;
+    int buffer;
+    GLint floats; // number of floats
+    size_t offset;
+} Attribute;
+
+#define ATTRIBUTES_MOST 5
+
+typedef struct {
+    const char *shader;
+    size_t sizes[2];                       // bytes per element of each buffer
+    Attribute attributes[ATTRIBUTES_MOST]; // unused ones have no name
+} DrawingLayout;
+
+// A program and the buffers that it reads.
+typedef struct {
+    GLuint program, array, buffers[2];
+} Drawing;
+
+// Compiles the shader and makes empty buffers. On failure, error receives the driver's message. The
+// caller closes the drawing, even after a failure.
+bool drawing_open(Drawing *drawing, const DrawingLayout *layout, Error *error);
+void drawing_close(Drawing *drawing);
+
+// Makes the program and its vertex array current.
+void drawing_use(const Drawing *drawing);
+
+// Replaces the contents of a buffer.
+void drawing_fill(const Drawing *drawing, int buffer, const void *bytes, size_t size);
+
+// Set uniforms of the current program by name. Ignore names that the program does not use.
+void shader_set_number(GLuint program, const char *name, double value);
+void shader_set_integer(GLuint program, const char *name, int value);
+void shader_set_vector(GLuint program, const char *name, const float v[3]);
+
+// Cubes: coordinates are -1 or 1 for faces, and 0 or 1 for edges.
+#define CUBE_FACE_VERTICES 36
+#define CUBE_EDGE_VERTICES 24 // after them, the buffer has the two vertices of a diagonal
+
+// Fill buffer 0 with triangles or lines, three floats per vertex.
+void cube_fill_faces(const Drawing *drawing);
+void cube_fill_edges(const Drawing *drawing);
+
+// The scene's lights and materials -> the uniforms of shaders/light.glsl.
+
+// The most lights that OpenGL shows. The course's viewer has eight, because it uses OpenGL's fixed
+// pipeline.
+#define LIGHT_LIMIT 64
+
+// The conversion of colors for the window.
+typedef struct {
+    double gain;
+    bool is_srgb;
+} Tone;
+
+// Sets the uniforms that objects share: lights, background, tone. program must be the current one.
+void light_apply(const Scene *scene, const Normalization *normalization, const Tone *tone,
+                 GLuint program);
+
+// Packs a material into three vectors: diffuse and kd; specular and ks; shader, 0, shininess and
+// reflectivity.
+void light_store_material(float vectors[3][4], const Material *material);
+
+// The camera of the rays -> the projection with which OpenGL draws the same picture.
+typedef struct {
+    CameraData camera; // in the normalized frame; a step is half a pixel
+    Vec3 eye;          // in the normalized frame, in fp64
+    float clip_x[3], clip_y[3];
+    float width, height; // of the picture, in pixels
+    float nearest;       // smaller distances all have depth 0
+} Lens;
+
+Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uint32_t width,
+             uint32_t height);
+
+// Sets the lens's uniforms in the current program.
+void lens_apply(const Lens *lens, GLuint program);
