@@ -8,7 +8,7 @@
 static bool has_pixel(const Run *run, Error *error)
 {
     const Options *options = run->options;
-    const RenderSettings *settings = &run->settings;
+    const RenderSettings *settings = &run->request.settings;
     return (options->pixel[0] < settings->width && options->pixel[1] < settings->height) ||
            error_set(error, "pixel %u,%u: the picture has %u x %u pixels, counted from 0",
                      options->pixel[0], options->pixel[1], settings->width, settings->height);
@@ -37,14 +37,14 @@ ExitCode explain_pixel(Run *run, Error *error)
     code = run_prepare(run, error);
     if (code != EXIT_DONE)
         return code;
-    const Viewpoint *viewpoint = &run->scene.viewpoints.data[options->view - 1];
+    const Viewpoint *viewpoint = &run->scene.viewpoints.data[options->picture.view - 1];
     const ExplainReport report = {.scene_path = options->scene_path,
                                   .scene = &run->scene,
-                                  .settings = &run->settings,
-                                  .view = options->view,
+                                  .settings = &run->request.settings,
+                                  .view = options->picture.view,
                                   .pixel = {options->pixel[0], options->pixel[1]},
                                   .encoding = options->encoding};
-    if (!explainer_open(&explainer, &run->session, &run->settings, viewpoint, error))
+    if (!explainer_open(&explainer, &run->session, &run->request.settings, viewpoint, error))
         return EXIT_DEVICE;
     code = explain(&report, &explainer, options, error);
     explainer_close(&explainer);

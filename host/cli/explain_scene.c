@@ -46,7 +46,7 @@ static ScenePart tree_part(const Run *run, bool is_needed)
 static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
 {
     const FlatScene *flat = &run->form->flat;
-    const SceneTraits needed = traits_of(flat, run->options->statistics);
+    const SceneTraits needed = traits_of(flat, run->options->picture.statistics);
     const ScenePart list[SCENE_PARTS] = {
         needed.spheres ? part("spheres", true, "%u of them", flat->sphere_count)
                        : part("spheres", false, "there are none"),
@@ -184,8 +184,7 @@ ExitCode explain_scene(Run *run, Error *error)
         code = run_prepare(run, error);
     if (code != EXIT_DONE)
         return code;
-    const SessionPicture request = {.settings = run->settings, .counts = options->statistics};
-    if (!session_prepare(&run->session, &request, &run->report.drawn, error))
+    if (!session_prepare(&run->session, &run->request, &run->report.drawn, error))
         return EXIT_DEVICE;
     if (options->json_path != NULL)
         return json_file_write(report_json(run), options->json_path, error) ? EXIT_DONE

@@ -29,19 +29,16 @@ static bool tile_done(void *context, const RenderProgress *render)
 {
     Watch *watch = context;
     Picture *picture = watch->picture;
-    return resume_keep(&picture->resume, &picture->run->settings, &picture->framebuffer,
+    return resume_keep(&picture->resume, &picture->run->request.settings, &picture->framebuffer,
                        render->tiles_done - 1, watch->error) &&
            progress_tile_done(&watch->progress, render);
 }
 
 SessionPicture picture_request(const Picture *picture)
 {
-    const Run *run = picture->run;
-    return (SessionPicture){.settings = run->settings,
-                            .viewpoint = picture->viewpoint,
-                            .goal = run_goal(run),
-                            .counts = run->options->statistics,
-                            .keeps_samples = run->options->aovs != 0};
+    SessionPicture request = picture->run->request;
+    request.viewpoint = picture->viewpoint;
+    return request;
 }
 
 static bool draw_frame(Picture *picture, Error *error)
@@ -125,7 +122,7 @@ static bool write_reference(const Picture *picture, Error *error)
 
 static bool open_film(Picture *picture, Error *error)
 {
-    const RenderSettings *settings = &picture->run->settings;
+    const RenderSettings *settings = &picture->run->request.settings;
     const uint64_t rows = (uint64_t)frames_count(&picture->run->options->frames) * settings->height;
     if (rows > INT32_MAX)
         return error_set(error, "the pictures are too many for one file");
@@ -163,17 +160,17 @@ static bool write_picture(Picture *picture, Error *error)
                               .encoding = options->encoding,
                               .exposure = options->exposure,
                               .frames = film_frames,
-                              .left = run->settings.left,
-                              .top = run->settings.top,
-                              .whole_width = render_whole_width(&run->settings),
-                              .whole_height = render_whole_height(&run->settings),
+                              .left = run->request.settings.left,
+                              .top = run->request.settings.top,
+                              .whole_width = render_whole_width(&run->request.settings),
+                              .whole_height = render_whole_height(&run->request.settings),
                               .texts = provenance.list,
                               .text_count = options->no_metadata ? 0 : provenance.count,
                               .layers = picture->layers.count > 0 ? &picture->layers : NULL};
     ImagePart part = {0};
-    if (run->settings.parts > 0) {
+    if (run->request.settings.parts > 0) {
         settings.part = &part;
-        if (!stored_tiles_list(&run->settings, &part, error))
+        if (!stored_tiles_list(&run->request.settings, &part, error))
             return false;
         part.tile_count = run->report.drawn.progress.tiles_done;
     }
@@ -213,7 +210,7 @@ static ExitCode check_files(Picture *picture, Error *error)
 // Rejects pictures that are too large for their formats.
 static bool check_sizes(const Run *run, Error *error)
 {
-    const uint32_t width = run->settings.width, height = run->settings.height;
+    const uint32_t width = run->request.settings.width, height = run->request.settings.height;
     const char *reference = run->options->reference_path;
     return image_check_size(run->options->format, width, height, error) &&
            (reference == NULL ||
@@ -232,8 +229,7 @@ static ExitCode prepare(Run *run, Error *error)
     const ExitCode prepared = run_prepare(run, error);
     if (prepared != EXIT_DONE)
         return prepared;
-    const SessionPicture request = picture_request(&(Picture){.run = run});
-    if (!session_prepare(&run->session, &request, &run->report.drawn, error))
+    if (!session_prepare(&run->session, &run->request, &run->report.drawn, error))
         return EXIT_DEVICE;
     if (run->options->verbose)
         report_write_setup(run, stderr);
@@ -257,7 +253,7 @@ static void set_view(Picture *picture, uint32_t number)
     Run *run = picture->run;
     const Options *options = run->options;
     const uint32_t steps = options->frames.turntable;
-    run->report.view = steps > 0 ? options->view : number;
+    run->report.view = steps > 0 ? options->picture.view : number;
     run->report.turned = steps > 0 ? 360.0 * (number - 1) / steps : 0;
     picture->viewpoint = turn_viewpoint(&run->scene.viewpoints.data[run->report.view - 1],
                                         run->scene.has_course_views, run->report.turned);
@@ -268,7 +264,7 @@ static bool begin_picture(Picture *picture, Error *error)
 {
     Run *run = picture->run;
     Provenance own;
-    RenderSettings *settings = &run->settings;
+    RenderSettings *settings = &run->request.settings;
     uint32_t width, height;
     report_fill_provenance(&own, run);
     tile_frame_size(settings, &width, &height);
@@ -350,7 +346,7 @@ ExitCode picture_make(Run *run, Error *error)
     if (code == EXIT_DONE)
         code = frames_are_many(&options->frames)
                    ? make_frames(&picture, start, error)
-                   : make_frame(&picture, options->view, start, error);
+                   : make_frame(&picture, options->picture.view, start, error);
     clear(&picture);
     framebuffer_free(&picture.film);
     resume_close(&picture.resume, false);

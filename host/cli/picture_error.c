@@ -9,18 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-// Returns the level that the reference's rays reach. If clrt chose the picture's level by an error
-// bound, the reference uses as many levels as a PFM file can show.
-static uint32_t level_of(const Run *run)
-{
-    const Options *options = run->options;
-    uint32_t level = run->settings.max_level;
-    if (options->max_level < 0 && (options->fits_level || options->error_goal > 0))
-        level = truncation_level(&run->scene, image_format_half_step("pfm", options->encoding) /
-                                                  exp2(options->exposure));
-    return level > run->scene.max_level ? level : run->scene.max_level;
-}
-
 static StoredImage stored_view(const Framebuffer *framebuffer)
 {
     return (StoredImage){.width = framebuffer->width,
@@ -58,7 +46,7 @@ static bool measure(Picture *picture, const ReferencePicture *reference, Error *
     const StoredImage truth = stored_view(&picture->reference);
     ImagePair pair = {{&truth, &drawn}, {"the reference", "the picture"}, {{0}}};
     result->own_error = reference->own_error;
-    result->samples = picture->run->options->reference_samples;
+    result->samples = picture->run->request.reference_samples;
     if (!image_pair_check(&pair, error))
         return false;
     difference_measure(&result->difference, &pair);
@@ -78,14 +66,12 @@ bool reference_measure(Picture *picture, Error *error)
     Run *run = picture->run;
     double moment = clock_seconds();
     ReferencePicture reference;
-    SessionPicture request = picture_request(picture);
+    const SessionPicture request = picture_request(picture);
     if (picture->stopped_by != 0)
         return true;
-    request.settings.max_level = level_of(run);
     Progress progress = progress_begin(run->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    bool ok = reference_draw(&run->session, &request, run->options->reference_samples, &observer,
-                             &reference, error);
+    bool ok = reference_draw(&run->session, &request, &observer, &reference, error);
     picture->stopped_by = progress_end(&progress);
     picture->reference = reference.picture;
     if (ok && reference.picture.pixels != NULL)

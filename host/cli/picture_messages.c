@@ -16,18 +16,18 @@
 
 void picture_warn_of_goal(const Options *options)
 {
-    if (options->error_goal > LARGE_ERROR && !options->quiet)
+    if (options->picture.error > LARGE_ERROR && !options->quiet)
         fprintf(stderr, "clrt: --error allows an error of %g %%; for %g %%, write %g%%\n",
-                100 * options->error_goal, options->error_goal, options->error_goal);
+                100 * options->picture.error, options->picture.error, options->picture.error);
 }
 
 void picture_warn_of_few_tiles(const Run *run)
 {
-    RenderSettings whole = run->settings;
+    RenderSettings whole = run->request.settings;
     whole.part = whole.parts = 0;
     const unsigned long long tiles = tile_count(&whole);
     const unsigned long long most = tiles / PART_TILES > 1 ? tiles / PART_TILES : 1;
-    if (run->settings.parts > most && !run->options->quiet)
+    if (run->request.settings.parts > most && !run->options->quiet)
         fprintf(stderr,
                 "clrt: a part of fewer than %d tiles may take much longer than the others: "
                 "for %llu tiles, give at most N=%llu\n",
@@ -43,8 +43,8 @@ void picture_print_beginning(const Picture *picture)
         fprintf(stderr, "picture: %s\n", picture->path);
     if (run->options->resume)
         fprintf(stderr, "resumed: %llu of %llu tiles were finished before\n",
-                (unsigned long long)run->settings.ready_tiles,
-                (unsigned long long)tile_count(&run->settings));
+                (unsigned long long)run->request.settings.ready_tiles,
+                (unsigned long long)tile_count(&run->request.settings));
 }
 
 void picture_print_end(Picture *picture)
@@ -59,7 +59,7 @@ void picture_print_end(Picture *picture)
 ExitCode picture_fail_goal(const Run *run, Error *error)
 {
     const Report *report = &run->report;
-    if (run->options->time_goal > 0)
+    if (run->options->picture.seconds > 0)
         error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
                   report->frame_seconds[0]);
     else

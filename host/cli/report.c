@@ -66,7 +66,7 @@ static json_t *scene_json(const Run *run)
 
 static json_t *settings_json(const Run *run)
 {
-    const RenderSettings *settings = &run->settings;
+    const RenderSettings *settings = &run->request.settings;
     const KernelChoice *choice = &run->session.choice;
     const uint32_t *group = run->report.drawn.group;
     return JSON(FIELD("view", run->report.view), FIELD("width", render_whole_width(settings)),
@@ -84,10 +84,10 @@ static json_t *settings_json(const Run *run)
 // Returns null for refined pictures, which are drawn in several passes without tiles.
 static json_t *tiles_json(const Run *run)
 {
-    const uint64_t found = run->settings.ready_tiles;
+    const uint64_t found = run->request.settings.ready_tiles;
     if (options_are_adaptive(run->options))
         return json_null();
-    return JSON(FIELD("total", tile_count(&run->settings)), FIELD("found", found),
+    return JSON(FIELD("total", tile_count(&run->request.settings)), FIELD("found", found),
                 FIELD("drawn", run->report.drawn.progress.tiles_done - found));
 }
 
@@ -96,7 +96,7 @@ static json_t *samples_json(const Run *run)
     const PictureResult *drawn = &run->report.drawn;
     return JSON(
         FIELD("total", drawn->samples), FIELD("per_pixel", ratio(drawn->samples, drawn->pixels)),
-        FIELD("contrast", run->options->contrast), FIELD("error_estimate", drawn->estimate),
+        FIELD("contrast", run->options->picture.contrast), FIELD("error_estimate", drawn->estimate),
         FIELD("error_bound", drawn->bound), FIELD("goal_reached", (bool)!drawn->goal_missed));
 }
 
@@ -184,7 +184,7 @@ static void print_error(const Run *run, const json_t *json, FILE *stream)
                "error: about {samples.error_estimate .2g%}, at most {samples.error_bound .2g%} "
                "with 95 % confidence",
                stream);
-    if (run_counted_truncation(run) > 0)
+    if (run->request.goal.truncated > 0)
         json_print(json,
                    ", including at most {settings.truncation_bound .2g%} because rays end at level "
                    "{settings.max_level}",
@@ -263,7 +263,7 @@ bool report_write_json(const Run *run, const char *path, Error *error)
 static json_t *stored_samples_json(const Run *run)
 {
     return options_are_adaptive(run->options) ? json_string("adaptive")
-                                              : json_count(run->settings.samples);
+                                              : json_count(run->request.settings.samples);
 }
 
 // Test counts depend on the tree; colors do not.
@@ -277,7 +277,7 @@ static void add_tree(json_t *json, const Run *run)
 
 static json_t *stored_settings_json(const Run *run)
 {
-    const RenderSettings *settings = &run->settings;
+    const RenderSettings *settings = &run->request.settings;
     const Options *options = run->options;
     const bool is_unfinished = !run->report.complete && !options_are_adaptive(options);
     json_t *json =
@@ -294,12 +294,12 @@ static json_t *stored_settings_json(const Run *run)
         json_object_set_new(json, "turned", json_real(run->report.turned));
     if (render_is_part(settings))
         json_object_set_new(json, "crop", crop_json(settings));
-    if (options->contrast > 0)
-        json_object_set_new(json, "contrast", json_real(options->contrast));
-    if (options->error_goal > 0)
-        json_object_set_new(json, "error", json_real(options->error_goal));
-    if (options->time_goal > 0)
-        json_object_set_new(json, "time", json_real(options->time_goal));
+    if (options->picture.contrast > 0)
+        json_object_set_new(json, "contrast", json_real(options->picture.contrast));
+    if (options->picture.error > 0)
+        json_object_set_new(json, "error", json_real(options->picture.error));
+    if (options->picture.seconds > 0)
+        json_object_set_new(json, "time", json_real(options->picture.seconds));
     if (settings->parts > 0)
         json_object_set_new(json, "part", json_pair(settings->part + 1, settings->parts));
     if (settings->parts > 0 || is_unfinished)

@@ -10,15 +10,13 @@
 #include "scene/scene.h"
 #include "scene/scn.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
-// The truncation of reflections may use this fraction of the error goal. The fraction is small
-// because more levels cost less than more samples.
-#define TRUNCATION_PART 0.25
-
-// The samples per pixel and axis of a lone mesh.
-#define MESH_SAMPLES 3
+// The default side of a part's tiles. They are smaller than a picture's, so that each part has more
+// tiles and all parts take about equal time.
+#define PART_TILE 64
 
 // The choice of quick kernels depends on the work of the run, measured in samples of --aa.
 
@@ -37,39 +35,32 @@ double run_lap(double *moment)
     return *moment - before;
 }
 
-static uint32_t max_level_of(const Options *options, const Scene *scene)
+// Completes the request of the options by the scene's size, and resolves it.
+static bool resolve(Run *run, Error *error)
 {
+    const Options *options = run->options;
+    const Scene *scene = &run->scene;
     const char *format = options->format != NULL ? options->format : "png";
+    ClrtPicture wanted = options->picture;
+    if (wanted.width == 0) {
+        wanted.width = scene->width;
+        wanted.height = scene->height;
+    }
+    if (wanted.tile_width == 0 && options->parts > 0)
+        wanted.tile_width = wanted.tile_height = PART_TILE;
     if (options->fits_level)
-        return truncation_level(scene, image_format_half_step(format, options->encoding) /
-                                           exp2(options->exposure));
-    if (options->max_level < 0 && options->error_goal > 0)
-        return truncation_level(scene, options->error_goal * TRUNCATION_PART);
-    return options->max_level >= 0 ? (uint32_t)options->max_level : scene->max_level;
-}
-
-// A lone mesh is anti-aliased unless the options choose its samples.
-static uint32_t samples_of(const Options *options, const Scene *scene)
-{
-    const bool is_chosen = option_is_given(options, "aa") || options_are_adaptive(options);
-    return is_chosen || scene->mesh_up == UP_AUTO ? options->samples : MESH_SAMPLES;
-}
-
-static RenderSettings settings_of(const Options *options, const Scene *scene)
-{
-    const bool sized = options->width > 0;
-    const bool has_tile = options->tile_width > 0;
-    const uint32_t side = options->parts > 0 ? OPTIONS_PART_TILE : OPTIONS_TILE;
-    return (RenderSettings){
-        .width = sized ? options->width : scene->width,
-        .height = sized ? options->height : scene->height,
-        .samples = samples_of(options, scene),
-        .max_level = max_level_of(options, scene),
-        .tile_width = has_tile ? options->tile_width : side,
-        .tile_height = has_tile ? options->tile_height : side,
-        .part = options->parts > 0 ? options->part - 1 : 0,
-        .parts = options->parts,
-    };
+        wanted.truncation =
+            image_format_half_step(format, options->encoding) / exp2(options->exposure);
+    if (!crop_apply(&options->crop, &wanted, error))
+        return false;
+    const bool is_inside = request_resolve(&wanted, scene, NULL, &run->request);
+    assert(is_inside);
+    (void)is_inside;
+    run->request.settings.part = options->parts > 0 ? options->part - 1 : 0;
+    run->request.settings.parts = options->parts;
+    run->request.keeps_samples = options->aovs != 0;
+    run->report.truncation = truncation_bound(scene, run->request.settings.max_level);
+    return true;
 }
 
 static bool check_missing(const Options *options, const Scene *scene, Error *error)
@@ -89,7 +80,7 @@ bool run_load_scene(Run *run, Error *error)
     bool ok = scene_source_load(&run->scene, options, error);
     const Frames *frames = &options->frames;
     const bool are_views = frames->turntable == 0 && frames->last > 0;
-    const uint32_t view = are_views ? frames->last : options->view;
+    const uint32_t view = are_views ? frames->last : options->picture.view;
     if (ok && view > run->scene.viewpoints.count)
         ok = error_set(error, "%s has %zu viewpoints, so there is no view %u", options->scene_path,
                        run->scene.viewpoints.count, view);
@@ -101,10 +92,7 @@ bool run_load_scene(Run *run, Error *error)
     if (!session_take(&run->session, &run->scene, &cause) && ok)
         ok = error_set(error, "%s: %s", options->scene_path, cause.text);
     run->report.build = run_lap(&moment);
-    run->settings = settings_of(options, &run->scene);
-    ok = ok && crop_apply(&options->crop, &run->settings, error);
-    run->report.truncation = truncation_bound(&run->scene, run->settings.max_level);
-    return ok;
+    return ok && resolve(run, error);
 }
 
 static void show_loading(const Options *options, bool begins)
@@ -133,40 +121,26 @@ void run_begin(Run *run)
     session_begin(&run->session);
 }
 
-double run_counted_truncation(const Run *run)
-{
-    const Options *options = run->options;
-    return options->error_goal > 0 && options->max_level < 0 ? run->report.truncation : 0;
-}
-
-PictureGoal run_goal(const Run *run)
-{
-    const Options *options = run->options;
-    return (PictureGoal){options->contrast, options->error_goal, options->time_goal,
-                         run_counted_truncation(run)};
-}
-
 // Returns a pixel's work, in samples of --aa.
 static double samples_per_pixel(const Options *options, const RenderSettings *settings)
 {
-    if (options->error_goal > 0)
-        return 1 + ERROR_SAMPLES / options->error_goal;
-    if (options->contrast > 0)
-        return 1 + CONTRAST_SAMPLES / sqrt(options->contrast);
+    if (options->picture.error > 0)
+        return 1 + ERROR_SAMPLES / options->picture.error;
+    if (options->picture.contrast > 0)
+        return 1 + CONTRAST_SAMPLES / sqrt(options->picture.contrast);
     return (double)settings->samples * settings->samples;
 }
 
 bool run_await_device(Run *run, Error *error)
 {
     const Options *options = run->options;
-    const RenderSettings *settings = &run->settings;
-    const PictureGoal goal = run_goal(run);
+    const RenderSettings *settings = &run->request.settings;
     const double pictures = options->repeat * (double)frames_count(&options->frames);
     const double pixels = (double)settings->width * settings->height * pictures;
-    const SessionWork work = {.entry = picture_entry(&goal),
+    const SessionWork work = {.entry = picture_entry(&run->request.goal),
                               .samples = pixels * samples_per_pixel(options, settings),
-                              .seconds = pictures * options->time_goal,
-                              .counts = options->statistics};
+                              .seconds = pictures * options->picture.seconds,
+                              .counts = options->picture.statistics};
     return session_await(&run->session, options->action == ACTION_RENDER ? &work : NULL, error);
 }
 

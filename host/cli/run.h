@@ -41,8 +41,8 @@ typedef struct {
     const Options *options;
     Session session;
     Scene scene;
-    RenderSettings settings;
-    const SceneForm *form; // the scene for the picture's kernels, after run_build_scene
+    SessionPicture request; // for the view that the options name
+    const SceneForm *form;  // the scene for the picture's kernels, after run_build_scene
     Report report;
 } Run;
 
@@ -60,13 +60,6 @@ bool run_load_scene(Run *run, Error *error);
 // Calls run_begin and run_load_scene, and checks the scene's files against the outputs. Returns the
 // exit status.
 ExitCode run_start(Run *run, Error *error);
-
-// Returns the part of the bound that is due to the limit on reflections: 0 unless clrt chose this
-// limit for --error.
-double run_counted_truncation(const Run *run);
-
-// Returns the goal that the options name.
-PictureGoal run_goal(const Run *run);
 
 // Waits for the device and chooses the kernels for device and scene. The kernels determine the
 // layout of nodes.

@@ -31,25 +31,25 @@ ExitCode show_scene(Run *run, Error *error)
                                      [VIEWER_NO_WINDOW] = EXIT_USAGE,
                                      [VIEWER_NO_SCENE] = EXIT_SCENE,
                                      [VIEWER_NO_DEVICE] = EXIT_DEVICE};
-    const ViewerSettings settings = {.scene_path = options->scene_path,
-                                     .load = options->load,
-                                     .view = options->view,
-                                     .width = options->width,
-                                     .height = options->height,
-                                     .samples = options->samples > 1 ? options->samples : 2,
-                                     .smooth =
-                                         options->samples > 1 || !option_is_given(options, "aa"),
-                                     .uses_bvh = options->bvh != TUNE_BVH_NONE,
-                                     .encoding = options->encoding,
-                                     .exposure = (int)lround(2 * options->exposure),
-                                     .tracer = {.session = run_session_settings(options),
-                                                .cache = run->session.cache,
-                                                .max_level = options->max_level},
-                                     .keys = options->keys,
-                                     .quit_after = options->quit_after,
-                                     .statistics = options->statistics,
-                                     .verbose = options->verbose,
-                                     .patience = PATIENCE};
+    const ViewerSettings settings = {
+        .scene_path = options->scene_path,
+        .load = options->load,
+        .view = options->picture.view,
+        .width = options->picture.width,
+        .height = options->picture.height,
+        .samples = options->picture.samples > 1 ? options->picture.samples : 2,
+        .smooth = options->picture.samples != 1,
+        .uses_bvh = options->bvh != TUNE_BVH_NONE,
+        .encoding = options->encoding,
+        .exposure = (int)lround(2 * options->exposure),
+        .tracer = {.session = run_session_settings(options),
+                   .cache = run->session.cache,
+                   .max_level = options->picture.max_level},
+        .keys = options->keys,
+        .quit_after = options->quit_after,
+        .statistics = options->picture.statistics,
+        .verbose = options->verbose,
+        .patience = PATIENCE};
     // This check comes first, because a missing scene must be reported even without a display.
     if (!file_check(options->scene_path, error))
         return EXIT_SCENE;

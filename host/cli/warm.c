@@ -8,7 +8,7 @@
 
 static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, Error *error)
 {
-    const PictureGoal goal = run_goal(run);
+    const PictureGoal goal = request_goal(&run->options->picture);
     const RendererUse use = {.entry = picture_entry(&goal)};
     const Kernel *kernel = session_kernel(&run->session, &use, traits, error);
     if (kernel != NULL && !run->options->quiet)
@@ -31,12 +31,12 @@ ExitCode warm_kernels(Run *run, Error *error)
         return EXIT_DEVICE;
     if (has_scene && !run_build_scene(run, error))
         return EXIT_SCENE;
-    const SceneTraits general = traits_general(options->statistics);
+    const SceneTraits general = traits_general(options->picture.statistics);
     if ((!has_scene || options->specialization != SPECIALIZE_ALWAYS) &&
         !warm_kernel(run, &general, "general", error))
         return EXIT_DEVICE;
     if (!has_scene || options->specialization == SPECIALIZE_NEVER)
         return EXIT_DONE;
-    const SceneTraits special = traits_of(&run->form->flat, options->statistics);
+    const SceneTraits special = traits_of(&run->form->flat, options->picture.statistics);
     return warm_kernel(run, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
 }

@@ -94,17 +94,13 @@ static bool draw_reference(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};
     ReferencePicture reference;
-    const ClrtPicture *wanted = &drawing->wanted;
     const double start = clock_seconds();
     const RenderObserver observer = {drawing_continues, drawing};
     const Framebuffer *frame = &drawing->framebuffer;
     if (drawing->channels != 0)
         return check_fail(error, CLRT_ARGUMENT, "a reference has no channels");
-    drawing->request.settings.max_level = request_reference_level(wanted, drawing->scene);
-    const bool ok = reference_draw(&drawing->renderer->session, &drawing->request,
-                                   wanted->reference_samples > 0 ? wanted->reference_samples
-                                                                 : REFERENCE_SAMPLES,
-                                   &observer, &reference, &cause) ||
+    const bool ok = reference_draw(&drawing->renderer->session, &drawing->request, &observer,
+                                   &reference, &cause) ||
                     check_fail_for(error, CLRT_DEVICE, &cause);
     if (ok && !drawing->is_stopped)
         memcpy(frame->pixels, reference.picture.pixels,

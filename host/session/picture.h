@@ -25,8 +25,10 @@ typedef struct {
     RenderSettings settings;
     Viewpoint viewpoint;
     PictureGoal goal;
-    bool counts;        // rays and tests
-    bool keeps_samples; // stores PictureResult::pixel_samples
+    uint32_t reference_samples; // per pixel of the reference; an even number
+    uint32_t reference_level;   // the reference's max_level
+    bool counts;                // rays and tests
+    bool keeps_samples;         // stores PictureResult::pixel_samples
 } SessionPicture;
 
 typedef struct {

@@ -124,6 +124,7 @@ static bool open_reference(Reference *reference, Session *session, const Session
 {
     RenderSettings settings = request->settings;
     settings.samples = 1;
+    settings.max_level = request->reference_level;
     settings.ready_tiles = 0;
     reference->camera = session_camera(session, request, 1);
     const size_t pixels = (size_t)settings.width * settings.height;
@@ -137,9 +138,10 @@ static bool open_reference(Reference *reference, Session *session, const Session
            framebuffer_make(&reference->pass, settings.width, settings.height, error);
 }
 
-bool reference_draw(Session *session, const SessionPicture *request, uint32_t samples,
-                    const RenderObserver *observer, ReferencePicture *result, Error *error)
+bool reference_draw(Session *session, const SessionPicture *request, const RenderObserver *observer,
+                    ReferencePicture *result, Error *error)
 {
+    const uint32_t samples = request->reference_samples;
     const uint32_t exact = 2 * (samples / 2 / EXACT_STEP) + 2;
     Reference reference = {
         .observer = observer, .passes = samples, .exact_passes = exact < samples ? exact : samples};

@@ -9,7 +9,6 @@ typedef struct {
     double own_error;    // its RMSE, estimated from two independent halves
 } ReferencePicture;
 
-// Draws the reference of the requested picture with an even number of samples per pixel. The
-// observer sees the tiles of all passes.
-bool reference_draw(Session *session, const SessionPicture *request, uint32_t samples,
-                    const RenderObserver *observer, ReferencePicture *reference, Error *error);
+// Draws the reference of the requested picture. The observer sees the tiles of all passes.
+bool reference_draw(Session *session, const SessionPicture *request, const RenderObserver *observer,
+                    ReferencePicture *reference, Error *error);

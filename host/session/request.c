@@ -104,7 +104,9 @@ static uint32_t max_level_of(const ClrtPicture *wanted, const Scene *scene)
     return wanted->max_level > 0 ? (uint32_t)wanted->max_level : scene->max_level;
 }
 
-uint32_t request_reference_level(const ClrtPicture *wanted, const Scene *scene)
+// Returns the max_level of the picture's reference, which is at least the scene's. If an error
+// bound chooses the picture's level, the reference uses as many levels as floats can show.
+static uint32_t reference_level(const ClrtPicture *wanted, const Scene *scene)
 {
     const uint32_t level = chooses_level(wanted) ? truncation_level(scene, FLOAT_HALF_STEP)
                                                  : max_level_of(wanted, scene);
@@ -135,15 +137,22 @@ static bool crop_settings(RenderSettings *settings, const ClrtPicture *wanted)
            wanted->crop_height <= height && wanted->top <= height - wanted->crop_height;
 }
 
+PictureGoal request_goal(const ClrtPicture *wanted)
+{
+    return (PictureGoal){wanted->contrast, wanted->error, wanted->seconds, 0};
+}
+
 bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpoint *camera,
                      SessionPicture *picture)
 {
     const uint32_t level = max_level_of(wanted, scene);
-    const double truncated =
-        wanted->error > 0 && wanted->max_level == 0 ? truncation_bound(scene, level) : 0;
-    *picture =
-        (SessionPicture){.goal = {wanted->contrast, wanted->error, wanted->seconds, truncated},
-                         .counts = wanted->statistics};
+    const uint32_t reference = wanted->reference_samples;
+    *picture = (SessionPicture){.goal = request_goal(wanted),
+                                .reference_samples = reference > 0 ? reference : REFERENCE_SAMPLES,
+                                .reference_level = reference_level(wanted, scene),
+                                .counts = wanted->statistics};
+    if (wanted->error > 0 && wanted->max_level == 0)
+        picture->goal.truncated = truncation_bound(scene, level);
     picture->settings =
         (RenderSettings){.width = wanted->width > 0 ? wanted->width : scene->width,
                          .height = wanted->height > 0 ? wanted->height : scene->height,

@@ -29,11 +29,10 @@ typedef struct {
 bool request_check(const ClrtPicture *wanted, AovSet channels, Precision precision,
                    RequestFault *fault);
 
+// Returns the goal without the error that max_level causes.
+PictureGoal request_goal(const ClrtPicture *wanted);
+
 // Fills in the scene's defaults. If camera is NULL, the scene must have the view. Returns whether
 // the crop is inside the picture. request_check has accepted the request.
 bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpoint *camera,
                      SessionPicture *picture);
-
-// Returns the max_level of the picture's reference, which is at least the scene's. If an error
-// bound chooses the picture's level, the reference uses as many levels as floats can show.
-uint32_t request_reference_level(const ClrtPicture *wanted, const Scene *scene);

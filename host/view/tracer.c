@@ -62,12 +62,12 @@ bool tracer_renew(Tracer *tracer, Error *error)
 
 RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass)
 {
-    const int64_t level = tracer->options->max_level;
+    const int32_t level = tracer->options->max_level;
+    const uint32_t given = level == CLRT_LEVEL_NONE ? 0 : (uint32_t)level;
     return (RenderSettings){.width = pass->width,
                             .height = pass->height,
                             .samples = pass->samples,
-                            .max_level =
-                                level >= 0 ? (uint32_t)level : tracer->model->scene.max_level,
+                            .max_level = level == 0 ? tracer->model->scene.max_level : given,
                             .tile_width = pass->tile,
                             .tile_height = pass->tile};
 }

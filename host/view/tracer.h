@@ -3,14 +3,14 @@
 #pragma once
 
 #include "explain/report.h"
-#include "session/picture.h"
+#include "session/request.h"
 #include "view/model.h"
 #include "view/plan.h"
 
 typedef struct {
     SessionSettings session;
     Cache cache;
-    int64_t max_level; // negative: the scene's
+    int32_t max_level; // as ClrtPicture::max_level
 } TracerOptions;
 
 typedef struct {

@@ -148,8 +148,8 @@ class Channels(SharedWork):
         self.expect(self.json_of("a.json"), samples__total=sum(samples))
 
     def test_refusals(self):
-        self.refuses(2, "--aov boxtests and tritests count a grid of samples: leave out --aa-adaptive, --error and "
-                     "--time", SCENE, "-o", "a.exr", "--aa-adaptive", "--aov", "tritests")
+        self.refuses(2, "--aov boxtests,tritests and --aa-adaptive exclude each other",
+                     SCENE, "-o", "a.exr", "--aa-adaptive", "--aov", "tritests")
         self.refuses(2, "--aov needs an EXR file (-o FILE.exr): png holds colors alone",
                      SCENE, "-o", "a.png", "--aov", "depth")
 

@@ -53,6 +53,33 @@ void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE])
     strcat(text, "]");
 }
 
+// Returns the option for a setting of a RequestFault.
+static const char *option_of_setting(const char *setting)
+{
+    static const char *const names[][2] = {{"samples", "aa"},
+                                           {"contrast", "aa-adaptive"},
+                                           {"seconds", "time"},
+                                           {"tile", "tune tile"},
+                                           {"boxtests or tritests", "aov boxtests,tritests"},
+                                           {"certainty", "aov certainty"},
+                                           {"fp64", "precision fp64"}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i][0], setting) == 0)
+            return names[i][1];
+    return setting;
+}
+
+// Words the rules of requests for pictures that are not in the tables.
+static bool check_request(const Options *options, Error *error)
+{
+    RequestFault fault;
+    ClrtPicture wanted = options->picture;
+    wanted.crop_width = options->crop.is_given; // its pixels depend on the scene
+    return request_check(&wanted, options->aovs, options->kernel.precision, &fault) ||
+           error_set(error, "--%s and --%s exclude each other: give one",
+                     option_of_setting(fault.setting), option_of_setting(fault.other));
+}
+
 // Returns the first command that accepts the option.
 static const Command *first_taker(const Option *option)
 {
@@ -137,7 +164,6 @@ static bool check_file(const Options *options, Error *error)
 {
     const bool is_adaptive = options_are_adaptive(options);
     const bool takes_layers = image_format_takes_layers(options->format);
-    const bool is_certain = aov_needs(options->aovs, AOV_NEEDS_CERTAINTY);
     const char *reference = options->reference_path;
     const bool are_floats =
         image_format_is_float(options->format) &&
@@ -147,9 +173,6 @@ static bool check_file(const Options *options, Error *error)
          "--exposure is for 8-bit files: %s holds the traced colors"},
         {options->encoding != ENCODE_RAW && are_floats && options->parts == 0,
          "--encode srgb is for 8-bit files: %s holds the traced colors"},
-        {is_adaptive && aov_needs(options->aovs, AOV_NEEDS_TESTS),
-         "--aov boxtests and tritests count a grid of samples: leave out --aa-adaptive, --error "
-         "and --time"},
         {options->aovs != 0 && !takes_layers,
          "--aov needs an EXR file (-o FILE.exr): %s holds colors alone"},
         {options->parts > 0 && !takes_layers,
@@ -159,10 +182,6 @@ static bool check_file(const Options *options, Error *error)
          "a whole: give --aa"},
         {options->resume && is_standard_output(options->output_path),
          "--resume needs a file: give -o FILE"},
-        {is_certain && is_adaptive, "--aov certainty certifies the samples of --aa: leave out "
-                                    "--aa-adaptive, --error and --time"},
-        {is_certain && options->kernel.precision != PRECISION_FP32,
-         "--aov certainty certifies pictures in fp32: leave out --precision fp64"},
     };
     return CHECK_RULES(rules);
 }
@@ -200,7 +219,7 @@ static bool check_frames(Options *options, Error *error)
 static void choose_precision(Options *options)
 {
     KernelRequest *kernel = &options->kernel;
-    if (options->error_goal > 0 && options->error_goal < ERROR_OF_FP64 &&
+    if (options->picture.error > 0 && options->picture.error < ERROR_OF_FP64 &&
         kernel->form == KERNEL_AUTO && !option_is_given(options, "precision"))
         kernel->precision = PRECISION_FP64;
 }
@@ -228,7 +247,7 @@ static bool check_streams(const Options *options, Error *error)
 static bool check_picture(Options *options, Error *error)
 {
     choose_precision(options);
-    options->statistics = options->statistics || options->json_path != NULL;
+    options->picture.statistics = options->picture.statistics || options->json_path != NULL;
     if (options->output_path == NULL)
         options->format = "pfm"; // stores the traced pixels
     else if (!check_format(options, error))
@@ -275,5 +294,6 @@ static bool check_action(Options *options, Error *error)
 bool options_check(Options *options, const Command *command, Error *error)
 {
     return check_uses(options, command, error) && check_exclusions(options, error) &&
-           check_kernel(&options->kernel, error) && check_action(options, error);
+           check_request(options, error) && check_kernel(&options->kernel, error) &&
+           check_action(options, error);
 }

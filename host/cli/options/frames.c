@@ -123,9 +123,9 @@ static uint32_t edge_of(const Crop *crop, int corner, uint32_t side)
     return (uint32_t)(crop->in_parts ? place * side + 0.5 : place);
 }
 
-bool crop_apply(const Crop *crop, RenderSettings *settings, Error *error)
+bool crop_apply(const Crop *crop, ClrtPicture *picture, Error *error)
 {
-    const uint32_t width = settings->width, height = settings->height;
+    const uint32_t width = picture->width, height = picture->height;
     if (!crop->is_given)
         return true;
     const uint32_t left = edge_of(crop, 0, width), top = edge_of(crop, 1, height),
@@ -135,12 +135,10 @@ bool crop_apply(const Crop *crop, RenderSettings *settings, Error *error)
                          top, right, bottom, width, height);
     if (left == right || top == bottom)
         return error_set(error, "no pixel of the picture of %u x %u is in the crop", width, height);
-    settings->whole_width = width;
-    settings->whole_height = height;
-    settings->left = left;
-    settings->top = top;
-    settings->width = right - left;
-    settings->height = bottom - top;
+    picture->left = left;
+    picture->top = top;
+    picture->crop_width = right - left;
+    picture->crop_height = bottom - top;
     return true;
 }
 

@@ -184,10 +184,14 @@ bool set_crop(Options *options, const char *text, Error *error)
 
 bool set_max_level(Options *options, const char *text, Error *error)
 {
+    int64_t level = 0;
     options->fits_level = strcmp(text, "auto") == 0;
-    return options->fits_level || read_integer(text, 0, MAX_LEVEL_LIMIT, &options->max_level) ||
-           error_set(error, "--max-level wants auto or an integer between 0 and %d, not '%s'",
-                     MAX_LEVEL_LIMIT, text);
+    if (!options->fits_level && !read_integer(text, 0, MAX_LEVEL_LIMIT, &level))
+        return error_set(error, "--max-level wants auto or an integer between 0 and %d, not '%s'",
+                         MAX_LEVEL_LIMIT, text);
+    const int32_t given = level > 0 ? (int32_t)level : CLRT_LEVEL_NONE;
+    options->picture.max_level = options->fits_level ? 0 : given;
+    return true;
 }
 
 bool set_error(Options *options, const char *text, Error *error)
@@ -195,15 +199,16 @@ bool set_error(Options *options, const char *text, Error *error)
     const size_t length = strlen(text);
     const bool is_percent = length > 0 && text[length - 1] == '%';
     const char *end = text + length - is_percent;
-    const bool ok = number_parse(text, end, &options->error_goal) == end;
-    options->error_goal /= is_percent ? 100 : 1;
-    return (ok && options->error_goal > 0 && options->error_goal <= 1) ||
+    const bool ok = number_parse(text, end, &options->picture.error) == end;
+    options->picture.error /= is_percent ? 100 : 1;
+    return (ok && options->picture.error > 0 && options->picture.error <= 1) ||
            error_set(error, "--error wants a number above 0 and up to 1, or 100%%, not '%s'", text);
 }
 
 bool set_time(Options *options, const char *text, Error *error)
 {
-    return (read_number(text, 0, TIME_GOAL_MOST, &options->time_goal) && options->time_goal > 0) ||
+    return (read_number(text, 0, TIME_GOAL_MOST, &options->picture.seconds) &&
+            options->picture.seconds > 0) ||
            error_set(error, "--time wants seconds above 0 and up to %d, not '%s'", TIME_GOAL_MOST,
                      text);
 }
@@ -304,7 +309,7 @@ bool set_reference_samples(Options *options, const char *text, Error *error)
         return error_set(error,
                          "--reference-samples wants an even number between 2 and %d, not '%s'",
                          REFERENCE_SAMPLES_MAX, text);
-    options->reference_samples = (uint32_t)samples;
+    options->picture.reference_samples = (uint32_t)samples;
     return true;
 }
 

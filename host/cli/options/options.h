@@ -7,6 +7,7 @@
 #include "image/image_file.h"
 #include "scene/scn.h"
 #include "session/channels.h"
+#include "session/request.h"
 
 #include <jansson.h>
 #include <stdint.h>
@@ -72,9 +73,9 @@ typedef struct {
 // Parses text; returns false if it is malformed.
 bool crop_parse(Crop *crop, const char *text);
 
-// Replaces the settings of a whole picture by the crop's settings. Rounds fractions to the nearest
-// pixel edge, so adjacent crops neither overlap nor leave gaps.
-bool crop_apply(const Crop *crop, RenderSettings *settings, Error *error);
+// Sets the crop of a picture whose size is set. Rounds fractions to the nearest pixel edge, so
+// adjacent crops neither overlap nor leave gaps.
+bool crop_apply(const Crop *crop, ClrtPicture *picture, Error *error);
 
 // Returns [left, top, right, bottom] of the crop, in pixels of the whole picture.
 json_t *crop_json(const RenderSettings *settings);
@@ -116,17 +117,6 @@ typedef enum {
 // The largest number of parts of a picture.
 #define PARTS_MAX 65536
 
-// Samples per pixel of a reference: the default, and the largest number.
-#define REFERENCE_SAMPLES     256
-#define REFERENCE_SAMPLES_MAX 65536
-
-// The default side of a tile in pixels. The window chooses other sizes. Parts have smaller tiles,
-// so that each part has more tiles and all parts take about equal time.
-#define OPTIONS_TILE      128
-#define OPTIONS_PART_TILE 64
-
-#define TIME_GOAL_MOST 1000000 // seconds
-
 // The argument of --tune bvh.
 typedef enum {
     TUNE_BVH_AUTO, // as SAH, but few triangles get no tree with wide nodes
@@ -154,31 +144,22 @@ typedef struct {
                              // is printed
     const char *format;      // a result of image_format_named; NULL without an output
     AovSet aovs;             // channels besides the colors
-    uint32_t samples;        // per pixel and axis
-    double contrast;         // the argument of --aa-adaptive; 0 without it
-    double error_goal;       // largest root mean square error; 0: no goal
-    double time_goal;        // seconds of tracing; 0: no goal
-    uint32_t view;           // from 1
+    ClrtPicture picture;     // without crop, camera and truncation, which need the scene
     SceneLoadOptions load;
-    uint32_t width, height; // 0: the scene's
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: the whole picture
     bool resume;          // for one picture; frames have skips_finished
     Frames frames;
-    int64_t max_level; // negative: not given as a number
     bool fits_level; // use the smallest max_level whose error is invisible in a file of the format
     const char *device;         // NULL: the best one
     uint32_t threads;           // 0: as many as the process may use
     bool reference;             // measure the picture against a reference
     const char *reference_path; // the file for the reference; NULL: do not write it
-    uint32_t reference_samples; // per pixel, an even number
     uint32_t repeat;            // the number of times to draw the picture, at least 1
     KernelRequest kernel;
     TuneBvh bvh;
     Specialization specialization;
-    uint32_t tile_width, tile_height;   // 0: the default
     uint32_t group_width, group_height; // 0: the kernel's default
-    bool statistics;                    // count rays and tests
     Encoding encoding;
     double exposure;           // in stops
     bool no_metadata;          // omit the metadata of picture files
@@ -197,7 +178,8 @@ typedef struct {
 // Returns whether the number of samples may differ between pixels.
 static inline bool options_are_adaptive(const Options *options)
 {
-    return options->contrast > 0 || options->error_goal > 0 || options->time_goal > 0;
+    return options->picture.contrast > 0 || options->picture.error > 0 ||
+           options->picture.seconds > 0;
 }
 
 // Returns whether JSON replaces the text on standard output.

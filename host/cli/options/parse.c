@@ -201,11 +201,7 @@ static bool read_options(Options *options, int count, char **arguments, Error *e
 
 bool options_parse(Options *options, int count, char **arguments, Error *error)
 {
-    *options = (Options){.samples = 1,
-                         .view = 1,
-                         .repeat = 1,
-                         .reference_samples = REFERENCE_SAMPLES,
-                         .max_level = -1};
+    *options = (Options){.picture.view = 1, .repeat = 1};
     if (!read_options(options, count, arguments, error))
         return false;
     if (options->action != ACTION_RENDER)

@@ -36,13 +36,14 @@ const Option option_table[] = {
      "print the pixels' hash, or exit with status 1 unless it is EXPECTED; without -o, write no "
      "picture"},
 
-    {"size", "WxH", 's', AREA(width, PICTURE_SIZE_MAX), GROUP_PICTURE, CLASS_NONE,
+    {"size", "WxH", 's', AREA(picture.width, PICTURE_SIZE_MAX), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
      "size of the picture in pixels (default: the scene's, or 512x512)"},
     {"crop", "X0,Y0,X1,Y1", 0, ODD(set_crop), GROUP_PICTURE, CLASS_NONE, FOR_DRAWING,
      "draw only the pixels from X0,Y0 to X1,Y1 (exclusive); if a number has a dot, all four are "
      "fractions of the sides; an EXR file records the position"},
-    {"view", "N", 0, COUNT(view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE, FOR_PICTURE | FOR_PIXEL,
+    {"view", "N", 0, COUNT(picture.view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE,
+     FOR_PICTURE | FOR_PIXEL,
      "use the scene's N-th camera (default: 1); a scene without cameras has the course's six"},
     {"up", "auto|x|y|z|-x|-y|-z", 0, WORD(load.up), GROUP_PICTURE, CLASS_NONE,
      FOR_SCENE | FOR_CONVERT,
@@ -55,11 +56,11 @@ const Option option_table[] = {
      FOR_DRAWING | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
      "drop triangles with equal corners, or fail at any without area; drop is the default"},
 
-    {"aa", "[=N]", 0, FIELD(COUNT, samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
+    {"aa", "[=N]", 0, FIELD(COUNT, picture.samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
      "take N x N samples per pixel (default: 2); without this option, files of scenes get 1 sample "
      "and files of lone meshes 3 x 3; the window takes N x N when the camera rests, unless N is 1"},
-    {"aa-adaptive", "[=T]", 0, FIELD(PART, contrast), 0, "0.02", NULL, GROUP_QUALITY,
+    {"aa-adaptive", "[=T]", 0, FIELD(PART, picture.contrast), 0, "0.02", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_DRAWING | FOR_GENERAL | FOR_WARM,
      "add samples to a contrast of at most T (default: 0.02); they go where neighbors differ"},
     {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
@@ -83,7 +84,7 @@ const Option option_table[] = {
      "single rays through nodes of 2 (pair) or 8 (wide), or packets; packets of rays use nodes of "
      "8; auto (default) chooses by the device; LANES: 4, 8 or 16 for the width of "
      "vectors"},
-    {"tune tile", "WxH", 0, AREA(tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT,
+    {"tune tile", "WxH", 0, AREA(picture.tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT,
      FOR_DRAWING, "size of the picture's tiles (default: 128x128, in parts 64x64)"},
     {"tune group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_GENERAL | FOR_WARM,
@@ -115,7 +116,7 @@ const Option option_table[] = {
     {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "threads of a CPU device (default: all that the process may use)"},
 
-    {"stats", NULL, 0, FLAG(statistics), GROUP_REPORT, CLASS_NONE,
+    {"stats", NULL, 0, FLAG(picture.statistics), GROUP_REPORT, CLASS_NONE,
      FOR_PICTURE | FOR_EXPLAIN | FOR_GENERAL | FOR_WARM,
      "count rays and tests, and print them; in the window, time frames"},
     {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_REPORT, CLASS_NONE, FOR_DRAWING,
