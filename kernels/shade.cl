@@ -84,7 +84,8 @@ typedef struct {
 
 static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *material, Mask met)
 {
-    return (Lighting){surface, material, met && material->shader != SHADER_SILHOUETTE};
+    const Mask wanted = any_lane(met) ? met && material->shader != SHADER_SILHOUETTE : met;
+    return (Lighting){surface, material, wanted};
 }
 
 // One light's contribution without the colors of light and surface: intensity times cosine, and

@@ -129,7 +129,8 @@ static bool build_and_run(Program *program, const ProgramSource *source, const F
     if (cache->announce != NULL)
         cache->announce(false);
     program_key(source, program->key);
-    program->unsaved = ok && source->kernel_folder == NULL ? cache : NULL;
+    const bool is_kept = ok && source->kernel_folder == NULL && cache->folder[0] != '\0';
+    program->unsaved = is_kept ? cache : NULL;
     return ok;
 }
 

@@ -4,6 +4,7 @@
 
 #include "extremes/support/check.h"
 #include "image/rendered.h"
+#include "image/shared_cache.h"
 #include "scene/camera.h"
 
 #include <stdlib.h>
@@ -28,7 +29,7 @@ static bool certify(Certified *certified, const Studio *studio, Error *error)
                              .traits = traits_general(false),
                              .group = {8, 8}};
     KernelSet kernels = {.source = {.device = &studio->device,
-                                    .cache = &studio->cache,
+                                    .cache = shared_cache(),
                                     .kernel_folder = getenv("CLRT_KERNEL_DIR")}};
     const CertifiedPicture picture = {&certified->picture, &certified->map};
     Renderer renderer = {.scene = &buffers, .settings = *settings};

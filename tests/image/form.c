@@ -3,6 +3,7 @@
 #include "image/form.h"
 
 #include "device/device.h"
+#include "image/shared_cache.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,6 +39,7 @@ static KernelChoice usual_choice(void)
     Device device;
     Error error = {0};
     const KernelRequest nothing = {0};
+    shared_cache();
     if (!device_open(&device, getenv("CLRT_DEVICE"), &error)) {
         fprintf(stderr, "%s\n", error.text);
         exit(1);

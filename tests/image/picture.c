@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Runs the stages one after another. A stage that fails leaves an empty value.
+// Runs the stages one after another. A stage that fails leaves an empty value. All pictures of a
+// program share a session, so kernels are compiled or loaded once.
 #include "image/picture.h"
 
 #include "image/form.h"
+#include "image/shared_cache.h"
 #include "scene/camera.h"
 #include "scene/scn.h"
 
@@ -11,7 +13,7 @@
 
 typedef struct {
     const PictureRequest *request;
-    Session session;
+    Session *session;
     Scene scene;
     SessionPicture picture;
     PictureResult result;
@@ -44,7 +46,7 @@ static bool load(Pipeline *pipeline, Error *error)
         return false;
     if (request->view < 1 || request->view > pipeline->scene.viewpoints.count)
         return error_set(error, "%s has no view %u", request->scene_path, request->view);
-    return session_take(&pipeline->session, &pipeline->scene, error);
+    return session_take(pipeline->session, &pipeline->scene, error);
 }
 
 static RenderSettings settings_of(const PictureRequest *request, const Scene *scene)
@@ -65,8 +67,8 @@ static bool draw_with_callback(Pipeline *pipeline, Framebuffer *framebuffer, Err
     const PictureRequest *request = pipeline->request;
     const RendererUse use = {.entry = &sample_entry};
     const CameraData camera =
-        session_camera(&pipeline->session, &pipeline->picture, request->samples);
-    return session_renderer(&pipeline->session, &use, &pipeline->picture.settings, &renderer,
+        session_camera(pipeline->session, &pipeline->picture, request->samples);
+    return session_renderer(pipeline->session, &use, &pipeline->picture.settings, &renderer,
                             error) &&
            request->draw(request->draw_context, &renderer, &camera, framebuffer, error);
 }
@@ -76,7 +78,7 @@ static bool draw_colors(Pipeline *pipeline, Framebuffer *framebuffer, Error *err
     const PictureRequest *request = pipeline->request;
     if (request->draw != NULL)
         return draw_with_callback(pipeline, framebuffer, error);
-    const bool ok = session_draw(&pipeline->session, &pipeline->picture, NULL, framebuffer,
+    const bool ok = session_draw(pipeline->session, &pipeline->picture, NULL, framebuffer,
                                  &pipeline->result, error);
     if (ok && request->sample_count != NULL && goal_is_given(&pipeline->picture.goal))
         *request->sample_count = pipeline->result.samples;
@@ -93,7 +95,7 @@ static bool draw_layers(Pipeline *pipeline, Error *error)
     *layers = (Layers){0};
     aov_name_layers(channels.set, layers);
     return layers_make(layers, settings->width, settings->height, error) &&
-           session_draw_channels(&pipeline->session, &pipeline->picture, &channels, NULL, layers,
+           session_draw_channels(pipeline->session, &pipeline->picture, &channels, NULL, layers,
                                  error);
 }
 
@@ -104,7 +106,7 @@ static bool visit(Pipeline *pipeline, const Framebuffer *framebuffer, Error *err
     const SessionPicture *picture = &pipeline->picture;
     if (request->visit == NULL)
         return true;
-    if (!explainer_open(&explainer, &pipeline->session, &picture->settings, &picture->viewpoint,
+    if (!explainer_open(&explainer, pipeline->session, &picture->settings, &picture->viewpoint,
                         error))
         return false;
     request->visit(&explainer, framebuffer, request->visit_context);
@@ -126,29 +128,44 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
            visit(pipeline, framebuffer, error);
 }
 
+static Session session;
+
+// Opens the session at the first request, and whenever the compiler's options change. Programs with
+// options are not saved, because saving takes longer than their pictures. The session stays open,
+// because some implementations of OpenCL cannot be called at exit.
+static bool open_session(const PictureRequest *request, Error *error)
+{
+    const char *options = request->extra_options;
+    const char *older = session.settings.extra_options;
+    if (session.is_open && options != older)
+        session_close(&session);
+    session.cache = options == NULL ? *shared_cache() : (Cache){0};
+    session.settings = (SessionSettings){.device = getenv("CLRT_DEVICE"),
+                                         .threads = request->threads,
+                                         .kernel_folder = getenv("CLRT_KERNEL_DIR"),
+                                         .extra_options = options,
+                                         .specialization = request->specialization,
+                                         .builder = request->builder,
+                                         .tree = request->uses_bvh ? TREE_ALWAYS : TREE_NEVER,
+                                         .group_width = request->group_width,
+                                         .group_height = request->group_height};
+    const bool ok = session.is_open || session_open(&session, error);
+    session.choice = request->choice;
+    return ok;
+}
+
 bool picture_render(Framebuffer *framebuffer, const PictureRequest *request, Error *error)
 {
-    Pipeline pipeline = {.request = request,
-                         .session.settings = {.device = getenv("CLRT_DEVICE"),
-                                              .threads = request->threads,
-                                              .kernel_folder = getenv("CLRT_KERNEL_DIR"),
-                                              .extra_options = request->extra_options,
-                                              .specialization = request->specialization,
-                                              .builder = request->builder,
-                                              .tree = request->uses_bvh ? TREE_ALWAYS : TREE_NEVER,
-                                              .group_width = request->group_width,
-                                              .group_height = request->group_height}};
+    Pipeline pipeline = {.request = request, .session = &session};
     *framebuffer = (Framebuffer){0};
-    cache_open(&pipeline.session.cache);
-    bool ok = session_open(&pipeline.session, error);
-    pipeline.session.choice = request->choice;
-    ok = ok && load(&pipeline, error) && draw(&pipeline, framebuffer, error);
+    const bool ok = open_session(request, error) && load(&pipeline, error) &&
+                    draw(&pipeline, framebuffer, error);
     if (ok && request->tallies != NULL)
         memcpy(request->tallies, pipeline.result.progress.tallies,
                sizeof pipeline.result.progress.tallies);
-    session_close(&pipeline.session);
+    session_save(&session);
+    session_scene_free(&session.scene);
     if (request->scene == NULL)
         scene_free(&pipeline.scene);
-    cache_close(&pipeline.session.cache);
     return ok;
 }

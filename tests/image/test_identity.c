@@ -116,7 +116,7 @@ TEST(every_form_draws_pictures_of_a_few_pixels)
 TEST(every_size_of_tiles_and_work_groups_draws_the_same)
 {
     static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
-    static const uint32_t groups[][2] = {{1, 1}, {16, 1}, {3, 5}, {32, 32}, {1, 64}};
+    static const uint32_t groups[][2] = {{1, 1}, {3, 5}, {32, 32}, {1, 64}};
     enum { TILES = sizeof tiles / sizeof tiles[0], GROUPS = sizeof groups / sizeof groups[0] };
     const PictureRequest usual = small_request(SCENE_COUNT - 1);
     PictureRequest others[TILES + GROUPS];
@@ -172,14 +172,14 @@ static void expect_extreme_specials_same(const KernelChoice *choice)
 }
 
 // The families share the code of most switches. Only rays, whose kernels compile sooner, test
-// every switch alone.
+// all four combinations of every two switches (Kleitman and Spencer, "Families of k-independent
+// sets", 1973).
 TEST(specialized_rays_draw_the_general_rays_picture)
 {
+    static const unsigned masks[] = {39, 11, 21, 58, 60};
     expect_extreme_specials_same(&form_all[0]);
-    for (unsigned place = 0; place < 6; place++) {
-        expect_special_same(1u << place, &form_all[0]);
-        expect_special_same(63u & ~(1u << place), &form_all[0]);
-    }
+    for (size_t i = 0; i < sizeof masks / sizeof masks[0]; i++)
+        expect_special_same(masks[i], &form_all[0]);
 }
 
 // Packets have their own code for spheres, triangles and trees.

@@ -5,6 +5,7 @@
 
 #include "image/comparison.h"
 #include "image/form.h"
+#include "image/shared_cache.h"
 #include "scene/camera.h"
 
 #include <string.h>
@@ -13,7 +14,7 @@ int picture_setup(void **state)
 {
     static Studio studio;
     Error error = {0};
-    cache_open(&studio.cache);
+    shared_cache();
     require(device_open(&studio.device, getenv("CLRT_DEVICE"), &error), &error);
     *state = &studio;
     return 0;
@@ -23,7 +24,6 @@ int picture_teardown(void **state)
 {
     Studio *studio = *state;
     device_close(&studio->device);
-    cache_close(&studio->cache);
     return 0;
 }
 
@@ -50,7 +50,7 @@ void picture_open(OpenPicture *picture, const Studio *studio, const Scene *scene
                              .traits = traits_general(false),
                              .group = {group, group}};
     *picture = (OpenPicture){.kernels.source = {.device = &studio->device,
-                                                .cache = &studio->cache,
+                                                .cache = shared_cache(),
                                                 .kernel_folder = getenv("CLRT_KERNEL_DIR"),
                                                 .extra_options = settings->extra_options}};
     stage_make_as(&picture->stage, scene, settings->tree, settings->choice.nodes);

@@ -9,7 +9,6 @@
 
 typedef struct {
     Device device;
-    Cache cache;
 } Studio;
 
 // Fixtures of a group of tests. *state is the studio. Its device is the one that CLRT_DEVICE names,

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "check.h"
 #include "image/form.h"
+#include "image/shared_cache.h"
 
 #include <math.h>
 #include <string.h>
@@ -81,10 +82,10 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
 {
     Error error = {0};
     File file = {0};
+    const Cache *cache = shared_cache();
     *batch = (RayBatch){.choice = form_choice()};
     if (batch->choice.nodes == NODES_WIDE && batch->choice.lanes == 0)
         batch->choice.lanes = BATCH_LANES;
-    cache_open(&batch->cache);
     require(device_open(&batch->device, getenv("CLRT_DEVICE"), &error) &&
                 file_read(&file, CLRT_SOURCE_FOLDER "/tests/extremes/support/ray_batch.cl", &error),
             &error);
@@ -95,7 +96,7 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
     const KernelEntry entry = {.source = file.bytes};
     const ProgramSource source = {
         .device = &batch->device,
-        .cache = &batch->cache,
+        .cache = cache,
         .kernel_folder = kernel_folder != NULL ? kernel_folder : getenv("CLRT_KERNEL_DIR"),
         .extra_options = options,
         .entry = &entry,
@@ -117,7 +118,6 @@ void ray_batch_close(RayBatch *batch)
     clReleaseMemObject(batch->outward);
     program_free(&batch->program);
     device_close(&batch->device);
-    cache_close(&batch->cache);
     *batch = (RayBatch){0};
 }
 

@@ -48,7 +48,6 @@ typedef enum {
 
 typedef struct {
     Device device;
-    Cache cache;
     Program program;
     cl_kernel kernels[BATCH_TASKS];
     cl_mem rays, hits, outward;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "image/shared_cache.h"
+
+#include <stdlib.h>
+
+static Cache cache;
+
+static void close_cache(void)
+{
+    cache_close(&cache);
+}
+
+const Cache *shared_cache(void)
+{
+    static bool is_open;
+    if (!is_open) {
+        cache_open(&cache);
+        atexit(close_cache);
+    }
+    is_open = true;
+    return &cache;
+}

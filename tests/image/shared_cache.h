@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// The kernel cache of a test program. cache_open may be called only once in a process, because the
+// second call would make an empty cache in PoCL's private folder of the first.
+#pragma once
+
+#include "device/cache.h"
+
+// Opens the cache at the first call, which must precede all OpenCL calls. It is closed at exit.
+const Cache *shared_cache(void);
