@@ -35,7 +35,7 @@ typedef struct {
 } Tally;
 
 // Adds a word to the signatures of the given lanes of a packet.
-static inline void sign_lanes(Tally *tally, uint packet, Mask lanes, UInt word)
+static inline void hash_lanes(Tally *tally, uint packet, Mask lanes, UInt word)
 {
 #if CLRT_SIGNATURES
     const UInt mixed = (tally->signatures[packet] ^ (word + 1)) * 0x9e3779b1u;

@@ -141,7 +141,7 @@ static inline void add_light(const Tracer *tracer, uint index, const Lighting li
         const Mask is_lit = light[i].faces && blockers[i].id == NOTHING;
         if (!any_lane(is_lit))
             continue;
-        sign_lanes(tracer->tally, i, is_lit, (UInt)(index));
+        hash_lanes(tracer->tally, i, is_lit, (UInt)(index));
         const Received received = receive_light(&light[i], &lighting[i], is_lit);
         sums[i].diffuse = sum3(sums[i].diffuse, scaled3(received.diffuse, color));
         sums[i].specular = sum3(sums[i].specular, scaled3(received.specular, color));

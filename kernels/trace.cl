@@ -104,7 +104,7 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
     path->material = fetch_material(tracer, path->surface.material);
     if (CLRT_MIRRORS)
         path->reflects = path->met && path->material.reflectivity != 0.0f;
-    sign_lanes(tracer->tally, number, path->met, surface_word(tracer->frame, &path->surface));
+    hash_lanes(tracer->tally, number, path->met, surface_word(tracer->frame, &path->surface));
 }
 
 // Follows the next ray of each lane that has one, up to its surface. Returns false if all paths

@@ -149,13 +149,13 @@ typedef struct {
 // The triangles [first, first + count) of Bvh::order or, without a tree, of the file.
 typedef struct {
     uint32_t first, count;
-} Range;
+} TriangleRange;
 
 typedef struct {
     FlatScene *flat;
     const FlatSource *source;
-    BvhWide *wides; // flat->node_count nodes so far; the rest is unused
-    Range *blocks;  // flat->block_count ranges so far; the rest is unused
+    BvhWide *wides;        // flat->node_count nodes so far; the rest is unused
+    TriangleRange *blocks; // flat->block_count ranges so far; the rest is unused
 } Collapse;
 
 static bool is_block(const Part *part)
@@ -227,7 +227,7 @@ static uint32_t gather_children(const Bvh *bvh, Part parts[WIDE])
     return count;
 }
 
-static void fill_block(const Collapse *collapse, TriangleBlock *block, Range range)
+static void fill_block(const Collapse *collapse, TriangleBlock *block, TriangleRange range)
 {
     const FlatScene *flat = collapse->flat;
     const Triangles *triangles = collapse->source->triangles;
@@ -259,7 +259,7 @@ static void fill_blocks(void *context, uint32_t first, uint32_t end)
 static uint32_t add_block(const Collapse *collapse, uint32_t first, uint32_t count)
 {
     const uint32_t number = collapse->flat->block_count++;
-    collapse->blocks[number] = (Range){first, count};
+    collapse->blocks[number] = (TriangleRange){first, count};
     return WIDE_LEAF | number;
 }
 
@@ -329,7 +329,7 @@ bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
     const size_t blocks = leaves + flat->triangle_count / WIDE + 1;
     Collapse collapse = {flat, source, NULL, NULL};
     collapse.wides = memory_sparse(inner + blocks, sizeof(BvhWide), error);
-    collapse.blocks = memory_sparse(blocks, sizeof(Range), error);
+    collapse.blocks = memory_sparse(blocks, sizeof(TriangleRange), error);
     const bool ok = make_all(&collapse, error);
     free(collapse.wides);
     free(collapse.blocks);

@@ -15,7 +15,7 @@ typedef enum {
 } AimState;
 
 typedef struct {
-    Vec3 point;        // in the normalized frame
+    Vec3 point;        // in normalized coordinates
     Vec3 outward;      // mean of the normals around the aim; unit length
     double facing;     // cosine between outward and the normal farthest from it
     double size;       // lower bound on how far the triangles around the aim extend
@@ -31,7 +31,7 @@ typedef struct {
     double radius;       // radius of a sphere around the mesh
 } Aims;
 
-// The input of aims_make. `triangles` holds only this mesh, in the normalized frame.
+// The input of aims_make. `triangles` holds only this mesh, in normalized coordinates.
 typedef struct {
     const Mesh *mesh;
     const Triangles *triangles;

@@ -75,7 +75,7 @@ static void take_shorter(Feature *feature, double square, double step, size_t tr
     feature->triangle = triangle;
 }
 
-static Shape shape_in_frame(const Shape *shape, const Normalization *normalization)
+static Shape normalized_shape(const Shape *shape, const Normalization *normalization)
 {
     Shape moved;
     for (int corner = 0; corner < 3; corner++)
@@ -83,7 +83,7 @@ static Shape shape_in_frame(const Shape *shape, const Normalization *normalizati
     return moved;
 }
 
-static void add_in_frame(Features *features, const Shape *shape, size_t triangle)
+static void add_normalized(Features *features, const Shape *shape, size_t triangle)
 {
     const double step = step_at(shape);
     const EdgeSquares squares = edge_squares(shape);
@@ -120,10 +120,10 @@ Features features_of(const Mesh *mesh, const Normalization *normalization)
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
         const Shape written = shape_of(mesh, triangle);
         const Shape scaled = scaled_shape(&written, scale);
-        const Shape framed = shape_in_frame(&written, normalization);
+        const Shape framed = normalized_shape(&written, normalization);
         take_shorter(&features.written_edge, edge_squares(&scaled).shortest, step_at(&scaled),
                      triangle);
-        add_in_frame(&features, &framed, triangle);
+        add_normalized(&features, &framed, triangle);
         if (is_flat(&written))
             mesh_fault_add(&features.flat, triangle);
         for (int corner = 0; corner < 3; corner++)

@@ -13,8 +13,8 @@ typedef struct {
 } Feature;
 
 typedef struct {
-    Feature edge;         // shortest edge, in the traced frame
-    Feature height;       // lowest height in that frame; triangles without area do not count
+    Feature edge;         // shortest edge, in normalized coordinates
+    Feature height;       // lowest height, also there; triangles without area do not count
     Feature written_edge; // shortest edge, in the file's coordinates
     bool holds_floats;    // floats represent every coordinate exactly
     MeshFault flat;       // triangles without area: three corners on a line

@@ -110,7 +110,7 @@ static void add_shape(Check *check, size_t object)
         "its fronts face inwards, so only its far side is visible from outside");
     add(check, note("unused_vertices", object, census->unused_vertices),
         "%zu vertices that no triangle uses", census->unused_vertices);
-    const bool is_placed = check->frame_fault.text[0] == '\0';
+    const bool is_placed = check->scale_fault.text[0] == '\0';
     add(check,
         note("out_of_view", object,
              is_placed && is_out_of_view(&check->scene, &check->normalization, object)),
@@ -184,8 +184,8 @@ static void add_scene(Check *check)
     if (missing.kind != NULL)
         add(check, (Finding){missing.kind, FINDING_SCENE, missing.is_fault, 1, ""}, "%s",
             missing.text);
-    const Finding fault = {"scale", FINDING_SCENE, true, check->frame_fault.text[0] != '\0', ""};
-    add(check, fault, "the scene cannot be drawn: %s", check->frame_fault.text);
+    const Finding fault = {"scale", FINDING_SCENE, true, check->scale_fault.text[0] != '\0', ""};
+    add(check, fault, "the scene cannot be drawn: %s", check->scale_fault.text);
 }
 
 bool check_find(Check *check, Error *error)

@@ -23,7 +23,7 @@ typedef struct {
     Census census;
     const char *device;      // its name; NULL if no rays were traced
     LeakCount *leaks;        // by object; NULL if no rays were traced; owned
-    Error frame_fault;       // why the scene cannot be drawn; empty if it can
+    Error scale_fault;       // why the scene cannot be drawn; empty if it can
     Error device_fault;      // why rays could not be traced; empty otherwise
     ARRAY(Finding) findings; // in the order of the objects, then those of the scene
     bool is_cut;             // memory ran out, so findings are missing

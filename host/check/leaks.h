@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Mesh -> the number of rays that pass through it at its edges and points. The mesh is traced alone
-// and two-sided, in its scene's frame.
+// and two-sided, in its scene's normalized coordinates.
 #pragma once
 
 #include "check/aims.h"

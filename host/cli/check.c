@@ -90,7 +90,7 @@ static ExitCode perform(Check *check, Run *run, Error *error)
     if (!command_files_check(options, &check->scene, error))
         return EXIT_OUTPUT;
     check->normalization = normalization_of(&check->scene);
-    normalization_check(&check->normalization, &check->scene, &check->frame_fault);
+    normalization_check(&check->normalization, &check->scene, &check->scale_fault);
     if (!census_take(&check->census, &check->scene, &check->normalization, error))
         return EXIT_SCENE;
     print_notes(options, &check->scene);

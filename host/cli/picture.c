@@ -23,11 +23,11 @@ typedef struct {
     Picture *picture;
     Progress progress;
     Error *error;
-} Watch;
+} TileWatch;
 
 static bool tile_done(void *context, const RenderProgress *render)
 {
-    Watch *watch = context;
+    TileWatch *watch = context;
     Picture *picture = watch->picture;
     return resume_keep(&picture->resume, &picture->run->request.settings, &picture->framebuffer,
                        render->tiles_done - 1, watch->error) &&
@@ -45,7 +45,7 @@ static bool draw_frame(Picture *picture, Error *error)
 {
     Run *run = picture->run;
     double moment = clock_seconds();
-    Watch watch = {picture, progress_begin(run->options->quiet), error};
+    TileWatch watch = {picture, progress_begin(run->options->quiet), error};
     const RenderObserver observer = {tile_done, &watch};
     const SessionPicture request = picture_request(picture);
     const bool ok = session_draw(&run->session, &request, &observer, &picture->framebuffer,

@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef uint32_t Triangle[3];
-
 typedef struct {
     double rows[3][4];
 } Placement;

@@ -24,7 +24,7 @@ typedef struct {
     const Framebuffer *framebuffer;
     const ImageSettings *settings;
     unsigned char *row; // the current row, 8 bits per channel
-} Picture;
+} PngSource;
 
 // libpng's fault handlers. Its error pointer is an Error.
 static void take_fault(png_structp png, png_const_charp reason)
@@ -46,7 +46,7 @@ static void write_bytes(png_structp png, png_bytep bytes, size_t count)
         png_error(png, strerror(errno));
 }
 
-static void write_header(png_structp png, png_infop info, const Picture *picture)
+static void write_header(png_structp png, png_infop info, const PngSource *picture)
 {
     const Framebuffer *framebuffer = picture->framebuffer;
     png_set_compression_strategy(png, STRATEGY);
@@ -66,7 +66,7 @@ static void write_header(png_structp png, png_infop info, const Picture *picture
     png_write_info(png, info);
 }
 
-static void write_rows(png_structp png, const Picture *picture)
+static void write_rows(png_structp png, const PngSource *picture)
 {
     const size_t width = picture->framebuffer->width;
     for (size_t row = 0; row < picture->framebuffer->height; row++) {
@@ -77,7 +77,7 @@ static void write_rows(png_structp png, const Picture *picture)
     }
 }
 
-static bool write_picture(png_structp png, png_infop info, const Picture *picture)
+static bool write_picture(png_structp png, png_infop info, const PngSource *picture)
 {
     if (setjmp(png_jmpbuf(png)) != 0)
         return false;
@@ -87,7 +87,7 @@ static bool write_picture(png_structp png, png_infop info, const Picture *pictur
     return true;
 }
 
-static bool write_stream(FILE *stream, const Picture *picture, Error *error)
+static bool write_stream(FILE *stream, const PngSource *picture, Error *error)
 {
     png_structp png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, error, take_fault, ignore_warning);
@@ -104,7 +104,7 @@ static bool write_stream(FILE *stream, const Picture *picture, Error *error)
 bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *settings, FILE *stream,
                     Error *error)
 {
-    const Picture picture = {framebuffer, settings, memory_raw(framebuffer->width, 3, error)};
+    const PngSource picture = {framebuffer, settings, memory_raw(framebuffer->width, 3, error)};
     const bool ok = picture.row != NULL && write_stream(stream, &picture, error);
     free(picture.row);
     return ok && fflush(stream) == 0 && !ferror(stream);

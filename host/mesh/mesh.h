@@ -20,12 +20,13 @@ static inline void mesh_fault_add(MeshFault *fault, size_t place)
         fault->first = place;
 }
 
+typedef uint32_t Triangle[3]; // vertices, counter-clockwise seen from the front
+
 typedef struct {
     double (*positions)[3]; // vertex_count finite points, each |component| <= 1e30
     float (*normals)[3]; // vertex_count finite vectors of any length, zero for vertices without a
                          // normal; NULL if the mesh has no normals
-    uint32_t (
-        *triangles)[3]; // triangle_count vertex triples, counter-clockwise seen from the front
+    Triangle *triangles; // triangle_count of them
     size_t vertex_count, triangle_count;
     ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
     MeshFault equal_corners; // removed triangles with two equal corners

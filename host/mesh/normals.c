@@ -101,14 +101,14 @@ typedef struct {
 typedef struct {
     Vec3 normal;
     uint32_t old; // a vertex at the same position
-} Vertex;
+} FanVertex;
 
 typedef struct {
     const Mesh *mesh;
     double cosine; // smallest cosine between the normals of faces that a smooth edge joins
     Face *faces;   // by triangle
     Fans fans;     // after make_vertices, parents holds the vertex of each corner
-    ARRAY(Vertex) vertices;
+    ARRAY(FanVertex) vertices;
 } Smoothing;
 
 static Vec3 given_normal(const Mesh *mesh, uint32_t vertex)
@@ -191,12 +191,12 @@ static bool make_fans(Smoothing *smoothing, bool is_by_shape, Error *error)
 static bool make_vertices(Smoothing *smoothing, Error *error)
 {
     const size_t count = fans_number(&smoothing->fans);
-    Vertex *vertices = memory_zeroed(count, sizeof *vertices, error);
+    FanVertex *vertices = memory_zeroed(count, sizeof *vertices, error);
     smoothing->vertices.data = vertices;
     smoothing->vertices.count = smoothing->vertices.capacity = count;
     for (size_t i = 0; vertices != NULL && i < 3 * smoothing->mesh->triangle_count; i++) {
         const Face *face = &smoothing->faces[i / 3];
-        Vertex *vertex = &vertices[smoothing->fans.parents[i]];
+        FanVertex *vertex = &vertices[smoothing->fans.parents[i]];
         vertex->normal = vec3_add(vertex->normal, vec3_scale(face->normal, face->angles[i % 3]));
         vertex->old = smoothing->mesh->triangles[i / 3][i % 3];
     }
@@ -220,7 +220,7 @@ static bool split_corners(Smoothing *smoothing, Error *error)
         const bool is_given = vec3_dot(given, given) > 0;
         if (!is_given && vec3_dot(mean, mean) > 0 && vec3_dot(mean, face) >= smoothing->cosine)
             continue;
-        const Vertex own = {is_given ? given : face, old};
+        const FanVertex own = {is_given ? given : face, old};
         *place = (uint32_t)smoothing->vertices.count;
         if (!array_push(&smoothing->vertices, own, error))
             return false;
@@ -237,7 +237,7 @@ static bool replace_vertices(Mesh *mesh, const Smoothing *smoothing, Error *erro
                  .normals = memory_raw(count, sizeof *made.normals, error)};
     const bool ok = made.positions != NULL && made.normals != NULL;
     for (size_t i = 0; ok && i < count; i++) {
-        const Vertex *vertex = &smoothing->vertices.data[i];
+        const FanVertex *vertex = &smoothing->vertices.data[i];
         memcpy(made.positions[i], mesh->positions[vertex->old], sizeof *made.positions);
         vec3_store(made.normals[i], vertex->normal);
     }

@@ -7,8 +7,6 @@
 
 #include <math.h>
 
-typedef uint32_t Triangle[3];
-
 typedef struct {
     PlyReader reader;
     PlyHeader header;

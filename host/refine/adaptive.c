@@ -185,11 +185,11 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
 typedef struct {
     const RefineTree *tree;
     Framebuffer *framebuffer;
-} Storing;
+} MeanStoring;
 
 static void store_rows(void *context, uint32_t first, uint32_t end)
 {
-    const Storing *storing = context;
+    const MeanStoring *storing = context;
     const RefineTree *tree = storing->tree;
     for (uint32_t y = first; y < end; y++)
         refine_tree_store_row(tree, y, &storing->framebuffer->pixels[(size_t)y * tree->width]);
@@ -197,7 +197,7 @@ static void store_rows(void *context, uint32_t first, uint32_t end)
 
 void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
 {
-    Storing storing = {&adaptive->tree, framebuffer};
+    MeanStoring storing = {&adaptive->tree, framebuffer};
     thread_pool_share(adaptive->pool, adaptive->tree.height, ROWS_OF_TASK, store_rows, &storing);
 }
 

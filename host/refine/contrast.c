@@ -130,10 +130,10 @@ static bool cut_list(RefineTree *tree, const CutList *list, Error *error)
 typedef struct {
     uint32_t count, part;
     ThreadPoolPart *mark;
-} Ranges;
+} RangeWork;
 
-static bool cut_marked(RefineTree *tree, Marking *marking, const Ranges *ranges, ThreadPool *pool,
-                       Error *error)
+static bool cut_marked(RefineTree *tree, Marking *marking, const RangeWork *ranges,
+                       ThreadPool *pool, Error *error)
 {
     const uint32_t tasks = range_count(ranges->count, ranges->part);
     set_limits(marking);
@@ -152,7 +152,7 @@ static bool cut_marked(RefineTree *tree, Marking *marking, const Ranges *ranges,
 bool contrast_cut_pixels(RefineTree *tree, const CutRule *rule, ThreadPool *pool, Error *error)
 {
     Marking marking = {.tree = tree, .rule = rule};
-    const Ranges rows = {tree->height, PACKET_SIDE, mark_rows};
+    const RangeWork rows = {tree->height, PACKET_SIDE, mark_rows};
     return cut_marked(tree, &marking, &rows, pool, error);
 }
 
@@ -160,6 +160,6 @@ bool contrast_cut_groups(RefineTree *tree, const CutRule *rule, uint32_t first, 
                          Error *error)
 {
     Marking marking = {.tree = tree, .rule = rule, .first = first};
-    const Ranges groups = {(uint32_t)tree->groups.count - first, GROUPS_OF_TASK, mark_groups};
+    const RangeWork groups = {(uint32_t)tree->groups.count - first, GROUPS_OF_TASK, mark_groups};
     return cut_marked(tree, &marking, &groups, pool, error);
 }

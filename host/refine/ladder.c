@@ -77,13 +77,13 @@ typedef struct {
     uint32_t first;   // index of the first of these samples
     uint32_t samples; // per request
     uint32_t requests;
-} Step;
+} RungSamples;
 
-static Step step_from(uint32_t rung)
+static RungSamples samples_from(uint32_t rung)
 {
     const uint32_t first = rung == 0 ? 0 : ladder_samples[rung];
     const uint32_t samples = first < REQUEST_SAMPLES ? FIRST_SAMPLES : REQUEST_SAMPLES;
-    return (Step){first, samples, (ladder_samples[rung + 1] - first) / samples};
+    return (RungSamples){first, samples, (ladder_samples[rung + 1] - first) / samples};
 }
 
 static void list_pixel(Ladder *ladder, uint32_t pixel)
@@ -92,10 +92,10 @@ static void list_pixel(Ladder *ladder, uint32_t pixel)
     const uint32_t width = ladder->picture->width;
     const uint32_t place[2] = {pixel % width, pixel / width};
     const uint64_t hash = ladder_hash(pixel, SCRAMBLE_SEED);
-    const Step step = step_from(rung_of(ladder, pixel));
-    for (uint32_t i = 0; i < step.requests; i++)
+    const RungSamples next = samples_from(rung_of(ladder, pixel));
+    for (uint32_t i = 0; i < next.requests; i++)
         requests->requests[requests->count++] =
-            pixel_request(place, step.first + i * step.samples, step.samples, hash);
+            pixel_request(place, next.first + i * next.samples, next.samples, hash);
 }
 
 static double mean_square_change(const float before[3], const float after[3])
@@ -139,7 +139,7 @@ static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Erro
     PixelSums *sums = sums_of(ladder, pixel, error);
     if (sums == NULL)
         return false;
-    for (uint32_t i = 0; i < step_from(rung).requests; i++)
+    for (uint32_t i = 0; i < samples_from(rung).requests; i++)
         pixel_sums_add(sums, &answers[i]);
     memcpy(before, color, sizeof before);
     pixel_sums_mean(sums, samples, color);
@@ -158,10 +158,10 @@ static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Erro
     const PixelSums *answers = requests->sums;
     bool ok = pixel_requests_trace(requests, error);
     for (size_t i = 0; i < count && ok && pixel_requests_are_whole(requests); i++) {
-        const Step step = step_from(rung_of(ladder, pixels[i]));
+        const RungSamples next = samples_from(rung_of(ladder, pixels[i]));
         ok = climb(ladder, pixels[i], answers, error);
-        answers += step.requests;
-        ladder->samples += step.requests * step.samples;
+        answers += next.requests;
+        ladder->samples += next.requests * next.samples;
     }
     requests->count = 0;
     return ok;
@@ -169,7 +169,7 @@ static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Erro
 
 static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count, Error *error)
 {
-    const uint32_t most = step_from(LADDER_RUNGS - 2).requests;
+    const uint32_t most = samples_from(LADDER_RUNGS - 2).requests;
     size_t listed = 0;
     for (uint64_t i = 0; i < count; i++) {
         list_pixel(ladder, pixels[i]);
@@ -194,7 +194,7 @@ static bool part_list(const Ladder *ladder, uint32_t *pixels, uint64_t count, ui
     uint64_t laters = 0;
     *first = 0;
     for (uint64_t i = 0; i < count && later != NULL; i++)
-        if (step_from(rung_of(ladder, pixels[i])).samples == FIRST_SAMPLES)
+        if (samples_from(rung_of(ladder, pixels[i])).samples == FIRST_SAMPLES)
             pixels[(*first)++] = pixels[i];
         else
             later[laters++] = pixels[i];

@@ -51,15 +51,15 @@ typedef struct {
     ARRAY(PixelRun) runs;       // of all pixels with pairs
     uint32_t level;             // the level that is being searched
     _Atomic uint64_t cuts;      // cells added at this level
-} Search;
+} ThinSearch;
 
-static uint32_t triangle_at(const Search *search, uint32_t place)
+static uint32_t triangle_at(const ThinSearch *search, uint32_t place)
 {
     const uint32_t *order = search->pieces.order;
     return order == NULL ? search->first + place : order[search->first + place];
 }
 
-static CellGrid pixels_of(const Search *search)
+static CellGrid pixels_of(const ThinSearch *search)
 {
     const ThinParts *parts = search->parts;
     return (CellGrid){REFINE_GRID, 1.0 / REFINE_GRID, {parts->width, parts->height}, {0, 0}};
@@ -68,7 +68,7 @@ static CellGrid pixels_of(const Search *search)
 // Records the pixels whose samples the triangles contain.
 static void cover_pixels(void *context, uint32_t first, uint32_t end)
 {
-    const Search *search = context;
+    const ThinSearch *search = context;
     const CellGrid grid = pixels_of(search);
     for (uint32_t i = first; i < end; i++) {
         Outline outline;
@@ -84,7 +84,7 @@ static void cover_pixels(void *context, uint32_t first, uint32_t end)
     }
 }
 
-static bool is_covered(const Search *search, uint32_t column, uint32_t row)
+static bool is_covered(const ThinSearch *search, uint32_t column, uint32_t row)
 {
     const ThinParts *parts = search->parts;
     return column < parts->width && row < parts->height &&
@@ -93,7 +93,7 @@ static bool is_covered(const Search *search, uint32_t column, uint32_t row)
 }
 
 // Returns whether the piece is wide at a pixel. Along each axis, tests near corners first.
-static bool is_wide(const Search *search, uint32_t column, uint32_t row)
+static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
 {
     static const int steps[4] = {-1, 0, -2, 1};
     for (int i = 0; i < 16; i++) {
@@ -106,13 +106,13 @@ static bool is_wide(const Search *search, uint32_t column, uint32_t row)
 }
 
 // Computes the outline of a triangle that is thin at level 0. Returns false for other triangles.
-static bool thin_outline(const Search *search, uint32_t triangle, Outline *outline)
+static bool thin_outline(const ThinSearch *search, uint32_t triangle, Outline *outline)
 {
     return projection_outline(&search->projection, triangle, outline) && thin_at_level(outline, 0);
 }
 
 // Lists the pixels in which a triangle makes the piece thin, once per piece, and counts the pairs.
-static bool list_touched(Search *search, uint32_t triangle, PairList *list)
+static bool list_touched(ThinSearch *search, uint32_t triangle, PairList *list)
 {
     const CellGrid grid = pixels_of(search);
     Outline outline;
@@ -138,7 +138,7 @@ static bool list_touched(Search *search, uint32_t triangle, PairList *list)
 }
 
 // Lists the triangle for each thin pixel whose area or margin it touches.
-static bool list_near(Search *search, uint32_t triangle, PairList *list)
+static bool list_near(ThinSearch *search, uint32_t triangle, PairList *list)
 {
     const double reach = MARGIN * (double)refine_tree_cell_side(1);
     const CellGrid grid = pixels_of(search);
@@ -161,7 +161,7 @@ static bool list_near(Search *search, uint32_t triangle, PairList *list)
 
 static void list_all_touched(void *context, uint32_t first, uint32_t end)
 {
-    Search *search = context;
+    ThinSearch *search = context;
     PairList *list = &search->lists[first / TRIANGLES_OF_TASK];
     for (uint32_t i = first; i < end; i++)
         if (!list_touched(search, triangle_at(search, i), list))
@@ -170,14 +170,14 @@ static void list_all_touched(void *context, uint32_t first, uint32_t end)
 
 static void list_all_near(void *context, uint32_t first, uint32_t end)
 {
-    Search *search = context;
+    ThinSearch *search = context;
     PairList *list = &search->lists[first / TRIANGLES_OF_TASK];
     for (uint32_t i = first; i < end; i++)
         if (!list_near(search, triangle_at(search, i), list))
             return;
 }
 
-static bool append_list(Search *search, const PairList *list, Error *error)
+static bool append_list(ThinSearch *search, const PairList *list, Error *error)
 {
     if (list->error.text[0] != '\0')
         return error_set(error, "%s", list->error.text);
@@ -195,7 +195,7 @@ static int compare_pixels(const void *a, const void *b)
 }
 
 // Runs `list` on all triangles of the piece, and collects the pairs.
-static bool collect(Search *search, ThreadPoolPart *list, Error *error)
+static bool collect(ThinSearch *search, ThreadPoolPart *list, Error *error)
 {
     const uint32_t tasks = range_count(search->count, TRIANGLES_OF_TASK);
     search->lists = memory_zeroed(tasks, sizeof *search->lists, error);
@@ -212,7 +212,7 @@ static bool collect(Search *search, ThreadPoolPart *list, Error *error)
 }
 
 // Sorts the pairs into runs of one pixel each.
-static bool find_runs(Search *search, Error *error)
+static bool find_runs(ThinSearch *search, Error *error)
 {
     const PixelTriangle *pairs = search->pairs.data;
     const uint32_t count = (uint32_t)search->pairs.count;
@@ -247,7 +247,7 @@ static bool any_cell(const uint32_t *rows, uint32_t count)
 }
 
 // Adds the cells of one pixel.
-static void search_pixel(Search *search, uint32_t run)
+static void search_pixel(ThinSearch *search, uint32_t run)
 {
     const uint32_t level = search->level, scale = thin_parts_scale(level);
     const PixelRun *pairs = &search->runs.data[run];
@@ -276,7 +276,7 @@ static void search_pixels(void *context, uint32_t first, uint32_t end)
 }
 
 // Adds the pixels in which the piece is thin.
-static bool add_pixels(Search *search, Error *error)
+static bool add_pixels(ThinSearch *search, Error *error)
 {
     ThinParts *parts = search->parts;
     search->nearby = 0;
@@ -292,7 +292,7 @@ static bool add_pixels(Search *search, Error *error)
 }
 
 // Searches the thin pixels for smaller cells.
-static bool add_cells(Search *search, Error *error)
+static bool add_cells(ThinSearch *search, Error *error)
 {
     ThinParts *parts = search->parts;
     bool ok = collect(search, list_all_near, error) && find_runs(search, error);
@@ -313,7 +313,7 @@ static uint64_t most_pairs(const ThinParts *parts)
     return most > PAIRS_MOST ? most : PAIRS_MOST;
 }
 
-static bool search_piece(Search *search, uint32_t end, Error *error)
+static bool search_piece(ThinSearch *search, uint32_t end, Error *error)
 {
     const uint64_t most = most_pairs(search->parts);
     search->count = end - search->first;
@@ -326,7 +326,7 @@ static bool search_piece(Search *search, uint32_t end, Error *error)
     return ok;
 }
 
-static bool search_mesh(Search *search, const MeshObject *object, Error *error)
+static bool search_mesh(ThinSearch *search, const MeshObject *object, Error *error)
 {
     const ThinSource *source = search->source;
     search->pieces = (MeshPieces){0};
@@ -342,9 +342,9 @@ static bool search_mesh(Search *search, const MeshObject *object, Error *error)
 
 bool thin_triangles_find(ThinParts *parts, const ThinSource *source, Error *error)
 {
-    Search search = {.parts = parts,
-                     .source = source,
-                     .projection = projection_of(source->frame, source->normalization)};
+    ThinSearch search = {.parts = parts,
+                         .source = source,
+                         .projection = projection_of(source->frame, source->normalization)};
     const size_t pixels = (size_t)parts->width * parts->height;
     search.covered = memory_zeroed(pixels, sizeof *search.covered, error);
     search.touched = memory_zeroed(pixels, sizeof *search.touched, error);

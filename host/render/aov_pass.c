@@ -29,11 +29,11 @@ static uint32_t certainty_at(const AovPass *pass, uint32_t x, uint32_t y)
 typedef struct {
     const AovPass *pass;
     Layers *layers;
-} Target;
+} PassTarget;
 
 static void take_paths(void *context, const Tile *tile, void *const values[2])
 {
-    const Target *target = context;
+    const PassTarget *target = context;
     const AovPass *pass = target->pass;
     const PathData *paths = values[0];
     for (uint32_t row = 0; row < tile->height; row++)
@@ -47,7 +47,7 @@ static void take_paths(void *context, const Tile *tile, void *const values[2])
 
 static void take_tests(void *context, const Tile *tile, void *const values[2])
 {
-    const Target *target = context;
+    const PassTarget *target = context;
     const uint32_t(*tests)[TALLY_KINDS] = values[0];
     for (uint32_t row = 0; row < tile->height; row++)
         for (uint32_t column = 0; column < tile->width; column++)
@@ -56,7 +56,7 @@ static void take_tests(void *context, const Tile *tile, void *const values[2])
                            tests[(size_t)row * tile->width + column]);
 }
 
-static bool draw_paths(Target *target, const RenderObserver *observer, RenderProgress *progress,
+static bool draw_paths(PassTarget *target, const RenderObserver *observer, RenderProgress *progress,
                        Error *error)
 {
     const AovPass *pass = target->pass;
@@ -69,7 +69,7 @@ static bool draw_paths(Target *target, const RenderObserver *observer, RenderPro
     return tile_pass_run(&paths, &pass->paths, observer, progress, error);
 }
 
-static bool draw_tests(Target *target, const RenderObserver *observer, RenderProgress *progress,
+static bool draw_tests(PassTarget *target, const RenderObserver *observer, RenderProgress *progress,
                        Error *error)
 {
     const AovPass *pass = target->pass;
@@ -87,7 +87,7 @@ bool aov_pass_draw(const AovPass *pass, const RenderObserver *observer, Layers *
                    Error *error)
 {
     const uint64_t tiles = tile_count(&pass->paths.settings);
-    Target target = {pass, layers};
+    PassTarget target = {pass, layers};
     RenderProgress progress = {.tiles = pass->tests != NULL ? 2 * tiles : tiles};
     return draw_paths(&target, observer, &progress, error) &&
            (pass->tests == NULL || progress.tiles_done < tiles ||

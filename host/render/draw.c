@@ -172,11 +172,11 @@ const KernelEntry draw_entry = {.name = "render_tile", .first_run = draw_first_r
 typedef struct {
     Renderer *renderer;
     Framebuffer *framebuffer;
-} Drawing;
+} TileDrawing;
 
 static void take_tile(void *context, const Tile *tile, void *const values[2])
 {
-    const Drawing *drawing = context;
+    const TileDrawing *drawing = context;
     RenderProgress *progress = &drawing->renderer->progress;
     const float(*colors)[3] = values[0];
     const uint(*tallies)[TALLY_KINDS] = values[1];
@@ -206,7 +206,7 @@ bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObs
     if (!check_size(renderer, framebuffer, error))
         return false;
     const bool counts = renderer->kernel->traits.statistics;
-    Drawing drawing = {renderer, framebuffer};
+    TileDrawing drawing = {renderer, framebuffer};
     const TilePass pass = {.frame = renderer_frame(renderer, camera),
                            .outputs = 2,
                            .sizes = {sizeof(float[3]), counts ? sizeof(uint[TALLY_KINDS]) : 0},

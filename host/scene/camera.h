@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Converts a Viewpoint to CameraData: the origin of a picture's rays and the steps between their
-// directions, in the normalized frame. Also turns viewpoints, as on a turntable.
+// directions, in normalized coordinates. Also turns viewpoints, as on a turntable.
 #pragma once
 
 #include "scene/normalize.h"

@@ -18,9 +18,9 @@
 
 typedef struct {
     double low[3], high[3];
-} Box;
+} MeshBox;
 
-static void extend(Box *box, const double *point)
+static void extend(MeshBox *box, const double *point)
 {
     for (int axis = 0; axis < 3; axis++) {
         if (point[axis] < box->low[axis])
@@ -32,9 +32,9 @@ static void extend(Box *box, const double *point)
 
 // Returns the bounding box of the corners whose coordinate on the axis is at most `most`. Ignores
 // triangles with fewer than `least` such corners.
-static Box box_below(const Scene *scene, int axis, double most, int least)
+static MeshBox box_below(const Scene *scene, int axis, double most, int least)
 {
-    Box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    MeshBox box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t i = 0; i < scene->objects.count; i++) {
         const Mesh *mesh = &scene->objects.data[i].mesh;
         for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
@@ -50,12 +50,12 @@ static Box box_below(const Scene *scene, int axis, double most, int least)
     return box;
 }
 
-static bool stands(const Scene *scene, const Box *body, int up, int least)
+static bool stands(const Scene *scene, const MeshBox *body, int up, int least)
 {
     double extent = 0;
     for (int axis = 0; axis < 3; axis++)
         extent = fmax(extent, body->high[axis] - body->low[axis]);
-    const Box base = box_below(scene, up, body->low[up] + TOUCH * extent, least);
+    const MeshBox base = box_below(scene, up, body->low[up] + TOUCH * extent, least);
     for (int axis = 0; axis < 3; axis++) {
         const double center = (body->low[axis] + body->high[axis]) / 2;
         if (axis != up && fmin(center - base.low[axis], base.high[axis] - center) < MARGIN * extent)
@@ -70,7 +70,7 @@ static bool stands(const Scene *scene, const Box *body, int up, int least)
 // stand with the other axis up. With y up instead of z, they must stand on a flat base.
 static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 {
-    const Box body = box_below(scene, 0, INFINITY, 0);
+    const MeshBox body = box_below(scene, 0, INFINITY, 0);
     const bool stands_on_y = stands(scene, &body, 1, usual == UP_Y ? 1 : 3);
     const bool stands_on_z = stands(scene, &body, 2, 1);
     if (usual == UP_Y)
@@ -94,34 +94,35 @@ static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 typedef struct {
     Mesh mesh; // borrowed
     Vec3 low, high;
-} Run;
+} TriangleRun;
 
 typedef struct {
-    ARRAY(Run) runs;
+    ARRAY(TriangleRun) runs;
     Vec3 center;
     double distance;
-} Frame;
+} Framing;
 
-static bool add_runs(Frame *frame, const Mesh *mesh, Error *error)
+static bool add_runs(Framing *framing, const Mesh *mesh, Error *error)
 {
     for (size_t first = 0; first < mesh->triangle_count; first += RUN_TRIANGLES) {
         const size_t rest = mesh->triangle_count - first;
-        Run run = {*mesh, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+        TriangleRun run = {
+            *mesh, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
         run.mesh.triangles += first;
         run.mesh.triangle_count = rest < RUN_TRIANGLES ? rest : RUN_TRIANGLES;
         mesh_add_bounds(&run.mesh, &run.low, &run.high);
-        if (!array_push(&frame->runs, run, error))
+        if (!array_push(&framing->runs, run, error))
             return false;
     }
     return true;
 }
 
-static Vec3 farthest(const Frame *frame, Vec3 d)
+static Vec3 farthest(const Framing *framing, Vec3 d)
 {
-    Vec3 found = frame->center;
+    Vec3 found = framing->center;
     double most = -INFINITY;
-    for (size_t i = 0; i < frame->runs.count; i++) {
-        const Run *run = &frame->runs.data[i];
+    for (size_t i = 0; i < framing->runs.count; i++) {
+        const TriangleRun *run = &framing->runs.data[i];
         if (fmax(d.x * run->low.x, d.x * run->high.x) + fmax(d.y * run->low.y, d.y * run->high.y) +
                 fmax(d.z * run->low.z, d.z * run->high.z) <=
             most)
@@ -135,22 +136,22 @@ static Vec3 farthest(const Frame *frame, Vec3 d)
             }
         }
     }
-    return vec3_sub(found, frame->center);
+    return vec3_sub(found, framing->center);
 }
 
 // Returns the slope of the two planes through the eye that enclose the meshes along an axis. Stores
 // the eye's coordinate on the axis in *middle. The gap between the planes and the meshes is a
 // convex, piecewise linear function of the slope, so Newton's method ends after few steps.
-static double touch(const Frame *frame, Vec3 axis, Vec3 back, double *middle)
+static double touch(const Framing *framing, Vec3 axis, Vec3 back, double *middle)
 {
     double slope = -1, next = 0;
     for (int step = 0; step < MOST_STEPS && next != slope; step++) {
         slope = next;
         const Vec3 inward = vec3_scale(back, slope);
-        const Vec3 high = farthest(frame, vec3_add(inward, axis));
-        const Vec3 low = farthest(frame, vec3_sub(inward, axis));
-        const double above = frame->distance - vec3_dot(high, back);
-        const double below = frame->distance - vec3_dot(low, back);
+        const Vec3 high = farthest(framing, vec3_add(inward, axis));
+        const Vec3 low = farthest(framing, vec3_sub(inward, axis));
+        const double above = framing->distance - vec3_dot(high, back);
+        const double below = framing->distance - vec3_dot(low, back);
         next = (vec3_dot(high, axis) - vec3_dot(low, axis)) / (above + below);
         *middle = vec3_dot(high, axis) - next * above;
     }
@@ -170,14 +171,14 @@ static double field_of_view(double slope)
 }
 
 // back points from the meshes to the eye.
-static Viewpoint view_from(const Frame *frame, Vec3 back, Vec3 up)
+static Viewpoint view_from(const Framing *framing, Vec3 back, Vec3 up)
 {
     double right, top;
     const Vec3 x = vec3_normalize(vec3_cross(up, back)), y = vec3_cross(back, x);
-    const double width = touch(frame, x, back, &right), height = touch(frame, y, back, &top);
+    const double width = touch(framing, x, back, &right), height = touch(framing, y, back, &top);
     const Vec3 aside = vec3_add(vec3_scale(x, right), vec3_scale(y, top));
-    const Vec3 look_at = vec3_add(frame->center, aside);
-    return (Viewpoint){.eye = vec3_add(look_at, vec3_scale(back, frame->distance)),
+    const Vec3 look_at = vec3_add(framing->center, aside);
+    return (Viewpoint){.eye = vec3_add(look_at, vec3_scale(back, framing->distance)),
                        .look_at = look_at,
                        .up = up,
                        .fov_degrees = field_of_view(height),
@@ -191,16 +192,16 @@ static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error
 {
     static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},
                                            {0, 1, 0},    {-1, 0, 0}, {0, 0, 1}};
-    Frame frame = {.center = center, .distance = DISTANCE * radius};
+    Framing framing = {.center = center, .distance = DISTANCE * radius};
     bool ok = true;
     for (size_t i = 0; ok && i < scene->objects.count; i++)
-        ok = add_runs(&frame, &scene->objects.data[i].mesh, error);
+        ok = add_runs(&framing, &scene->objects.data[i].mesh, error);
     for (int view = 0; ok && view < VIEWS; view++) {
         const Vec3 up = view == VIEWS - 1 ? vec3(0, 1, 0) : vec3(0, 0, 1);
-        const Viewpoint viewpoint = view_from(&frame, vec3_normalize(directions[view]), up);
+        const Viewpoint viewpoint = view_from(&framing, vec3_normalize(directions[view]), up);
         ok = array_push(&scene->viewpoints, viewpoint, error);
     }
-    free(frame.runs.memory);
+    free(framing.runs.memory);
     return ok;
 }
 

@@ -7,17 +7,17 @@
 
 typedef struct {
     Vec3 low, high;
-} Bounds;
+} SceneBox;
 
-static void bounds_add(Bounds *bounds, Vec3 point)
+static void bounds_add(SceneBox *bounds, Vec3 point)
 {
     bounds->low = vec3_lower(bounds->low, point);
     bounds->high = vec3_upper(bounds->high, point);
 }
 
-static Bounds bounds_of(const Scene *scene)
+static SceneBox bounds_of(const Scene *scene)
 {
-    Bounds bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    SceneBox bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t i = 0; i < scene->objects.count; i++)
         mesh_add_bounds(&scene->objects.data[i].mesh, &bounds.low, &bounds.high);
     if (scene_triangle_count(scene) > 0)
@@ -32,20 +32,20 @@ static Bounds bounds_of(const Scene *scene)
 }
 
 // Returns a negative number for a scene without objects.
-static double extent_of(const Bounds *bounds)
+static double extent_of(const SceneBox *bounds)
 {
     return bounds->low.x <= bounds->high.x ? vec3_extent(vec3_sub(bounds->high, bounds->low)) : -1;
 }
 
 double scene_extent(const Scene *scene)
 {
-    const Bounds bounds = bounds_of(scene);
+    const SceneBox bounds = bounds_of(scene);
     return extent_of(&bounds);
 }
 
 Normalization normalization_of(const Scene *scene)
 {
-    const Bounds bounds = bounds_of(scene);
+    const SceneBox bounds = bounds_of(scene);
     const double extent = extent_of(&bounds);
     if (extent < 0)
         return (Normalization){{0, 0, 0}, 1};

@@ -22,7 +22,7 @@ typedef struct {
     ThreadPool *pool; // for refining
     Framebuffer *framebuffer;
     PictureResult *result;
-} Drawing;
+} PictureDrawing;
 
 const KernelEntry *picture_entry(const PictureGoal *goal)
 {
@@ -67,7 +67,7 @@ static void count_tree(uint32_t *samples, const RefineTree *tree)
             samples[(size_t)y * tree->width + x] = refine_tree_count(tree, x, y);
 }
 
-static bool draw_adaptively(Drawing *drawing, Error *error)
+static bool draw_adaptively(PictureDrawing *drawing, Error *error)
 {
     Adaptive adaptive;
     const Session *session = drawing->session;
@@ -102,7 +102,7 @@ static bool refine(const PictureGoal *goal, Ladder *ladder, double start, GoalOu
     return left <= 0 || goal_reach_error(ladder, sqrt(left), outcome, error);
 }
 
-static bool draw_for_goal(Drawing *drawing, Error *error)
+static bool draw_for_goal(PictureDrawing *drawing, Error *error)
 {
     Ladder ladder;
     GoalOutcome outcome = {0};
@@ -132,7 +132,7 @@ static bool draw_for_goal(Drawing *drawing, Error *error)
     return ok;
 }
 
-static bool draw_refined(Drawing *drawing, Error *error)
+static bool draw_refined(PictureDrawing *drawing, Error *error)
 {
     const RenderSettings *settings = &drawing->request->settings;
     PictureResult *result = drawing->result;
@@ -149,7 +149,7 @@ static bool draw_refined(Drawing *drawing, Error *error)
     return ok;
 }
 
-static bool draw_evenly(Drawing *drawing, Error *error)
+static bool draw_evenly(PictureDrawing *drawing, Error *error)
 {
     const RenderSettings *settings = &drawing->request->settings;
     PictureResult *result = drawing->result;
@@ -170,11 +170,11 @@ static bool draw_evenly(Drawing *drawing, Error *error)
 bool session_draw(Session *session, const SessionPicture *request, const RenderObserver *observer,
                   Framebuffer *framebuffer, PictureResult *result, Error *error)
 {
-    Drawing drawing = {.session = session,
-                       .request = request,
-                       .observer = observer,
-                       .framebuffer = framebuffer,
-                       .result = result};
+    PictureDrawing drawing = {.session = session,
+                              .request = request,
+                              .observer = observer,
+                              .framebuffer = framebuffer,
+                              .result = result};
     if (!open_renderer(session, request, &drawing.renderer, result, error))
         return false;
     drawing.form = session_own_form(session, error);

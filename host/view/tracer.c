@@ -3,32 +3,32 @@
 // failure.
 #include "view/tracer.h"
 
-bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error)
+bool tracer_open(ViewTracer *tracer, const TracerOptions *options, Error *error)
 {
-    *tracer = (Tracer){.options = options,
-                       .session = {.settings = options->session, .cache = options->cache}};
+    *tracer = (ViewTracer){.options = options,
+                           .session = {.settings = options->session, .cache = options->cache}};
     return session_open(&tracer->session, error);
 }
 
-void tracer_close(Tracer *tracer)
+void tracer_close(ViewTracer *tracer)
 {
     session_close(&tracer->session);
     model_release(tracer->model);
-    *tracer = (Tracer){0};
+    *tracer = (ViewTracer){0};
 }
 
-BvhSettings tracer_tree(const Tracer *tracer)
+BvhSettings tracer_tree(const ViewTracer *tracer)
 {
     return session_tree(&tracer->session);
 }
 
 // Compiles the scene and the kernels for the next pass.
-static bool prepare(Tracer *tracer, Error *error)
+static bool prepare(ViewTracer *tracer, Error *error)
 {
     return session_prepare(&tracer->session, &(SessionPicture){0}, &tracer->drawn, error);
 }
 
-bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error)
+bool tracer_take(ViewTracer *tracer, Model *model, bool uses_bvh, Error *error)
 {
     Session *session = &tracer->session;
     SessionScene before = session->scene;
@@ -49,7 +49,7 @@ bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error)
     return true;
 }
 
-bool tracer_renew(Tracer *tracer, Error *error)
+bool tracer_renew(ViewTracer *tracer, Error *error)
 {
     KernelSet before = tracer->session.kernels;
     tracer->session.kernels = (KernelSet){.source = before.source};
@@ -60,7 +60,7 @@ bool tracer_renew(Tracer *tracer, Error *error)
     return ok;
 }
 
-RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass)
+RenderSettings tracer_settings(const ViewTracer *tracer, const Pass *pass)
 {
     const int32_t level = tracer->options->max_level;
     const uint32_t given = level == CLRT_LEVEL_NONE ? 0 : (uint32_t)level;
@@ -72,7 +72,7 @@ RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass)
                             .tile_height = pass->tile};
 }
 
-bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observer,
+bool tracer_draw(ViewTracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error)
 {
     const SessionPicture request = {.settings = tracer_settings(tracer, shot->pass),
@@ -81,7 +81,7 @@ bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observe
     return session_draw(&tracer->session, &request, observer, framebuffer, &tracer->drawn, error);
 }
 
-bool tracer_explain(Tracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
+bool tracer_explain(ViewTracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
                     Error *error)
 {
     Explainer explainer;

@@ -18,23 +18,23 @@ typedef struct {
     Session session;
     Model *model;        // the current model, with a reference; may be NULL
     PictureResult drawn; // the latest picture
-} Tracer;
+} ViewTracer;
 
 // Opens the device. The options must outlive the tracer. The caller closes the tracer, even after a
 // failure.
-bool tracer_open(Tracer *tracer, const TracerOptions *options, Error *error);
-void tracer_close(Tracer *tracer);
+bool tracer_open(ViewTracer *tracer, const TracerOptions *options, Error *error);
+void tracer_close(ViewTracer *tracer);
 
 // Returns the settings for trees that suit the device.
-BvhSettings tracer_tree(const Tracer *tracer);
+BvhSettings tracer_tree(const ViewTracer *tracer);
 
 // Switches to the model, to be traced with its tree or by brute force. On failure, the tracer keeps
 // the previous model.
-bool tracer_take(Tracer *tracer, Model *model, bool uses_bvh, Error *error);
+bool tracer_take(ViewTracer *tracer, Model *model, bool uses_bvh, Error *error);
 
 // Compiles the kernels again from the kernel folder. On failure, the tracer keeps the previous
 // kernels.
-bool tracer_renew(Tracer *tracer, Error *error);
+bool tracer_renew(ViewTracer *tracer, Error *error);
 
 // A picture to draw: a camera and a pass.
 typedef struct {
@@ -43,13 +43,13 @@ typedef struct {
 } Shot;
 
 // Returns the settings of a pass's picture.
-RenderSettings tracer_settings(const Tracer *tracer, const Pass *pass);
+RenderSettings tracer_settings(const ViewTracer *tracer, const Pass *pass);
 
 // Draws the shot into framebuffer until the observer returns false. framebuffer must have the size
 // of tracer_settings.
-bool tracer_draw(Tracer *tracer, const Shot *shot, const RenderObserver *observer,
+bool tracer_draw(ViewTracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error);
 
 // Writes the explanation of a pixel of the shot. head provides pixel, encoding and is_brief.
-bool tracer_explain(Tracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
+bool tracer_explain(ViewTracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
                     Error *error);

@@ -14,7 +14,7 @@ struct Worker {
     Model *model;
     bool stops;
     // Only the worker thread uses the members below.
-    Tracer tracer;
+    ViewTracer tracer;
     double sample_seconds; // tracing time per sample
     bool has_measured;     // sample_seconds is measured, not guessed
     double woken;          // clock time of the latest status update

@@ -10,18 +10,18 @@
 typedef struct {
     float position[3];
     float normal[3]; // zero for none
-} Vertex;
+} DrawnVertex;
 
 bool triangle_view_open(Drawing *view, Error *error)
 {
     static const DrawingLayout layout = {shader_triangles,
-                                         {sizeof(Vertex), 0},
-                                         {{"position", 0, 3, offsetof(Vertex, position)},
-                                          {"normal", 0, 3, offsetof(Vertex, normal)}}};
+                                         {sizeof(DrawnVertex), 0},
+                                         {{"position", 0, 3, offsetof(DrawnVertex, position)},
+                                          {"normal", 0, 3, offsetof(DrawnVertex, normal)}}};
     return drawing_open(view, &layout, error);
 }
 
-static void store_vertex(Vertex *vertex, const float point[4], const float *normal)
+static void store_vertex(DrawnVertex *vertex, const float point[4], const float *normal)
 {
     for (int axis = 0; axis < 3; axis++)
         vertex->position[axis] = point[axis];
@@ -29,7 +29,7 @@ static void store_vertex(Vertex *vertex, const float point[4], const float *norm
                normal == NULL ? vec3(0, 0, 0) : vec3_normalize(vec3_of_floats(normal)));
 }
 
-static void store_vertices(Vertex *vertices, const Model *model)
+static void store_vertices(DrawnVertex *vertices, const Model *model)
 {
     size_t place = 0;
     for (size_t i = 0; i < model->scene.objects.count; i++) {
@@ -43,7 +43,7 @@ static void store_vertices(Vertex *vertices, const Model *model)
 bool triangle_view_load(const Drawing *view, const Model *model, Error *error)
 {
     const Triangles *triangles = &model->stages.triangles;
-    Vertex *vertices = memory_raw(triangles->point_count, sizeof *vertices, error);
+    DrawnVertex *vertices = memory_raw(triangles->point_count, sizeof *vertices, error);
     if (vertices == NULL)
         return false;
     store_vertices(vertices, model);

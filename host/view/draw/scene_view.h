@@ -53,7 +53,7 @@ uint32_t boxes_levels(const Bvh *bvh);
 bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t level, Error *error);
 void boxes_free(Boxes *boxes);
 
-// Fills an empty array with the normals of a model, as lines from low to high in the normalized
-// frame. The lines start at the vertices of smooth objects, and at the centers of the triangles of
-// other objects. The caller frees the array, also after a failure.
+// Fills an empty array with the normals of a model, as lines from low to high in normalized
+// coordinates. The lines start at the vertices of smooth objects, and at the centers of the
+// triangles of other objects. The caller frees the array, also after a failure.
 bool normals_make(Boxes *lines, const Model *model, Error *error);

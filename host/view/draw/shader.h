@@ -80,8 +80,8 @@ void light_store_material(float vectors[3][4], const Material *material);
 
 // The camera of the rays -> the projection with which OpenGL draws the same picture.
 typedef struct {
-    CameraData camera; // in the normalized frame; a step is half a pixel
-    Vec3 eye;          // in the normalized frame, in fp64
+    CameraData camera; // in normalized coordinates; a step is half a pixel
+    Vec3 eye;          // in normalized coordinates, in fp64
     float clip_x[3], clip_y[3];
     float width, height; // of the picture, in pixels
     float nearest;       // smaller distances all have depth 0
