@@ -172,7 +172,7 @@ class Frames(Work):
         many = "--frames and --turntable draw many pictures, and "
         for words, sentence in (
             (["-o", "-"], many + "standard output takes one: give -o FILE"),
-            (["-o", "a.pfm", "--json=a.json"], many + "--json describes one"),
+            (["-o", "a.pfm", "--json=a.json"], "--frames and --json exclude each other: give one"),
             (["-o", "a.pfm", "--reference=b.pfm"], many + "--reference=FILE holds one"),
             (["-o", "a.pfm", "--hash=" + 32 * "0"], many + "--hash=EXPECTED describes one"),
             (["-o", "a.pfm", "--turntable", "1"], "--turntable 1 has no picture 2"),

@@ -12,6 +12,7 @@ const Exclusion exclusion_table[] = {
     {{"crop", "part", "tune tile"}, {REFINES}},
     {{"part"}, {"reference", "reference-samples", "no-metadata"}},
     {{"resume"}, {"repeat"}},
+    {{"frames", "turntable"}, {"json"}},
     {{"quiet", "verbose"}, {NULL}},
 };
 const size_t exclusion_count = sizeof exclusion_table / sizeof exclusion_table[0];
@@ -193,7 +194,6 @@ static bool check_frames(Options *options, Error *error)
     const Frames *frames = &options->frames;
     const Rule rules[] = {
         {is_standard_output(options->output_path), MANY "standard output takes one: give -o FILE"},
-        {options->json_path != NULL, MANY "--json describes one"},
         {options->expected_hash != NULL, MANY "--hash=EXPECTED describes one"},
         {options->reference_path != NULL, MANY "--reference=FILE holds one"},
         {options->resume && frames->is_film,
