@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Groups the rays of a work-item into beams. Bounds cull only if directions share their signs, so
 // the rays of each octant form a beam of their own. Rays from partly filled packets are collected
-// in full packets, and their hits move back to the original lanes.
+// in full packets, and their hits move back to the original lanes (compare Boulos et al., "Packet-
+// based Whitted and distribution ray tracing", 2007).
+//
+// Camera rays fill their packets. After a reflection or at the edge of a shadow, only some lanes of
+// a packet are active, and neighbors may point into different octants. A packet costs as much with
+// one active lane as with all of them.
+//
+// Invariant: a ray's hit does not depend on the rays beside it, because beams only cull, and every
+// lane accepts triangles by the same operations. Grouping therefore changes no bit of the picture.
 #ifndef CLRT_REGROUP_CL
 #define CLRT_REGROUP_CL
 #include "beam.cl"

@@ -2,6 +2,12 @@
 // Mesh -> rays toward its edges and points. The target of a ray is called an aim. In a closed mesh,
 // the ray must hit a triangle there or earlier. The first rays start at eyes, which are a few
 // positions around the mesh. Aims without a ray, or hidden from their eye, get a ray from nearby.
+//
+// Rays between two triangles are the ones that rounding can lose. Random rays almost never pass so
+// close to an edge, so the check aims at the edges and points themselves.
+//
+// Invariant: a ray is cast only if every triangle around its aim faces the origin clearly enough
+// that rounding cannot carry the ray past them. A miss is therefore a leak, never an accident.
 #pragma once
 
 #include "mesh/edges.h"

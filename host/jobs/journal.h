@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A journal is a file of checksummed records. A long job appends its results, and a later run
-// resumes from them. Reading stops at the first damaged record, and journal_claim drops the rest.
+// resumes from them, as a database recovers from its log (Gray and Reuter, "Transaction
+// processing", 1993). The file's head holds a key. A run with other settings has another key, and
+// cannot resume.
+//
+// Each record has its number, its size and a checksum. Reading stops at the first record that does
+// not match, because a killed process may leave part of a record. journal_claim drops the rest.
+//
+// Two processes must not append to one journal. A lock prevents this on one machine, but not on
+// every network file system. journal_claim therefore moves the records into a new file under the
+// same name. A process that still has the old file can append to it without harm.
+//
+// Invariant: all records before the first damaged one are whole and in the order of the calls.
 #pragma once
 
 #include "base/error.h"

@@ -2,6 +2,14 @@
 // Merges vertices at equal positions into points, because rays cannot distinguish such vertices.
 // Finds the edges between points and each edge's triangles, and joins corners of triangles into
 // fans.
+//
+// A file's vertices say little about a surface: STL repeats each vertex for each triangle, and
+// other files repeat vertices along texture seams. Equal positions are therefore one point. An edge
+// is a pair of points, and may have any number of triangles. A fan is a set of triangles around a
+// point that are connected across edges.
+//
+// Invariant: points, edges and fans are numbered by the lowest vertex or corner, so results do not
+// depend on hashing or sorting.
 #pragma once
 
 #include "base/error.h"

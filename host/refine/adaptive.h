@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Adaptive anti-aliasing: one sample per pixel, then more where neighbors differ or parts are thin.
-// The selection of cells is independent of the order of work, so all devices render the same bits.
+// Adaptive anti-aliasing: one sample per pixel, then more where neighbors differ or parts are thin
+// (the idea is Whitted's, "An improved illumination model for shaded display", 1980).
+//
+// Each pixel is the root of a tree of cells (refine_tree.h). A cell is subdivided if its color
+// differs too much from a neighbor's (contrast.h), or if a part too thin for the samples may cross
+// it (thin_parts.h). Inside subdivided pixels, bisection locates edges more cheaply than further
+// subdivision (seam.h).
+//
+// A pass selects all its cells before it traces any of them, so that the samples form one large
+// list for the device.
+//
+// Invariant: the selection depends only on finished samples and not on the order of work, so all
+// devices and thread counts render the same bits.
 #pragma once
 
 #include "base/thread_pool.h"

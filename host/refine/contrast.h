@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Decides which cells are subdivided: cells whose color differs from a neighbor's, and cells with
 // thin parts.
+//
+// The threshold limits the possible error of the pixel's color, so a small cell may differ more
+// from its neighbors than a large one. A small cell can also show that a larger neighbor is too
+// coarse.
+//
+// Invariant: threads only list cells, range by range. One thread then subdivides them in the order
+// of the ranges, so the groups have the same numbers for every number of threads.
 #pragma once
 
 #include "base/thread_pool.h"

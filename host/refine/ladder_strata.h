@@ -3,6 +3,9 @@
 // 1977). A pixel on rung i has the mean color of ladder_samples[i] samples. Similar pixels of a
 // rung form a stratum. Hashes select the pixels of a stratum that advance to the next rung. These
 // pixels are controls: their change estimates the error of the pixels that stay.
+//
+// Invariant: which pixels of a stratum advance depends on their positions alone and never on their
+// colors. The controls are therefore a random sample of the stratum.
 #pragma once
 
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Groups refer to each other by index, because the array moves when it grows. Means are computed
-// from integer sums, as in render.cl, so that their bits depend only on the samples.
+// Groups refer to each other by index, because the array moves when it grows. The integer sums are
+// those of render.cl.
 #include "refine/refine_tree.h"
 
 #include <stdlib.h>

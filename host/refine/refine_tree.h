@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A picture's samples in a tree of cells. A cell is a square with a sample at its center, for
 // example a pixel. Refinement subdivides a cell into a group of 3 x 3 cells. The middle cell keeps
-// the sample, so that no sample is wasted.
+// the sample, so that no sample is wasted. A group of 2 x 2 would move all centers.
+//
+// Four levels divide a pixel into 81 x 81 cells. A place is a cell of the last level, so all
+// positions are integers, and cells of different levels find their neighbors exactly.
+//
+// Invariant: a pixel's color is a sum of integers over its cells. Its bits depend on which samples
+// exist, and not on the order in which they were taken.
 #pragma once
 
 #include "base/array.h"

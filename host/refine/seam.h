@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A seam is the place where colors change abruptly along a line of samples, for example between two
 // surfaces. Bisection locates a seam with one sample per bit; subdividing takes eight for 1.6 bits.
+//
+// A seam begins as a gap between two different samples of a line. A sample in the middle of the
+// interval resembles one end, and then replaces it. If the sample resembles neither end, another
+// surface lies between them, and the seam becomes two. Once the remaining error is small enough,
+// the colors of the line's cells are corrected as if the change were in the interval's middle.
+//
+// Invariant: `low` resembles the first end and `high` the last one, so the change is between them.
 #pragma once
 
 #include "scene/scene.h"

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
 // clrt traces scenes in normalized coordinates: moved to the origin in fp64 and scaled by a power
-// of two. Float then uses all its bits for the geometry. Moving a scene, or scaling it by a power
-// of two, keeps its normalized coordinates, apart from rounding in fp64.
+// of two. Float then uses all its bits for the geometry.
+//
+// Floats are dense near the origin only. At a distance of 1e6 from it, they are 1/16 apart, and the
+// details of a mesh of size 1 would be rounded away. The center is therefore subtracted in fp64,
+// before coordinates become floats. A power of two changes only exponents, so scaling does not
+// round.
+//
+// Invariant: moving a scene, or scaling it by a power of two, keeps its normalized coordinates,
+// apart from rounding in fp64, and therefore its picture.
 #pragma once
 
 #include "scene/scene.h"

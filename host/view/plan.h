@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Chooses the next pass, so that the camera moves smoothly and a still picture becomes sharp. The
 // first pass should fit a frame's time, if necessary at a lower resolution. The next passes trace
-// all pixels, then all samples. The last pass counts rays and tests.
+// all pixels, then all samples. The last pass counts rays and tests (compare Bergman, Fuchs, Grant
+// and Spach, "Image rendering by adaptive refinement", 1986).
 #pragma once
 
 #include <stdbool.h>

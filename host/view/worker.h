@@ -2,6 +2,16 @@
 // A thread that reads scenes and traces pictures, so that the window need not wait. The window
 // posts requests and polls the status. The two threads also share the canvas and published models,
 // and nothing else.
+//
+// A request is not a queue of commands but the whole picture that the window wants now. The worker
+// compares the request with its finished work, and chooses the next job from the difference. A
+// later request replaces an earlier one, so a fast mouse never makes the worker lag. After each
+// finished tile, the worker compares again, and stops a pass that nobody needs.
+//
+// Counters in the request, such as `loads`, ask for work that leaves no other trace. The status
+// holds the same counters, and equal counters mean that the work is done.
+//
+// Invariant: one mutex guards request, status and model, and no thread holds it during long work.
 #pragma once
 
 #include "view/draw/canvas.h"
