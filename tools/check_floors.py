@@ -36,7 +36,7 @@ BELOW |= {
     "library": CLIENT,
     "view": [*CLIENT, "explain"],
     "cli/options": [*CLIENT, "compare"],
-    "jobs": [*CLIENT, "render", "compare", "cli/options"],
+    "jobs": CLIENT,
     "cli": [*CLIENT, "check", "compare", "explain", "jobs", "view", "cli/options"],
 }
 

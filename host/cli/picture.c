@@ -203,8 +203,11 @@ static ExitCode check_files(Picture *picture, Error *error)
     if ((options->output_path != NULL && !output_file_check(options->output_path, error)) ||
         (options->reference_path != NULL && !output_file_check(options->reference_path, error)))
         return EXIT_OUTPUT;
-    return options->resume && !resume_prepare(&picture->resume, options, error) ? EXIT_SCENE
-                                                                                : EXIT_DONE;
+    if (!options->resume)
+        return EXIT_DONE;
+    const bool is_exr = image_format_takes_layers(options->format);
+    return resume_prepare(&picture->resume, options->output_path, is_exr, error) ? EXIT_DONE
+                                                                                 : EXIT_SCENE;
 }
 
 // Rejects pictures that are too large for their formats.

@@ -18,16 +18,6 @@
 // tiles and all parts take about equal time.
 #define PART_TILE 64
 
-// The choice of quick kernels depends on the work of the run, measured in samples of --aa.
-
-// With --error E, a pixel counts as 1 + ERROR_SAMPLES / E samples, because each sample that it
-// takes costs about as much as four samples of --aa.
-#define ERROR_SAMPLES 0.08
-
-// With --aa-adaptive T, a pixel counts as 1 + CONTRAST_SAMPLES / sqrt(T) samples. CONTRAST_SAMPLES
-// was measured as 0.4 to 0.5 in a small scene, and as 2.2 to 2.6 with a mesh.
-#define CONTRAST_SAMPLES 1
-
 double run_lap(double *moment)
 {
     const double before = *moment;
@@ -121,26 +111,11 @@ void run_begin(Run *run)
     session_begin(&run->session);
 }
 
-// Returns a pixel's work, in samples of --aa.
-static double samples_per_pixel(const Options *options, const RenderSettings *settings)
-{
-    if (options->picture.error > 0)
-        return 1 + ERROR_SAMPLES / options->picture.error;
-    if (options->picture.contrast > 0)
-        return 1 + CONTRAST_SAMPLES / sqrt(options->picture.contrast);
-    return (double)settings->samples * settings->samples;
-}
-
 bool run_await_device(Run *run, Error *error)
 {
     const Options *options = run->options;
-    const RenderSettings *settings = &run->request.settings;
     const double pictures = options->repeat * (double)frames_count(&options->frames);
-    const double pixels = (double)settings->width * settings->height * pictures;
-    const SessionWork work = {.entry = picture_entry(&run->request.goal),
-                              .samples = pixels * samples_per_pixel(options, settings),
-                              .seconds = pictures * options->picture.seconds,
-                              .counts = options->picture.statistics};
+    const SessionWork work = session_work(&run->request, pictures);
     return session_await(&run->session, options->action == ACTION_RENDER ? &work : NULL, error);
 }
 

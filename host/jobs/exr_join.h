@@ -5,7 +5,7 @@
 #pragma once
 
 #include "image/exr_file.h"
-#include "render/tile.h"
+#include "session/picture.h"
 
 #include <stdatomic.h>
 

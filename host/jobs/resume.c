@@ -3,7 +3,6 @@
 #include "jobs/resume.h"
 
 #include "jobs/stored_tiles.h"
-#include "render/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,17 +19,16 @@ char *resume_journal_name(const char *output_path, Error *error)
     return name;
 }
 
-bool resume_prepare(Resume *resume, const Options *options, Error *error)
+bool resume_prepare(Resume *resume, const char *path, bool is_exr, Error *error)
 {
     struct stat status;
-    const char *path = options->output_path;
     const bool exists = lstat(path, &status) == 0;
     if (exists && !S_ISREG(status.st_mode))
         return error_set(error, "%s: cannot be resumed: not a regular file", path);
     resume->path = resume_journal_name(path, error);
     if (resume->path == NULL)
         return false;
-    resume->stored_path = image_format_takes_layers(options->format) ? path : NULL;
+    resume->stored_path = is_exr ? path : NULL;
     return true;
 }
 

@@ -3,10 +3,10 @@
 // tiles to the journal. All tiles of a complete EXR file are finished.
 #pragma once
 
-#include "cli/options/options.h"
 #include "image/exr_file.h"
 #include "image/provenance.h"
 #include "jobs/journal.h"
+#include "session/picture.h"
 
 typedef struct {
     char *path;              // the journal's path; NULL without --resume; owned
@@ -20,8 +20,9 @@ typedef struct {
 // Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees it.
 char *resume_journal_name(const char *output_path, Error *error);
 
-// Prepares resuming. Fails if the output exists and is not a regular file.
-bool resume_prepare(Resume *resume, const Options *options, Error *error);
+// Prepares resuming the picture at path. is_exr: the file itself stores tiles. Fails if the file
+// exists and is not a regular file.
+bool resume_prepare(Resume *resume, const char *path, bool is_exr, Error *error);
 
 // Opens the journal and copies the finished tiles into framebuffer. If the journal has no tiles, a
 // complete EXR file provides them. Stores the number of finished tiles in settings->ready_tiles.

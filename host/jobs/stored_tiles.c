@@ -4,8 +4,7 @@
 
 #include "base/processors.h"
 #include "base/thread_pool.h"
-#include "cli/options/options.h"
-#include "render/renderer.h"
+#include "session/channels.h"
 
 #include <assert.h>
 #include <pthread.h>

@@ -6,7 +6,7 @@
 #include "image/framebuffer.h"
 #include "image/image_file.h"
 #include "image/stored_image.h"
-#include "render/renderer.h"
+#include "session/picture.h"
 
 #include <jansson.h>
 

@@ -35,6 +35,9 @@ static inline bool render_is_part(const RenderSettings *settings)
 // The largest RenderSettings::samples. This limit keeps sample coordinates exact in float.
 #define SAMPLES_MAX 64
 
+// The largest RenderSettings::parts.
+#define PARTS_MAX 65536
+
 // A picture is split into tiles, row by row from its upper left corner. A part draws every parts-th
 // tile of each row, from a column that varies between rows.
 typedef struct {

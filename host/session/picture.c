@@ -8,6 +8,7 @@
 #include "refine/ladder.h"
 #include "render/draw.h"
 #include "scene/camera.h"
+#include "session/costs.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,6 +30,26 @@ const KernelEntry *picture_entry(const PictureGoal *goal)
     if (goal->contrast > 0)
         return &sample_entry;
     return goal_is_given(goal) ? &ladder_entry : &draw_entry;
+}
+
+// Returns a pixel's work, in samples of equal cost.
+static double samples_per_pixel(const SessionPicture *request)
+{
+    const PictureGoal *goal = &request->goal;
+    if (goal->error > 0)
+        return 1 + ERROR_SAMPLES / goal->error;
+    if (goal->contrast > 0)
+        return 1 + CONTRAST_SAMPLES / sqrt(goal->contrast);
+    return (double)request->settings.samples * request->settings.samples;
+}
+
+SessionWork session_work(const SessionPicture *request, double pictures)
+{
+    const double pixels = (double)request->settings.width * request->settings.height;
+    return (SessionWork){.entry = picture_entry(&request->goal),
+                         .samples = pictures * pixels * samples_per_pixel(request),
+                         .seconds = pictures * request->goal.seconds,
+                         .counts = request->counts};
 }
 
 CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples)

@@ -54,6 +54,9 @@ const KernelEntry *picture_entry(const PictureGoal *goal);
 // Returns the camera for `samples` sub-pixels along each side of a pixel.
 CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples);
 
+// Returns the work of drawing the picture this number of times.
+SessionWork session_work(const SessionPicture *request, double pictures);
+
 // Uploads the scene and compiles the kernels for session_draw.
 bool session_prepare(Session *session, const SessionPicture *request, PictureResult *result,
                      Error *error);

@@ -2,16 +2,14 @@
 // Tracing may take only part of a frame's time, because display takes time and tracing times vary.
 #include "view/plan.h"
 
+#include "session/costs.h"
+
 #define TRACE_SECONDS (PLAN_FRAME_SECONDS * 0.6)
 
 // A tile should take little time, because a stopped picture still finishes the two tiles in flight.
 #define TILE_SECONDS  0.012
 #define TILE_LARGEST  128
 #define TILE_SMALLEST 8
-
-// Seconds per sample with a tree, and additional seconds per sample and triangle without one.
-#define SAMPLE_GUESS   4e-7
-#define TRIANGLE_GUESS 1e-9
 
 static uint32_t divided(uint32_t length, uint32_t divisor)
 {

@@ -114,9 +114,6 @@ typedef enum {
 
 #define REPEAT_MAX 1000
 
-// The largest number of parts of a picture.
-#define PARTS_MAX 65536
-
 // The argument of --tune bvh.
 typedef enum {
     TUNE_BVH_AUTO, // as SAH, but few triangles get no tree with wide nodes
