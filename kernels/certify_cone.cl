@@ -25,7 +25,7 @@
 //   3. Hit distance: edge functions carry 2u. Weights carry 8u, of which 5u (sum and reciprocal)
 //      are common to all three. Depths carry u, their interpolation 3u, the division 2u: 14u on the
 //      longest axis, hence 25u of the size of the triangle's farthest corner along the ray. The
-//      tracer's own `error` (pair.cl) is below 64u of that size.
+//      tracer's own `error` (pair.cl) is below 70u of that size.
 //   4. Point of a triangle: 5u common to all weights, 3u per weight, 3u for the interpolation. Off
 //      the plane this is 11u of the weighted mean of the corners' sizes, on each axis. In the plane
 //      the point slides by the blur divided by the sine of the angle between ray and plane.

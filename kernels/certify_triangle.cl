@@ -109,7 +109,7 @@ static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 // Returns a bound on the distance error that the tracer gives to surface_ray_distance.
 static inline Real margin_of(const ProjectedTriangle *projected, Real u)
 {
-    return 64.0f * (u + OWN_ROUNDOFF) * projected->size;
+    return 70.0f * (u + OWN_ROUNDOFF) * projected->size;
 }
 
 // Returns the side of a triangle's plane on which a point certainly lies: 1 in front, -1 behind, 0

@@ -1,31 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Reads the probes' device code from the source tree and appends it to the kernels.
+// Reads device code from the source tree and appends it to the kernels.
 #include "kernel/probe.h"
 
 #include "base/file.h"
 
 #include <stdio.h>
 
-static bool probe_open(Probe *probe, Precision precision, Error *error)
+// kernels/certify.cl, embedded at build time. The certificate computes in fp64.
+extern const char certify_source[];
+
+static bool probe_open(Probe *probe, const char *path, Precision precision, Error *error)
 {
     File file = {0};
+    char source[1 << 18];
     *probe = (Probe){0};
-    bool ok = file_read(&file, CLRT_SOURCE_FOLDER "/tests/kernel/probe.cl", error) &&
-              device_open(&probe->device, NULL, error);
-    const KernelEntry entry = {.source = file.bytes};
-    const ProgramSource source = {.device = &probe->device,
-                                  .entry = &entry,
-                                  .choice = {FAMILY_RAY, NODES_PAIR, 0, precision},
-                                  .traits = traits_general(false)};
-    ok = ok && program_build(&probe->program, &source, error);
+    bool ok = file_read(&file, path, error) && device_open(&probe->device, NULL, error);
+    snprintf(source, sizeof source, "%s\n%s", precision == PRECISION_FP64 ? certify_source : "",
+             ok ? (const char *)file.bytes : "");
+    const KernelEntry entry = {.source = source};
+    const ProgramSource program = {.device = &probe->device,
+                                   .entry = &entry,
+                                   .choice = {FAMILY_RAY, NODES_PAIR, 0, precision},
+                                   .traits = traits_general(false)};
+    ok = ok && program_build(&probe->program, &program, error);
     file_free(&file);
     return ok;
 }
 
-int probe_begin(Probe *probe, Precision precision)
+int probe_begin(Probe *probe, const char *path, Precision precision)
 {
     Error error = {0};
-    if (probe_open(probe, precision, &error))
+    if (probe_open(probe, path, precision, &error))
         return 0;
     fprintf(stderr, "%s\n", error.text);
     return 1;

@@ -15,9 +15,9 @@ typedef struct {
     size_t size;
 } ProbeInput;
 
-// The setup of a group of tests: opens the probe for one ray per work-item. Returns 0, or prints
+// The setup of a group of tests: compiles the file for one ray per work-item. Returns 0, or prints
 // the error and returns 1.
-int probe_begin(Probe *probe, Precision precision);
+int probe_begin(Probe *probe, const char *path, Precision precision);
 void probe_close(Probe *probe);
 
 // Runs kernel with `items` work-items and up to two inputs; unused inputs have size 0. Reads

@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+#define PROBES CLRT_SOURCE_FOLDER "/tests/kernel/probe.cl"
+
 static Probe probe, probe_fp64;
 
 TEST(host_and_device_agree_on_the_layout)
@@ -257,7 +259,8 @@ TEST(powers_are_right_in_fp64)
 
 SET_UP(open_probes)
 {
-    return probe_begin(&probe, PRECISION_FP32) + probe_begin(&probe_fp64, PRECISION_FP64);
+    return probe_begin(&probe, PROBES, PRECISION_FP32) +
+           probe_begin(&probe_fp64, PROBES, PRECISION_FP64);
 }
 
 TEAR_DOWN(close_probes)

@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: MIT
+// Recomputes each error bound of docs/numerics.md with numbers of 113 bits, whose own errors are
+// below 2^-80 of any bound. Prints the largest share of each bound that rays reach, which must not
+// exceed 1. After random rays, changes of the worst rays search for still worse ones.
+#include "kernel/probe.h"
+#include "oracle/quad.h"
+#include "unit/cmocka_all.h"
+#include "unit/random.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define U      0x1p-24
+#define CASES  4096
+#define ROUNDS 64
+
+typedef struct {
+    float origin[3], direction[3];
+} Line;
+
+typedef struct {
+    float sheared[3][3], edges[3], contains, t, error, tie, behind, near_high, near_low, point[3];
+    float height, doubt, point_height, point_doubt, height_over, point_height_over, inverse_z;
+    float inverse[3], near_offset[3], far_offset[3];
+} Traced;
+
+typedef struct {
+    double margin, behind, blur, size, low, high;
+} Certified;
+
+typedef enum {
+    SHEAR,
+    SHEAR_LARGEST,
+    EDGE,
+    DEPTH,
+    DEPTH_ERROR,
+    DISTANCE_ERROR,
+    TIE,
+    NEARNESS,
+    HEIGHT,
+    POINT_HEIGHT,
+    POINT_BLUR,
+    CULL,
+    SLAB,
+    BLUR,
+    CERTIFIED_DEPTH,
+    MARGIN,
+    BEHIND,
+    BOUNDS
+} Bound;
+
+static const char *const names[BOUNDS] = {
+    "2: corners, 4 u |s z| + 2 u |x|",
+    "2: corners, 6 u Q",
+    "3: edge functions, 2 u",
+    "4: depth, 14 u Z",
+    "4: triangle_depth_error, 18 u (Z + X)",
+    "4: distance, 54 u (o + 1) / |d|",
+    "4: tie, 128 u (o + 1) / |d|",
+    "5: nearness, 2^-42",
+    "6: height over a plane, 8 u (n.a + E a)",
+    "7: height of a surface point, 8 u n.p + 3 u n.m",
+    "7: POINT_BLUR",
+    "8: box of a hit, 22 u Q",
+    "9: slabs, u (2 B + 4 O)",
+    "10: blur, 4.01 u w z + 10 u l",
+    "11: certified depth, 25 u",
+    "12: margin_of, 70 u",
+    "12: behind_of, 448 u",
+};
+
+#define PROBES CLRT_SOURCE_FOLDER "/tests/kernel/bounds.cl"
+
+static Probe probe, probe_fp64;
+static Line lines[CASES], worst_lines[BOUNDS];
+static TriangleData triangles[CASES], worst_triangles[BOUNDS];
+static Traced traced[CASES];
+static Certified certified[CASES];
+static double shares[BOUNDS];
+static uint64_t seed = 29;
+
+static Quad magnitude(Quad v)
+{
+    return v < 0 ? -v : v;
+}
+
+static Quad larger(Quad a, Quad b)
+{
+    return a > b ? a : b;
+}
+
+static Quad largest3(const Quad v[3])
+{
+    return larger(larger(magnitude(v[0]), magnitude(v[1])), magnitude(v[2]));
+}
+
+static Quad dot3(const Quad a[3], const Quad b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross3(const Quad a[3], const Quad b[3], Quad product[3])
+{
+    for (int i = 0; i < 3; i++)
+        product[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+// Numbers whose relative rounding error may be as large as possible: just above powers of two.
+static float coordinate(double range)
+{
+    const double v = random_between(&seed, -range, range);
+    if (random_below(&seed, 4) > 0)
+        return (float)v;
+    const double steps = random_below(&seed, 64) * 0x1p-23;
+    return (float)copysign(ldexp(1 + steps, -(int)random_below(&seed, 6)) * range, v);
+}
+
+static void make_triangle(float corners[3][3])
+{
+    const double size = ldexp(1, -(int)random_below(&seed, 16));
+    const double thin = ldexp(1, -(int)random_below(&seed, 24));
+    for (int axis = 0; axis < 3; axis++) {
+        const float middle = coordinate(1 - size);
+        for (int k = 0; k < 2; k++)
+            corners[k][axis] = middle + coordinate(size);
+        corners[2][axis] =
+            random_below(&seed, 3) == 0
+                ? corners[0][axis] / 2 + corners[1][axis] / 2 + coordinate(size * thin)
+                : middle + coordinate(size);
+    }
+}
+
+static void make_direction(Line *line, float corners[3][3])
+{
+    const uint32_t kind = random_below(&seed, 4);
+    double weight[3] = {random_unit(&seed), random_unit(&seed), random_unit(&seed)};
+    const double sum = weight[0] + weight[1] + weight[2];
+    for (int i = 0; i < 3; i++) {
+        const double target =
+            (weight[0] * corners[0][i] + weight[1] * corners[1][i] + weight[2] * corners[2][i]) /
+            sum;
+        const double near = ldexp(random_between(&seed, -1, 1), -(int)random_below(&seed, 20));
+        line->direction[i] = kind == 0   ? coordinate(1)
+                             : kind == 1 ? (float)(1 + near)
+                                         : (float)(target - line->origin[i]);
+    }
+}
+
+// Makes sheared coordinates so small that errors of their products underflow.
+static void shrink(Line *line, float corners[3][3])
+{
+    const uint32_t axis = random_below(&seed, 3);
+    const int exponent = -60 - (int)random_below(&seed, 90);
+    line->origin[axis] = 0;
+    line->direction[axis] = ldexpf(line->direction[axis], exponent);
+    for (int k = 0; k < 3; k++)
+        corners[k][axis] = ldexpf(corners[k][axis], exponent);
+}
+
+static void make_case(Line *line, TriangleData *triangle)
+{
+    float corners[3][3];
+    make_triangle(corners);
+    const double range = ldexp(1, (int)random_below(&seed, 24) - 12);
+    for (int i = 0; i < 3; i++)
+        line->origin[i] = random_below(&seed, 3) == 0 ? corners[0][i] + coordinate(range * 0x1p-12)
+                                                      : coordinate(range);
+    make_direction(line, corners);
+    if (random_below(&seed, 8) == 0)
+        shrink(line, corners);
+    *triangle = (TriangleData){0};
+    memcpy(triangle->a, corners[0], sizeof corners[0]);
+    memcpy(triangle->b, corners[1], sizeof corners[1]);
+    memcpy(triangle->c, corners[2], sizeof corners[2]);
+}
+
+static void change(float *value, float most)
+{
+    const float before = *value;
+    const uint32_t kind = random_below(&seed, 4);
+    if (kind == 0)
+        *value = nextafterf(before, coordinate(2));
+    else if (kind == 1)
+        *value = (float)(before *
+                         (1 + ldexp(random_between(&seed, -1, 1), -(int)random_below(&seed, 24))));
+    else if (kind == 2)
+        *value =
+            (float)(before + ldexp(random_between(&seed, -1, 1), -(int)random_below(&seed, 24)));
+    if (!(fabsf(*value) <= most))
+        *value = before;
+}
+
+static void change_case(Line *line, TriangleData *triangle)
+{
+    float *const corners[3] = {triangle->a, triangle->b, triangle->c};
+    for (uint32_t i = 1 + random_below(&seed, 4); i > 0; i--) {
+        const uint32_t place = random_below(&seed, 15), axis = place % 3;
+        if (place < 6)
+            change(place < 3 ? &line->origin[axis] : &line->direction[axis], 0x1p20f);
+        else
+            change(&corners[place / 3 - 2][axis], 1);
+    }
+}
+
+static void make_cases(bool first)
+{
+    for (int i = 0; i < CASES; i++) {
+        const uint32_t bound = random_below(&seed, BOUNDS);
+        if (first || i % 8 == 0) {
+            make_case(&lines[i], &triangles[i]);
+            continue;
+        }
+        lines[i] = worst_lines[bound];
+        triangles[i] = worst_triangles[bound];
+        change_case(&lines[i], &triangles[i]);
+    }
+}
+
+// The bounds hold for errors of rounding. Underflow adds up to some 2^-149.
+static void note(int i, Bound bound, Quad error, Quad most)
+{
+    if (most < 0x1p-100)
+        return;
+    const double share = error > 0 ? (double)(error / most) : 0;
+    if (!(share > shares[bound]))
+        return;
+    shares[bound] = share;
+    worst_lines[bound] = lines[i];
+    worst_triangles[bound] = triangles[i];
+}
+
+// A case in exact numbers. The axes are in the order of the shear.
+typedef struct {
+    int axes[3];
+    Quad origin[3], direction[3], length;
+    Quad corners[3][3];  // as stored
+    Quad relative[3][3]; // to the origin, in the order of the axes
+    Quad far;            // Q, the largest component of a relative corner
+    Quad depth;          // Z, the largest depth of a corner
+} Exact;
+
+static Exact exact_case(int number)
+{
+    const Line *line = &lines[number];
+    const float *const corners[3] = {triangles[number].a, triangles[number].b, triangles[number].c};
+    const float x = fabsf(line->direction[0]), y = fabsf(line->direction[1]);
+    const int z = fabsf(line->direction[2]) > fmaxf(x, y) ? 2 : y > x;
+    Exact exact = {.axes = {(z + 1) % 3, (z + 2) % 3, z}};
+    for (int i = 0; i < 3; i++) {
+        exact.origin[i] = line->origin[i];
+        exact.direction[i] = line->direction[i];
+        for (int k = 0; k < 3; k++)
+            exact.corners[k][i] = corners[k][i];
+    }
+    exact.length = quad_root(dot3(exact.direction, exact.direction));
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++)
+            exact.relative[k][i] = exact.corners[k][exact.axes[i]] - exact.origin[exact.axes[i]];
+        exact.far = larger(exact.far, largest3(exact.relative[k]));
+        exact.depth = larger(exact.depth, magnitude(exact.relative[k][2]));
+    }
+    return exact;
+}
+
+static void check_corners(int i, const Exact *exact)
+{
+    Quad most = 0;
+    for (int k = 0; k < 3; k++) {
+        Quad shift[3] = {0}, along = 0;
+        for (int axis = 0; axis < 2; axis++) {
+            const Quad s = exact->direction[exact->axes[axis]] / exact->direction[exact->axes[2]];
+            const Quad z = exact->relative[k][2], x = exact->relative[k][axis] - s * z;
+            shift[axis] = traced[i].sheared[k][axis] - x;
+            note(i, SHEAR, magnitude(shift[axis]),
+                 (4 * magnitude(s * z) + 2 * magnitude(x)) * U * (1 + 8 * U));
+            note(i, SHEAR_LARGEST, magnitude(shift[axis]), 6 * U * exact->far);
+            along += shift[axis] * exact->direction[exact->axes[axis]] / exact->length;
+        }
+        most = larger(most, quad_root(dot3(shift, shift) - along * along));
+    }
+    note(i, BLUR, most, certified[i].blur);
+}
+
+// Stores the edge functions of the rounded corners in `edges`. Returns false if the error of a
+// product may underflow. Signs are then still not opposite.
+static bool check_edges(int i, Quad edges[3])
+{
+    float(*s)[3] = traced[i].sheared;
+    bool is_normal = true;
+    for (int k = 0; k < 3; k++) {
+        const float *p = s[(k + 2) % 3], *q = s[(k + 1) % 3];
+        const Quad one = (Quad)p[0] * q[1], other = (Quad)p[1] * q[0];
+        edges[k] = one - other;
+        assert_true(traced[i].edges[k] == 0 || (traced[i].edges[k] > 0) == (edges[k] > 0));
+        if ((one != 0 && magnitude(one) < 0x1p-100) || (other != 0 && magnitude(other) < 0x1p-100))
+            is_normal = false;
+        else
+            note(i, EDGE, magnitude(traced[i].edges[k] - edges[k]), 2 * U * magnitude(edges[k]));
+    }
+    return is_normal;
+}
+
+static void check_distance(int i, const Exact *exact, const Quad weights[3])
+{
+    const Traced *found = &traced[i];
+    const Quad d = magnitude(exact->direction[exact->axes[2]]), far = largest3(exact->origin);
+    Quad z = 0, rounded = 0;
+    for (int k = 0; k < 3; k++) {
+        z += weights[k] * exact->relative[k][2];
+        rounded += weights[k] * found->sheared[k][2];
+    }
+    const Quad distance = z / exact->direction[exact->axes[2]];
+    const Quad error = magnitude(found->t - distance);
+    note(i, DEPTH, error, 14 * U * exact->depth / d * (1 + 16 * U));
+    note(i, DEPTH_ERROR, error, found->error);
+    note(i, TIE, 2 * error, found->tie);
+    note(i, NEARNESS,
+         magnitude((Quad)found->near_high + found->near_low - rounded * found->inverse_z),
+         0x1p-42 * exact->depth / d);
+    note(i, CERTIFIED_DEPTH, error * exact->length, 25 * U * certified[i].size);
+    const Quad way = found->t * exact->length;
+    assert_true(certified[i].low <= way && way <= certified[i].high);
+    for (int axis = 0; axis < 3; axis++) {
+        const Quad hit = exact->origin[axis] + found->t * exact->direction[axis];
+        Quad low = exact->corners[0][axis], high = low;
+        for (int k = 1; k < 3; k++) {
+            low = low < exact->corners[k][axis] ? low : exact->corners[k][axis];
+            high = larger(high, exact->corners[k][axis]);
+        }
+        note(i, CULL, larger(low - hit, hit - high), 22 * U * exact->far);
+    }
+    note(i, DISTANCE_ERROR, found->error, 54 * U * (far + 1) / d * (1 + 16 * U));
+}
+
+static void check_heights(int i, const Exact *exact, const Quad weights[3], bool hits)
+{
+    const Traced *found = &traced[i];
+    Quad ab[3], ac[3], apart[3], normal[3], to_point[3], most = 0;
+    for (int k = 0; k < 3; k++) {
+        ab[k] = exact->corners[1][k] - exact->corners[0][k];
+        ac[k] = exact->corners[2][k] - exact->corners[0][k];
+        apart[k] = exact->origin[k] - exact->corners[0][k];
+        to_point[k] = found->point[k] - exact->corners[0][k];
+    }
+    cross3(ab, ac, normal);
+    const Quad height = dot3(normal, apart);
+    note(i, HEIGHT, magnitude(found->height - height), found->doubt);
+    assert_true(found->height_over == 0 || (found->height_over > 0) == (height > 0));
+    if (!hits)
+        return;
+    for (int k = 0; k < 3; k++) {
+        Quad size = 0;
+        for (int corner = 0; corner < 3; corner++)
+            size += weights[corner] * magnitude(exact->corners[corner][k]);
+        most += magnitude(normal[k]) * (8 * magnitude(found->point[k]) + 3 * size) * U;
+    }
+    const Quad above = magnitude(dot3(normal, to_point));
+    note(i, POINT_HEIGHT, above, most * (1 + 32 * U));
+    note(i, POINT_BLUR, above, found->point_doubt);
+}
+
+static void check_slabs(int i, const Exact *exact)
+{
+    const Traced *found = &traced[i];
+    const Quad widest = largest3(exact->origin), longest = largest3(exact->direction);
+    for (int axis = 0; axis < 3; axis++)
+        for (int k = 0; k < 6; k++) {
+            const Quad d = exact->direction[axis];
+            const float plane = (float)exact->corners[k % 3][axis];
+            const float offset = k < 3 ? found->near_offset[axis] : found->far_offset[axis];
+            const Quad slack = 0x1p-16 * widest * ((k < 3) == !signbit((double)d) ? 1 : -1);
+            if (magnitude(d) < 0x1p-30 * longest)
+                continue;
+            const Quad way = fmaf(plane, found->inverse[axis], offset) * d;
+            note(i, SLAB, magnitude(way - (plane - (exact->origin[axis] + slack))),
+                 U * (2 * magnitude(plane) + 4 * widest) * (1 + 0x1p-15));
+        }
+}
+
+static void check_case(int i)
+{
+    Quad edges[3];
+    const Exact exact = exact_case(i);
+    if (!(largest3(exact.direction) >= 0x1p-40))
+        return;
+    check_corners(i, &exact);
+    check_slabs(i, &exact);
+    note(i, MARGIN, traced[i].error * exact.length, certified[i].margin);
+    note(i, BEHIND, traced[i].behind * exact.length, certified[i].behind);
+    const bool hits = check_edges(i, edges) && traced[i].contains > 0;
+    const Quad sum = edges[0] + edges[1] + edges[2];
+    const Quad weights[3] = {edges[0] / sum, edges[1] / sum, edges[2] / sum};
+    check_heights(i, &exact, weights, hits);
+    if (hits)
+        check_distance(i, &exact, weights);
+}
+
+TEST(no_rounding_error_exceeds_its_bound)
+{
+    const ProbeInput inputs[2] = {{lines, sizeof lines}, {triangles, sizeof triangles}};
+    for (int round = 0; round < ROUNDS; round++) {
+        make_cases(round == 0);
+        assert_true(
+            probe_run(&probe, "probe_bounds", inputs, CASES, (ProbeInput){traced, sizeof traced}));
+        assert_true(probe_run(&probe_fp64, "probe_margins", inputs, CASES,
+                              (ProbeInput){certified, sizeof certified}));
+        for (int i = 0; i < CASES; i++)
+            check_case(i);
+    }
+    for (int bound = 0; bound < BOUNDS; bound++)
+        printf("step %-50s %.3f\n", names[bound], shares[bound]);
+    for (int bound = 0; bound < BOUNDS; bound++)
+        assert_true(shares[bound] <= 1);
+}
+
+SET_UP(open_probes)
+{
+    return probe_begin(&probe, PROBES, PRECISION_FP32) +
+           probe_begin(&probe_fp64, PROBES, PRECISION_FP64);
+}
+
+TEAR_DOWN(close_probes)
+{
+    probe_close(&probe);
+    probe_close(&probe_fp64);
+    return 0;
+}
