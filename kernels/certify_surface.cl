@@ -144,7 +144,7 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
                                    ? uncertain_sphere(tracer, ray, nearest)
                                    : uncertain_triangle(tracer, ray, &hit);
     surface.toward_viewer = negative3(ray->along);
-    surface.viewer_doubt = ray->spread + 4.0f * (ray->u + OWN_ROUNDOFF);
+    surface.viewer_doubt = ray->spread + 5.0f * (ray->u + OWN_ROUNDOFF); // B13
     return surface;
 }
 
@@ -152,7 +152,7 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 // ray's line may miss its own triangle. The edge is then nearer than the errors of the point (11u
 // per axis) and of the corners (14u of their distance), divided by the sine of the ray's angle to
 // the face. The tracer ignores edges farther than 64u / sine. Near an edge, the start may move by
-// 256u / sine along the surface, on each axis.
+// 256u / sine along the surface, on each axis (B14).
 //
 // A reflected ray is lifted only if its line misses the triangle from the last start. This start is
 // the triangle's middle or 256u / sine on the way there, which is 500u / (sine * edge) of the way
