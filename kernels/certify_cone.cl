@@ -6,38 +6,13 @@
 // The bounds are computed in fp64, for a tracer in fp32 (u = 2^-24) or in fp64 (u = 2^-53).
 // OWN_ROUNDOFF covers the rounding of this program for either u. The bounds require two things:
 //  - The tracer's device rounds float operations correctly.
-//  - No rounding error of a product in fp32's edge functions underflows (vector.inc.cl). This holds
-//    if no sheared coordinate of a corner is nonzero and smaller than 2^-51, in the normalized
-//    frame. The kernel does not check this.
-// The bounds follow in the order in which a ray needs them. |.| is the Euclidean length unless
-// noted.
-//
-//   1. Camera ray: fma(x, right, fma(y, down, forward)). camera_rounding repeats fp32's rounding.
-//      fp64's two roundings are below u (|inner| + |outer|) per component. The eye is exact.
-//   2. Corners relative to the origin, sheared to (X - S Z, ., Z), |S| <= 1: u for the differences,
-//      2u for S, u for the fma of its small result. Together: 4u |S Z| + 2u |X - S Z| on each of
-//      two axes. Let z be the corner's depth, l its distance from the ray, and w the sine of the
-//      angle between the ray and the longest axis. The sum is then below 4u w z + 10u l. The edge
-//      functions' signs are exact (vector.inc.cl), so the tracer decides exactly about corners
-//      shifted by this much (blur_at). If the axis passes all three edges by more than the blur, no
-//      shift of the corners within the blur moves an edge across the axis. The triangle then winds
-//      around the axis as often as before, in the same direction.
-//   3. Hit distance: edge functions carry 2u. Weights carry 8u, of which 5u (sum and reciprocal)
-//      are common to all three. Depths carry u, their interpolation 3u, the division 2u: 14u on the
-//      longest axis, hence 25u of the size of the triangle's farthest corner along the ray. The
-//      tracer's own `error` (pair.cl) is below 70u of that size.
-//   4. Point of a triangle: 5u common to all weights, 3u per weight, 3u for the interpolation. Off
-//      the plane this is 11u of the weighted mean of the corners' sizes, on each axis. In the plane
-//      the point slides by the blur divided by the sine of the angle between ray and plane.
-//   5. Triangle normal: edges carry u and their products 2u each: 4u E + 3u |n_k| per axis, where E
-//      is the product of the largest edge components. In all: 7u E + 3u |n|. Unit vectors add 4u.
-//   6. Interpolated normal: 3u per weight, 3u for the interpolation, and the change of the weights
-//      by sliding. A factor common to all weights does not turn the normal.
-//   7. Directions to lights: u for the difference, 4u for the unit vector. A shadow ray ends within
-//      u of its length from the light. Whether a light is before or behind a face depends only on
-//      stored numbers (side_of). Reflection turns by twice the normal's error plus the ray's, and
-//      rounds by 12u.
-//   8. Spheres: certify_sphere.cl.
+//  - No rounding error of a product in fp32's edge functions underflows (B3). This holds if no
+//    sheared coordinate of a corner is nonzero and smaller than 2^-51, in the normalized frame. The
+//    kernel does not check this. Otherwise, only triangles seen edge-on may differ (B10).
+// docs/numerics.md derives the bounds as B1 to B15. A camera ray is fma(x, right, fma(y, down,
+// forward)). camera_rounding repeats fp32's rounding. fp64's two roundings are below
+// u (|inner| + |outer|) per component. A shadow ray ends within u of its length from the light.
+// Whether a light is before or behind a face depends only on stored numbers (side_of).
 #ifndef CLRT_CERTIFY_CONE_CL
 #define CLRT_CERTIFY_CONE_CL
 
@@ -125,7 +100,8 @@ static inline Real cone_at(const RayCone *ray, Real z)
            radius_of(&ray->goal) * (depth / ray->length);
 }
 
-// Bounds the shift of a point as seen along any ray of the cone, including the tracer's rounding.
+// Bounds the shift of a point as seen along any ray of the cone, including the tracer's rounding
+// (B10).
 static inline Real blur_at(const RayCone *ray, Real3 seen)
 {
     const Real depth = fabs(seen.z) + ray->around;

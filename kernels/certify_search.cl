@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finds the certain first hit of a ray cone, and whether anything certainly blocks a point from a
 // light. Boxes grow by the cone's radius at their farthest corner, and by at least 129u of this
-// corner's distance. 18u of these cover the rest of the blur, and 111u a distance error. For new
-// rays, they also grow by behind_of. The axis is then inside a box before any possible hit of a
+// corner's distance. 18u of these cover the rest of the blur, and 111u a distance error (B12). For
+// new rays, they also grow by behind_of. The axis is then inside a box before any possible hit of a
 // triangle in it, even if rounding puts the hit behind the origin.
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL

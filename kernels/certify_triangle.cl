@@ -91,6 +91,7 @@ static inline Real slope_of(const ProjectedTriangle *projected)
 // plane's slope limits how far this depth is from that of the axis's own hit. A broad triangle is
 // more than 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the plane by
 // less than half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this.
+// 26 u of the size cover the distance (B11).
 static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 {
     const Corners *c = &projected->corners;
@@ -106,7 +107,7 @@ static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
     return depth;
 }
 
-// Returns a bound on the distance error that the tracer gives to surface_ray_distance.
+// Returns a bound on the distance error that the tracer gives to surface_ray_distance (B12).
 static inline Real margin_of(const ProjectedTriangle *projected, Real u)
 {
     return 70.0f * (u + OWN_ROUNDOFF) * projected->size;
@@ -138,7 +139,7 @@ static inline int side_of(const Corners *corners, const UncertainPoint *uncertai
 }
 
 // Bounds how far a new ray may start beyond a triangle that stops it, Search::behind. The length of
-// a direction is at most the square root of 3 times its longest component.
+// a direction is at most the square root of 3 times its longest component (B12).
 static inline Real behind_of(const RayCone *ray)
 {
     if (ray->kind == RAY_CAMERA)

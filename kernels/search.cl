@@ -46,8 +46,8 @@ typedef struct {
     Real3 inverse, near_offset, far_offset;
 } Slabs;
 
-// Raises components below 2^-30 of the largest one. The inverses are then finite if the largest
-// component exceeds 2^-96. Shorter rays have no usable direction.
+// Raises components below 2^-30 of the largest one (docs/numerics.md, B8). The inverses are then
+// finite if the largest component exceeds 2^-96. Shorter rays have no usable direction.
 static inline Real slab_direction(Real direction, Real smallest)
 {
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
@@ -92,7 +92,7 @@ static inline Search search_along(const Tracer *tracer, const Ray *ray, Real lim
     search.shear = shear_along(ray->direction, &search.axes);
     search.origin = axes_ordered(ray->origin, &search.axes);
     search.limit = limit;
-    // The coordinates of corners are at most 1, so triangle_depth_error is at most 54 (far + 1).
+    // triangle_depth_error is at most 54 (far + 1), as corners are at most 1 (B4).
     const Real unit = UNIT_ROUNDOFF * fabs(search.shear.inverse_z);
     const Real far = largest_component(ray->origin);
     search.tie = 128.0f * unit * (far + 1.0f);

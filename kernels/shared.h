@@ -25,8 +25,8 @@ typedef uint64_t ulong;
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
 // Boxes grow and origins move by this factor of their largest coordinate: 256 units of 2^-24.
-// A triangle that triangle.inc.cl accepts lies within 22 units of the ray, and the slab arithmetic
-// adds 4. If division is only accurate to 2.5 ulp, these become 34 and 8. A hit can be behind the
+// A triangle that triangle.inc.cl accepts lies within 22 units of the ray (B8 of docs/numerics.md),
+// and the slab arithmetic adds 4 (B9). If division is only accurate to 2.5 ulp, these become 34 and 8. A hit can be behind the
 // ray's start: its error bound is at most 54, and Search::behind is 256 units of the origin. These
 // count half, because the box there has the origin's coordinates, too. search_reach (search.cl)
 // covers hits beyond the best one.

@@ -150,8 +150,9 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 }
 
 // Returns whether plain floats already prove that the line misses the sphere. Their error is below
-// 16 units of rounding of the squares of all lengths involved; 64 are allowed. Most spheres then
-// need no exact test. Testing three spheres exactly for all rays takes half of a picture's time.
+// 16 units of rounding of the squares of all lengths involved (B15); 64 are allowed. Most spheres
+// then need no exact test. Testing three spheres exactly for all rays takes half of a picture's
+// time.
 static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center =

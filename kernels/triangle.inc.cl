@@ -89,9 +89,7 @@ static inline Real OVERLOAD triangle_depth(const Corners *sheared, const Edges *
                fma(edges->v * r, sheared->b.z, (edges->w * r) * sheared->c.z));
 }
 
-// Bounds the error of the reported depth along z: 16 u Q, where Q is the largest distance of a
-// corner from the ray's origin. The weights take 10, the interpolation 4, the division 2. The
-// factor 18 leaves a reserve of 2.
+// Bounds the error of the reported depth along z: 14 u of the largest depth (docs/numerics.md, B4).
 static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 {
     const Real depth = max(max(fabs(s->a.z), fabs(s->b.z)), fabs(s->c.z));
@@ -101,7 +99,7 @@ static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 }
 
 // Returns whether the hit is so close to the origin that rounding may decide whether it is in
-// front or behind. Coordinates are at most 1, which bounds the depth's error by 2^-17.
+// front or behind. Coordinates are at most 1, which bounds the depth's error by 2^-17 (B4).
 static inline Mask OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
 {
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
@@ -124,7 +122,7 @@ static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, flo
     return fabs(height) > UNIT_ROUNDOFF * error ? height : 0.0f;
 }
 
-// The error of a surface point, in units of rounding of its coordinates.
+// The error of a surface point, in units of rounding of its coordinates (B7).
 #define POINT_BLUR 16.0f
 
 // The sides of a triangle that another triangle certainly reaches.

@@ -2,10 +2,10 @@
 // Recomputes each error bound of docs/numerics.md with numbers of 113 bits, whose own errors are
 // below 2^-80 of any bound. Prints the largest share of each bound that rays reach, which must not
 // exceed 1. After random rays, changes of the worst rays search for still worse ones.
+#include "kernel/bound_cases.h"
 #include "kernel/probe.h"
 #include "oracle/quad.h"
 #include "unit/cmocka_all.h"
-#include "unit/random.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,10 +14,6 @@
 #define U      0x1p-24
 #define CASES  4096
 #define ROUNDS 64
-
-typedef struct {
-    float origin[3], direction[3];
-} Line;
 
 typedef struct {
     float sheared[3][3], edges[3], contains, t, error, tie, behind, near_high, near_low, point[3];
@@ -51,23 +47,23 @@ typedef enum {
 } Bound;
 
 static const char *const names[BOUNDS] = {
-    "2: corners, 4 u |s z| + 2 u |x|",
-    "2: corners, 6 u Q",
-    "3: edge functions, 2 u",
-    "4: depth, 14 u Z",
-    "4: triangle_depth_error, 18 u (Z + X)",
-    "4: distance, 54 u (o + 1) / |d|",
-    "4: tie, 128 u (o + 1) / |d|",
-    "5: nearness, 2^-42",
-    "6: height over a plane, 8 u (n.a + E a)",
-    "7: height of a surface point, 8 u n.p + 3 u n.m",
-    "7: POINT_BLUR",
-    "8: box of a hit, 22 u Q",
-    "9: slabs, u (2 B + 4 O)",
-    "10: blur, 4.01 u w z + 10 u l",
-    "11: certified depth, 25 u",
-    "12: margin_of, 70 u",
-    "12: behind_of, 448 u",
+    "B2: corners, 4 u |s z| + 2 u |x|",
+    "B2: corners, 6 u Q",
+    "B3: edge functions, 2 u",
+    "B4: depth, 14 u Z",
+    "B4: triangle_depth_error, 18 u (Z + X)",
+    "B4: distance, 54 u (o + 1) / |d|",
+    "B4: tie, 128 u (o + 1) / |d|",
+    "B5: nearness, 2^-43",
+    "B6: height over a plane, 8 u (n.a + E a)",
+    "B7: height of a surface point, 8 u n.p + 3 u n.m",
+    "B7: POINT_BLUR",
+    "B8: box of a hit, 22 u Q",
+    "B9: slabs, u (2 B + 4 O)",
+    "B10: blur, 4.01 u w z + 10 u l",
+    "B11: certified depth, 25 u",
+    "B12: margin_of, 70 u",
+    "B12: behind_of, 448 u",
 };
 
 #define PROBES CLRT_SOURCE_FOLDER "/tests/kernel/bounds.cl"
@@ -78,7 +74,6 @@ static TriangleData triangles[CASES], worst_triangles[BOUNDS];
 static Traced traced[CASES];
 static Certified certified[CASES];
 static double shares[BOUNDS];
-static uint64_t seed = 29;
 
 static Quad magnitude(Quad v)
 {
@@ -106,114 +101,17 @@ static void cross3(const Quad a[3], const Quad b[3], Quad product[3])
         product[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-// Numbers whose relative rounding error may be as large as possible: just above powers of two.
-static float coordinate(double range)
-{
-    const double v = random_between(&seed, -range, range);
-    if (random_below(&seed, 4) > 0)
-        return (float)v;
-    const double steps = random_below(&seed, 64) * 0x1p-23;
-    return (float)copysign(ldexp(1 + steps, -(int)random_below(&seed, 6)) * range, v);
-}
-
-static void make_triangle(float corners[3][3])
-{
-    const double size = ldexp(1, -(int)random_below(&seed, 16));
-    const double thin = ldexp(1, -(int)random_below(&seed, 24));
-    for (int axis = 0; axis < 3; axis++) {
-        const float middle = coordinate(1 - size);
-        for (int k = 0; k < 2; k++)
-            corners[k][axis] = middle + coordinate(size);
-        corners[2][axis] =
-            random_below(&seed, 3) == 0
-                ? corners[0][axis] / 2 + corners[1][axis] / 2 + coordinate(size * thin)
-                : middle + coordinate(size);
-    }
-}
-
-static void make_direction(Line *line, float corners[3][3])
-{
-    const uint32_t kind = random_below(&seed, 4);
-    double weight[3] = {random_unit(&seed), random_unit(&seed), random_unit(&seed)};
-    const double sum = weight[0] + weight[1] + weight[2];
-    for (int i = 0; i < 3; i++) {
-        const double target =
-            (weight[0] * corners[0][i] + weight[1] * corners[1][i] + weight[2] * corners[2][i]) /
-            sum;
-        const double near = ldexp(random_between(&seed, -1, 1), -(int)random_below(&seed, 20));
-        line->direction[i] = kind == 0   ? coordinate(1)
-                             : kind == 1 ? (float)(1 + near)
-                                         : (float)(target - line->origin[i]);
-    }
-}
-
-// Makes sheared coordinates so small that errors of their products underflow.
-static void shrink(Line *line, float corners[3][3])
-{
-    const uint32_t axis = random_below(&seed, 3);
-    const int exponent = -60 - (int)random_below(&seed, 90);
-    line->origin[axis] = 0;
-    line->direction[axis] = ldexpf(line->direction[axis], exponent);
-    for (int k = 0; k < 3; k++)
-        corners[k][axis] = ldexpf(corners[k][axis], exponent);
-}
-
-static void make_case(Line *line, TriangleData *triangle)
-{
-    float corners[3][3];
-    make_triangle(corners);
-    const double range = ldexp(1, (int)random_below(&seed, 24) - 12);
-    for (int i = 0; i < 3; i++)
-        line->origin[i] = random_below(&seed, 3) == 0 ? corners[0][i] + coordinate(range * 0x1p-12)
-                                                      : coordinate(range);
-    make_direction(line, corners);
-    if (random_below(&seed, 8) == 0)
-        shrink(line, corners);
-    *triangle = (TriangleData){0};
-    memcpy(triangle->a, corners[0], sizeof corners[0]);
-    memcpy(triangle->b, corners[1], sizeof corners[1]);
-    memcpy(triangle->c, corners[2], sizeof corners[2]);
-}
-
-static void change(float *value, float most)
-{
-    const float before = *value;
-    const uint32_t kind = random_below(&seed, 4);
-    if (kind == 0)
-        *value = nextafterf(before, coordinate(2));
-    else if (kind == 1)
-        *value = (float)(before *
-                         (1 + ldexp(random_between(&seed, -1, 1), -(int)random_below(&seed, 24))));
-    else if (kind == 2)
-        *value =
-            (float)(before + ldexp(random_between(&seed, -1, 1), -(int)random_below(&seed, 24)));
-    if (!(fabsf(*value) <= most))
-        *value = before;
-}
-
-static void change_case(Line *line, TriangleData *triangle)
-{
-    float *const corners[3] = {triangle->a, triangle->b, triangle->c};
-    for (uint32_t i = 1 + random_below(&seed, 4); i > 0; i--) {
-        const uint32_t place = random_below(&seed, 15), axis = place % 3;
-        if (place < 6)
-            change(place < 3 ? &line->origin[axis] : &line->direction[axis], 0x1p20f);
-        else
-            change(&corners[place / 3 - 2][axis], 1);
-    }
-}
-
 static void make_cases(bool first)
 {
     for (int i = 0; i < CASES; i++) {
-        const uint32_t bound = random_below(&seed, BOUNDS);
+        const uint32_t bound = bound_case_choose(BOUNDS);
         if (first || i % 8 == 0) {
-            make_case(&lines[i], &triangles[i]);
+            bound_case_make(&lines[i], &triangles[i]);
             continue;
         }
         lines[i] = worst_lines[bound];
         triangles[i] = worst_triangles[bound];
-        change_case(&lines[i], &triangles[i]);
+        bound_case_change(&lines[i], &triangles[i]);
     }
 }
 
@@ -317,7 +215,7 @@ static void check_distance(int i, const Exact *exact, const Quad weights[3])
     note(i, TIE, 2 * error, found->tie);
     note(i, NEARNESS,
          magnitude((Quad)found->near_high + found->near_low - rounded * found->inverse_z),
-         0x1p-42 * exact->depth / d);
+         0x1p-43 * exact->depth / d);
     note(i, CERTIFIED_DEPTH, error * exact->length, 25 * U * certified[i].size);
     const Quad way = found->t * exact->length;
     assert_true(certified[i].low <= way && way <= certified[i].high);
@@ -409,7 +307,7 @@ TEST(no_rounding_error_exceeds_its_bound)
             check_case(i);
     }
     for (int bound = 0; bound < BOUNDS; bound++)
-        printf("step %-50s %.3f\n", names[bound], shares[bound]);
+        printf("%-51s %.3f\n", names[bound], shares[bound]);
     for (int bound = 0; bound < BOUNDS; bound++)
         assert_true(shares[bound] <= 1);
 }
