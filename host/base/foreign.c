@@ -3,14 +3,30 @@
 // limits its other resources.
 #include "base/foreign.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <string.h>
 #include <unistd.h>
 
-// Other programs that use clrt's library find clrt-foreign in the configured installation folder.
+static const char library_place[] = "";
+
+static bool name_beside_library(char path[COMPANION_PATH_SIZE])
+{
+    Dl_info own;
+    // The path of a program may be relative, and the current folder may hold anybody's files.
+    if (dladdr(library_place, &own) == 0 || own.dli_fname[0] != '/')
+        return false;
+    const int length = (int)(strrchr(own.dli_fname, '/') - own.dli_fname);
+    snprintf(path, COMPANION_PATH_SIZE, "%.*s/clrt-foreign", length, own.dli_fname);
+    return true;
+}
+
+// Other programs that use clrt's library find clrt-foreign beside the library, as in a Python
+// package, or in the configured installation folder.
 static bool find_program(char path[COMPANION_PATH_SIZE], Error *cause)
 {
-    if (file_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER) && access(path, X_OK) == 0)
+    if ((file_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER) && access(path, X_OK) == 0) ||
+        (name_beside_library(path) && access(path, X_OK) == 0))
         return true;
     snprintf(path, COMPANION_PATH_SIZE, "%s/clrt-foreign", CLRT_FOREIGN_INSTALLED);
     return access(path, X_OK) == 0 ||

@@ -23,17 +23,8 @@ typedef struct {
 } Cache;
 
 // Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt and ~/.cache/clrt that exists or
-// can be created. Sets POCL_CACHE_DIR to a private folder in it or, if it is not writable or has no
-// free space, in $TMPDIR or /tmp. Without a private folder, PoCL lists no device. Removes private
-// folders of killed processes. Only main may call cache_open, before the first OpenCL call.
-void cache_open(Cache *cache);
-
-// Opens the same folder for libclrt, but leaves the environment unchanged. PoCL stores its own
-// files in POCL_CACHE_DIR or in its default folder. cache_close is unnecessary.
+// can be created. PoCL stores its own files in POCL_CACHE_DIR or in its default folder.
 void cache_open_for_library(Cache *cache);
-
-// Removes the private folder. No OpenCL object may be in use.
-void cache_close(Cache *cache);
 
 // A program's binary in memory. `file` owns the bytes.
 typedef struct {

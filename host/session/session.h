@@ -3,6 +3,7 @@
 // the library draw by a session. A session works on one thread at a time.
 #pragma once
 
+#include "device/cache_private.h"
 #include "render/renderer.h"
 #include "session/geometry.h"
 

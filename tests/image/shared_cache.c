@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "image/shared_cache.h"
 
+#include "device/cache_private.h"
+
 #include <stdlib.h>
 
 static Cache cache;

@@ -37,3 +37,10 @@ install(FILES ${CMAKE_BINARY_DIR}/clrt.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pk
         COMPONENT development)
 install(FILES tests/library/picture.c DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
         COMPONENT development)
+
+# The Python package: the library, its header and its companion beside the modules (pyproject.toml).
+if(CLRT_PYTHON_WHEEL)
+  install(FILES $<TARGET_FILE:clrt_library> DESTINATION clrt RENAME libclrt.so.0 COMPONENT python)
+  install(FILES host/library/clrt.h DESTINATION clrt COMPONENT python)
+  install(TARGETS clrt-foreign DESTINATION clrt COMPONENT python)
+endif()

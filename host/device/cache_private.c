@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Makes PoCL's private folder, clrt-HOST-XXXXXX with a locked file. A folder whose lock is free
+// belongs to a process that was killed. The name contains the host, because locks of other hosts
+// can be invisible on network file systems. The library does not link this file, because it never
+// changes the environment.
+#include "device/cache_private.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fts.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+// The least free space. PoCL unpacks binaries and preprocesses sources there. LLVM ends the process
+// if the disk is full.
+#define ROOM_LEAST ((unsigned long long)16 << 20)
+
+#define LOCK_NAME    "/lock"
+#define ATTEMPTS     10
+#define PREFIX_SIZE  (HOST_NAME_MAX + 8)
+#define PRIVATE_SIZE (CACHE_PATH_SIZE + sizeof LOCK_NAME)
+
+// Returns whether the folder has enough free space; true if the file system does not report it.
+static bool has_room(const char *folder)
+{
+    struct statvfs disk;
+    if (statvfs(folder, &disk) != 0 || disk.f_blocks == 0)
+        return true;
+    const bool has_files = disk.f_files == 0 || disk.f_favail > 0;
+    return has_files && (unsigned long long)disk.f_bavail * disk.f_frsize >= ROOM_LEAST;
+}
+
+static void remove_tree(const char *path)
+{
+    char *const paths[] = {(char *)path, NULL};
+    FTS *tree = fts_open(paths, FTS_PHYSICAL | FTS_NOCHDIR, NULL);
+    if (tree == NULL)
+        return;
+    for (FTSENT *entry = fts_read(tree); entry != NULL; entry = fts_read(tree))
+        if (entry->fts_info != FTS_D)
+            remove(entry->fts_path);
+    fts_close(tree);
+}
+
+static int open_lock(const char *folder, int flags)
+{
+    char path[PRIVATE_SIZE];
+    snprintf(path, sizeof path, "%s" LOCK_NAME, folder);
+    const int lock = open(path, O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600);
+    if (lock < 0 || flock(lock, LOCK_EX | LOCK_NB) == 0)
+        return lock;
+    close(lock);
+    return -1;
+}
+
+static void write_prefix(char prefix[PREFIX_SIZE])
+{
+    char host[HOST_NAME_MAX + 1] = "";
+    gethostname(host, sizeof host - 1);
+    snprintf(prefix, PREFIX_SIZE, "clrt-%s-", host);
+}
+
+// Removes a private folder of this user whose process was killed. A process that has just created
+// its folder holds no lock yet; it tries again if the empty folder vanishes.
+static void remove_abandoned(const char *path)
+{
+    struct stat status;
+    if (lstat(path, &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != geteuid())
+        return;
+    const int lock = open_lock(path, 0);
+    if (lock >= 0) {
+        remove_tree(path);
+        close(lock);
+    } else {
+        rmdir(path);
+    }
+}
+
+static void remove_all_abandoned(const char *base)
+{
+    char prefix[PREFIX_SIZE], path[CACHE_PATH_SIZE];
+    DIR *folder = opendir(base);
+    write_prefix(prefix);
+    for (const struct dirent *entry; folder != NULL && (entry = readdir(folder)) != NULL;)
+        if (strncmp(entry->d_name, prefix, strlen(prefix)) == 0 &&
+            snprintf(path, sizeof path, "%s/%s", base, entry->d_name) < CACHE_PATH_SIZE)
+            remove_abandoned(path);
+    if (folder != NULL)
+        closedir(folder);
+}
+
+// Makes a folder and locks it. Another process can remove the folder before it is locked.
+static bool make_private(Cache *cache, const char *base)
+{
+    char prefix[PREFIX_SIZE];
+    struct stat status;
+    write_prefix(prefix);
+    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+        const int length =
+            snprintf(cache->private_folder, CACHE_PATH_SIZE, "%s/%sXXXXXX", base, prefix);
+        if (length >= CACHE_PATH_SIZE || mkdtemp(cache->private_folder) == NULL)
+            break;
+        cache->private_lock = open_lock(cache->private_folder, O_CREAT);
+        if (cache->private_lock >= 0 && fstat(cache->private_lock, &status) == 0 &&
+            status.st_nlink > 0)
+            return true;
+        cache_close(cache);
+    }
+    cache->private_folder[0] = '\0';
+    return false;
+}
+
+static bool open_private(Cache *cache, const char *base)
+{
+    if (base == NULL || base[0] != '/')
+        return false;
+    remove_all_abandoned(base);
+    return access(base, W_OK | X_OK) == 0 && has_room(base) && make_private(cache, base);
+}
+
+void cache_open(Cache *cache)
+{
+    cache_open_for_library(cache);
+    const char *temporary = getenv("TMPDIR");
+    const bool ok = open_private(cache, cache->folder) ||
+                    open_private(cache, temporary != NULL ? temporary : "/tmp");
+    // Without a usable folder, PoCL lists no device, because it cannot create /dev/null/clrt.
+    setenv("POCL_CACHE_DIR", ok ? cache->private_folder : "/dev/null/clrt", 1);
+}
+
+void cache_close(Cache *cache)
+{
+    if (cache->private_folder[0] == '\0')
+        return;
+    remove_tree(cache->private_folder);
+    close(cache->private_lock);
+    cache->private_folder[0] = '\0';
+}

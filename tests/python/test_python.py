@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Draws pictures and casts rays from Python, and compares them with the program's.
+
+usage: test_python.py CLRT SCENES"""
+import doctest
+import importlib
+import pathlib
+import subprocess
+import sys
+import threading
+import unittest
+
+try:
+    import cffi  # pylint: disable=unused-import
+    import numpy as np
+except ImportError as missing:
+    print(f"skipped: {missing}; tools/setup python installs it")
+    sys.exit(77)
+
+import clrt
+import clrt.trimesh
+
+CLRT, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
+CREATURE = SCENES / "creature.scn"
+CUBE = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], float)
+SIDES = np.array([(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4),
+                  (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)])
+
+
+def cube():
+    scene = clrt.Scene()
+    scene.mesh(CUBE, SIDES)
+    return scene
+
+
+class Mesh:
+    """A trimesh, as far as clrt.trimesh uses it."""
+    vertices, faces = CUBE, SIDES
+
+
+class Pictures(unittest.TestCase):
+    def test_a_picture_has_the_programs_hash(self):
+        printed = subprocess.run([CLRT, CREATURE, "--hash", "-s", "96x64", "--aa=2"], check=True,
+                                 capture_output=True, text=True).stdout.strip()
+        picture = clrt.load(CREATURE).render(96, 64, samples=2)
+        self.assertEqual(picture.shape, (64, 96, 3))
+        self.assertEqual(picture.dtype, np.float32)
+        self.assertEqual(clrt.hash(picture), printed)
+
+    def test_channels_are_arrays_and_agree_with_rays(self):
+        scene, renderer = clrt.load(CREATURE), clrt.Renderer()
+        picture = renderer.render(scene, 48, 32, channels=["depth", "primitive", "normal"])
+        self.assertEqual(picture.channels["depth"].shape, (32, 48))
+        self.assertEqual(picture.channels["normal"].shape, (32, 48, 3))
+        for x, y in ((5, 3), (24, 16), (30, 20)):
+            ray = renderer.explain(scene, x, y, 48, 32)["samples"][0]["rays"][0]
+            hits = renderer.trace(scene, [ray["origin"]], [ray["direction"]], one_sided=True)
+            self.assertEqual(picture.channels["primitive"][y, x], ray["primitive"])
+            self.assertEqual(hits.primitive[0], ray["primitive"])
+
+    def test_notebooks_show_png(self):
+        data = clrt.load(CREATURE).render(8, 4)._repr_png_()
+        self.assertTrue(data.startswith(b"\x89PNG"))
+
+    def test_pictures_compare(self):
+        one = clrt.load(CREATURE).render(32, 32)
+        other = one.copy()
+        self.assertEqual(clrt.compare(one, other)["largest"], 0)
+        other[3, 4, 1] += 0.5
+        found = clrt.compare(one, other)
+        self.assertEqual(found["pixels"], 1)
+        self.assertAlmostEqual(found["largest"], 0.5, places=6)
+
+    def test_progress_stops_a_picture(self):
+        with self.assertRaises(clrt.Stopped):
+            clrt.load(CREATURE).render(300, 300, progress=lambda done, all_: False)
+
+
+class Rays(unittest.TestCase):
+    def test_hits_name_the_face_and_the_place(self):
+        hits = clrt.Renderer().trace(cube(), [(0.5, 0.25, 3), (5, 5, 5)], (0, 0, -2))
+        self.assertEqual(hits.hit.tolist(), [True, False])
+        self.assertEqual(hits.distance.tolist(), [1.0, np.inf])
+        self.assertEqual((hits.mesh[0], hits.face[1]), (0, clrt.NOTHING))
+        self.assertEqual(hits.normal[0].tolist(), [0, 0, 1])
+        self.assertTrue(hits.front[0])
+        a, b, c = CUBE[SIDES[hits.face[0]]]
+        place = a + hits.u[0] * (b - a) + hits.v[0] * (c - a)
+        self.assertTrue(np.allclose(place, (0.5, 0.25, 1), atol=1e-6))
+
+    def test_all_crossings_are_in_order(self):
+        hits = clrt.Renderer().trace_all(cube(), [(0, 0, 3), (9, 9, 9), (0.1, 0.2, 0)], (0, 0, -1))
+        self.assertEqual(hits.ray.tolist(), [0, 0, 2])
+        self.assertEqual(hits.distance.tolist(), [2, 4, 1])
+
+    def test_rays_may_start_on_faces(self):
+        renderer, scene = clrt.Renderer(), cube()
+        hits = renderer.trace(scene, [(0.5, 0.25, 3)], (0, 0, -1))
+        on = renderer.trace(scene, [(0.5, 0.25, 1)], (0, 0, -1), starts=hits.primitive)
+        self.assertEqual(on.distance.tolist(), [2])
+        self.assertTrue(renderer.occluded(scene, [(0, 0, 3)], (0, 0, -1), far=3).all())
+        self.assertFalse(renderer.occluded(scene, [(0, 0, 3)], (0, 0, -1), far=1.5).any())
+
+    def test_points_are_inside_or_not(self):
+        points = np.random.default_rng(5).uniform(-2, 2, (5000, 3))
+        inside = clrt.Renderer().contains(cube(), points)
+        self.assertEqual(inside.tolist(), (np.abs(points).max(1) < 1).tolist())
+
+    def test_arrays_of_other_layouts_give_the_same_hits(self):
+        renderer, scene = clrt.Renderer(), cube()
+        origins = np.random.default_rng(6).uniform(-3, 3, (100, 3))
+        expected = renderer.trace(scene, origins, -origins).distance
+        for other in (np.asfortranarray(origins), np.repeat(origins, 2, 0)[::2], origins.tolist()):
+            self.assertTrue((renderer.trace(scene, other, -origins).distance == expected).all())
+
+    def test_threads_get_the_same_hits(self):
+        scene, found = cube(), [None] * 4
+        origins = np.random.default_rng(7).uniform(-3, 3, (50000, 3))
+
+        def cast(i):
+            found[i] = clrt.Renderer().trace(scene, origins, -origins).primitive
+
+        threads = [threading.Thread(target=cast, args=(i,)) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for other in found[1:]:
+            self.assertTrue((other == found[0]).all())
+
+    def test_a_trimesh_gets_the_results_of_its_own_intersectors(self):
+        ray = clrt.trimesh.RayMeshIntersector(Mesh())
+        places, rays, faces = ray.intersects_location([(0.5, 0.25, 3)], [(0, 0, -4)])
+        self.assertTrue(np.allclose(places, [(0.5, 0.25, 1), (0.5, 0.25, -1)]))
+        self.assertEqual(rays.tolist(), [0, 0])
+        first = ray.intersects_first([(0.5, 0.25, 3), (5, 5, 5)], [(0, 0, -1), (0, 0, 1)])
+        self.assertEqual(first.tolist(), [faces[0], -1])
+        self.assertEqual(ray.contains_points([(0, 0, 0), (3, 0, 0)]).tolist(), [True, False])
+
+
+class Errors(unittest.TestCase):
+    def test_errors_have_the_librarys_text_and_a_kind(self):
+        cases = ((clrt.SceneError, "cannot be opened", lambda: clrt.load("/nowhere.scn")),
+                 (clrt.ArgumentError, "has vertex 12", lambda: clrt.Scene().mesh(CUBE, [(0, 1, 12)])),
+                 (clrt.ArgumentError, "negative", lambda: clrt.Scene().mesh(CUBE, [(0, 1, -1)])),
+                 (clrt.ArgumentError, "shape", lambda: clrt.Scene().mesh(CUBE[0], SIDES)),
+                 (clrt.ArgumentError, "channel", lambda: clrt.load(CREATURE).render(8, 8, channels=["dept"])),
+                 (clrt.ArgumentError, "directions",
+                  lambda: clrt.Renderer().trace(cube(), [(0, 0, 0)], [(0, 0, 1)] * 2)),
+                 (ValueError, "primitive", lambda: clrt.Renderer().trace(
+                     cube(), [(0, 0, 0)], [(0, 0, 1)], starts=99)))
+        for kind, words, action in cases:
+            with self.assertRaisesRegex(kind, words):
+                action()
+
+    def test_examples_in_the_documentation_run(self):
+        for name in ("clrt", "clrt.scene", "clrt.renderer"):
+            self.assertEqual(doctest.testmod(importlib.import_module(name)).failed, 0)
+
+
+unittest.main(argv=sys.argv[:1])
