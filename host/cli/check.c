@@ -54,7 +54,7 @@ static bool find_leaks(Check *check, Run *run, Error *error)
     run_begin(run);
     if (session_await(&run->session, NULL, &cause) && trace_leaks(check, run, &cause))
         check->device = run->session.device.name;
-    else if (options->device != NULL || options->kernel.precision == PRECISION_FP64)
+    else if (options->renderer.device != NULL || options->renderer.precision == CLRT_FP64)
         return error_set(error, "%s", cause.text);
     else {
         free(check->leaks);

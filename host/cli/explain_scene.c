@@ -38,7 +38,7 @@ static ScenePart tree_part(const Run *run, bool is_needed)
                     kernel_nodes_name(run->session.choice.nodes), stored == 1 ? "" : "s");
     if (triangles == 0)
         return part("tree", false, "there are no triangles to find");
-    if (run->options->bvh == TUNE_BVH_NONE)
+    if (run->options->renderer.tree == CLRT_TREE_NONE)
         return part("tree", false, "--tune bvh=none: every triangle is tested");
     return part("tree", false, "testing all %u triangles is faster", triangles);
 }
@@ -69,10 +69,10 @@ static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
 
 static const char *scene_family_reason(const Run *run)
 {
-    const KernelRequest *request = &run->options->kernel;
-    if (request->precision == PRECISION_FP64)
+    const ClrtSettings *wanted = &run->options->renderer;
+    if (wanted->precision == CLRT_FP64)
         return "--precision fp64 traces rays one by one";
-    if (request->form != KERNEL_AUTO)
+    if (wanted->kernel != CLRT_KERNEL_AUTO)
         return "--tune kernel requests it";
     if (run->session.is_quick)
         return "packets are not compiled yet, and compiling takes longer than they would save";
@@ -84,7 +84,7 @@ static const char *scene_family_reason(const Run *run)
 static const char *scene_program_reason(const Run *run)
 {
     const bool is_special = run->report.drawn.is_special;
-    if (run->options->specialization != SPECIALIZE_AUTO)
+    if (run->options->renderer.specialize != CLRT_SPECIALIZE_AUTO)
         return is_special ? "--tune specialize=always" : "--tune specialize=never";
     return is_special
                ? "the kernels are compiled already, or save more than compiling costs"

@@ -33,7 +33,7 @@ static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run 
     cache_open(&run.session.cache);
     if (progress_on_terminal() && !options->quiet)
         run.session.cache.announce = progress_show_compiling;
-    limit_threads(options->threads);
+    limit_threads(options->renderer.threads);
     const ExitCode code = perform_stages(&run, error);
     run_free(&run);
     cache_close(&run.session.cache);

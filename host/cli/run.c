@@ -93,16 +93,10 @@ static void show_loading(const Options *options, bool begins)
 
 SessionSettings run_session_settings(const Options *options)
 {
-    static const TreeUse trees[] = {TREE_AUTO, TREE_ALWAYS, TREE_ALWAYS, TREE_NEVER}; // by TuneBvh
-    return (SessionSettings){.device = options->device,
-                             .threads = options->threads,
-                             .kernel_folder = getenv("CLRT_KERNEL_DIR"),
-                             .kernel = options->kernel,
-                             .specialization = options->specialization,
-                             .builder = options->bvh == TUNE_BVH_MIDPOINT ? BVH_MIDPOINT : BVH_SAH,
-                             .tree = trees[options->bvh],
-                             .group_width = options->group_width,
-                             .group_height = options->group_height};
+    SessionSettings settings;
+    request_settings(&options->renderer, &settings);
+    settings.kernel_folder = getenv("CLRT_KERNEL_DIR");
+    return settings;
 }
 
 void run_begin(Run *run)

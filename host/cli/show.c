@@ -39,7 +39,7 @@ ExitCode show_scene(Run *run, Error *error)
         .height = options->picture.height,
         .samples = options->picture.samples > 1 ? options->picture.samples : 2,
         .smooth = options->picture.samples != 1,
-        .uses_bvh = options->bvh != TUNE_BVH_NONE,
+        .uses_bvh = options->renderer.tree != CLRT_TREE_NONE,
         .encoding = options->encoding,
         .exposure = (int)lround(2 * options->exposure),
         .tracer = {.session = run_session_settings(options),

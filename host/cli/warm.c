@@ -32,10 +32,10 @@ ExitCode warm_kernels(Run *run, Error *error)
     if (has_scene && !run_build_scene(run, error))
         return EXIT_SCENE;
     const SceneTraits general = traits_general(options->picture.statistics);
-    if ((!has_scene || options->specialization != SPECIALIZE_ALWAYS) &&
+    if ((!has_scene || options->renderer.specialize != CLRT_SPECIALIZE_ALWAYS) &&
         !warm_kernel(run, &general, "general", error))
         return EXIT_DEVICE;
-    if (!has_scene || options->specialization == SPECIALIZE_NEVER)
+    if (!has_scene || options->renderer.specialize == CLRT_SPECIALIZE_NEVER)
         return EXIT_DONE;
     const SceneTraits special = traits_of(&run->form->flat, options->picture.statistics);
     return warm_kernel(run, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;

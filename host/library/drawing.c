@@ -65,7 +65,8 @@ static bool take_channels(Drawing *drawing, ClrtError *error)
 static bool check_request(const Drawing *drawing, ClrtError *error)
 {
     RequestFault fault;
-    const Precision precision = drawing->renderer->session.settings.kernel.precision;
+    const ClrtPrecision precision =
+        (ClrtPrecision)drawing->renderer->session.settings.kernel.precision;
     if (request_check(&drawing->wanted, drawing->channels, precision, &fault))
         return true;
     switch (fault.rule) {

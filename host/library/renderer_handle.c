@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The caller's settings -> a device, its kernels and, later, a scene in their layouts.
 #include "library/handles.h"
+#include "session/request.h"
 
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define GROUP_SIDE_MOST 1024
 
 // Held by the calls that open drivers. PoCL 3.1 crashes if two threads make the first OpenCL calls
 // concurrently. These calls may change the environment, which cache_open_for_library reads.
@@ -29,41 +28,26 @@ static bool open_session(Session *session, Error *cause)
     return ok;
 }
 
-static bool check_settings(const ClrtSettings *given, const KernelRequest *kernel, ClrtError *error)
+static bool check_settings(const ClrtSettings *given, ClrtError *error)
 {
-    if (!check_number(error, "the precision", given->precision, 0, CLRT_FP64) ||
-        !check_number(error, "the kernel", given->kernel, 0, CLRT_KERNEL_PACKET) ||
-        !check_number(error, "specialize", given->specialize, 0, CLRT_SPECIALIZE_NEVER) ||
-        !check_number(error, "the tree", given->tree, 0, CLRT_TREE_NONE) ||
-        !check_number(error, "the group's width", given->group_width, 0, GROUP_SIDE_MOST) ||
-        !check_number(error, "the group's height", given->group_height, 0, GROUP_SIDE_MOST))
-        return false;
-    return kernel_is_valid(kernel) ||
-           check_fail(error, CLRT_ARGUMENT,
-                      "precision, kernel and lanes contradict each other: the wide and packet "
-                      "kernels have 4, 8 or 16 lanes and no fp64");
+    return check_number(error, "the precision", given->precision, 0, CLRT_FP64) &&
+           check_number(error, "the kernel", given->kernel, 0, CLRT_KERNEL_PACKET) &&
+           check_number(error, "specialize", given->specialize, 0, CLRT_SPECIALIZE_NEVER) &&
+           check_number(error, "the tree", given->tree, 0, CLRT_TREE_NONE) &&
+           check_number(error, "the group's width", given->group_width, 0, GROUP_SIDE_MOST) &&
+           check_number(error, "the group's height", given->group_height, 0, GROUP_SIDE_MOST);
 }
 
 static bool take_settings(SessionSettings *settings, const ClrtSettings *given, ClrtError *error)
 {
     ClrtSettings wanted = {.size = sizeof wanted};
-    if (given != NULL && !check_struct(error, "the settings", given, &wanted, sizeof wanted))
+    if ((given != NULL && !check_struct(error, "the settings", given, &wanted, sizeof wanted)) ||
+        !check_settings(&wanted, error))
         return false;
-    static const TreeUse uses[] = {TREE_AUTO, TREE_ALWAYS, TREE_ALWAYS, TREE_NEVER};
-    const KernelRequest kernel = {(KernelForm)wanted.kernel, wanted.lanes,
-                                  (Precision)wanted.precision};
-    if (!check_settings(&wanted, &kernel, error))
-        return false;
-    *settings =
-        (SessionSettings){.device = wanted.device,
-                          .threads = wanted.threads,
-                          .kernel = kernel,
-                          .specialization = (Specialization)wanted.specialize,
-                          .builder = wanted.tree == CLRT_TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH,
-                          .tree = uses[wanted.tree],
-                          .group_width = wanted.group_width,
-                          .group_height = wanted.group_height};
-    return true;
+    return request_settings(&wanted, settings) ||
+           check_fail(error, CLRT_ARGUMENT,
+                      "precision, kernel and lanes contradict each other: the wide and packet "
+                      "kernels have 4, 8 or 16 lanes and no fp64");
 }
 
 ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *error)

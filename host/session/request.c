@@ -21,6 +21,32 @@
 
 #define TURN_MOST 1e9 // degrees
 
+// Smaller error goals need fp64. The limit is four times fp32's measured error, 4e-5.
+#define ERROR_OF_FP64 1.6e-4
+
+bool request_needs_fp64(const ClrtPicture *wanted)
+{
+    return wanted->error > 0 && wanted->error < ERROR_OF_FP64;
+}
+
+bool request_settings(const ClrtSettings *wanted, SessionSettings *settings)
+{
+    static const TreeUse trees[] = {[CLRT_TREE_AUTO] = TREE_AUTO,
+                                    [CLRT_TREE_SAH] = TREE_ALWAYS,
+                                    [CLRT_TREE_MIDPOINT] = TREE_ALWAYS,
+                                    [CLRT_TREE_NONE] = TREE_NEVER};
+    *settings = (SessionSettings){
+        .device = wanted->device,
+        .threads = wanted->threads,
+        .kernel = {(KernelForm)wanted->kernel, wanted->lanes, (Precision)wanted->precision},
+        .specialization = (Specialization)wanted->specialize,
+        .builder = wanted->tree == CLRT_TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH,
+        .tree = trees[wanted->tree],
+        .group_width = wanted->group_width,
+        .group_height = wanted->group_height};
+    return kernel_is_valid(&settings->kernel);
+}
+
 static bool check_numbers(const ClrtPicture *wanted, RequestFault *fault)
 {
     const RequestFault ranges[] = {
@@ -52,7 +78,7 @@ static bool has_crop(const ClrtPicture *wanted)
     return wanted->left > 0 || wanted->top > 0 || wanted->crop_width > 0 || wanted->crop_height > 0;
 }
 
-static bool check_conflicts(const ClrtPicture *wanted, AovSet channels, Precision precision,
+static bool check_conflicts(const ClrtPicture *wanted, AovSet channels, ClrtPrecision precision,
                             RequestFault *fault)
 {
     const char *goal = wanted->error > 0 ? "error" : wanted->seconds > 0 ? "seconds" : "contrast";
@@ -70,7 +96,7 @@ static bool check_conflicts(const ClrtPicture *wanted, AovSet channels, Precisio
         {refines && (wanted->tile_width > 0 || wanted->tile_height > 0), "tile", goal},
         {refines && aov_needs(channels, AOV_NEEDS_TESTS), "boxtests or tritests", goal},
         {refines && is_certain, "certainty", goal},
-        {is_certain && precision != PRECISION_FP32, "certainty", "fp64"},
+        {is_certain && precision != CLRT_FP32, "certainty", "fp64"},
         {wanted->truncation > 0 && wanted->max_level != 0, "truncation", "max_level"},
     };
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
@@ -82,7 +108,7 @@ static bool check_conflicts(const ClrtPicture *wanted, AovSet channels, Precisio
     return true;
 }
 
-bool request_check(const ClrtPicture *wanted, AovSet channels, Precision precision,
+bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision precision,
                    RequestFault *fault)
 {
     return check_numbers(wanted, fault) && check_conflicts(wanted, channels, precision, fault);

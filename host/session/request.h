@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ClrtPicture of clrt.h -> a picture of a scene. The library and the program share the defaults
-// and the rules, and word the faults themselves.
+// A ClrtPicture of clrt.h -> a picture of a scene, and ClrtSettings -> the settings of a session.
+// The library and the program share the defaults and the rules, and word the faults themselves.
 #pragma once
 
 #include "library/clrt.h"
@@ -10,6 +10,7 @@
 #define REFERENCE_SAMPLES     256
 #define REFERENCE_SAMPLES_MAX 65536
 #define TIME_GOAL_MOST        1000000 // seconds
+#define GROUP_SIDE_MOST       1024
 
 typedef enum {
     REQUEST_NUMBER,  // a number is out of range
@@ -26,8 +27,14 @@ typedef struct {
 } RequestFault;
 
 // Returns whether a request that needs these channels and this precision is valid for some scene.
-bool request_check(const ClrtPicture *wanted, AovSet channels, Precision precision,
+bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision precision,
                    RequestFault *fault);
+
+// Returns whether the error goal is too small for fp32.
+bool request_needs_fp64(const ClrtPicture *wanted);
+
+// Fills the settings of a session. Returns whether precision, kernel and lanes fit together.
+bool request_settings(const ClrtSettings *wanted, SessionSettings *settings);
 
 // Returns the goal without the error that max_level causes.
 PictureGoal request_goal(const ClrtPicture *wanted);

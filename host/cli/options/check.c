@@ -76,7 +76,7 @@ static bool check_request(const Options *options, Error *error)
     RequestFault fault;
     ClrtPicture wanted = options->picture;
     wanted.crop_width = options->crop.is_given; // its pixels depend on the scene
-    return request_check(&wanted, options->aovs, options->kernel.precision, &fault) ||
+    return request_check(&wanted, options->aovs, options->renderer.precision, &fault) ||
            error_set(error, "--%s and --%s exclude each other: give one",
                      option_of_setting(fault.setting), option_of_setting(fault.other));
 }
@@ -213,20 +213,18 @@ static bool check_frames(Options *options, Error *error)
     return frames_complete(&options->frames, error);
 }
 
-// Error goals below this limit select fp64. The limit is four times fp32's measured error, 4e-5.
-#define ERROR_OF_FP64 1.6e-4
-
 static void choose_precision(Options *options)
 {
-    KernelRequest *kernel = &options->kernel;
-    if (options->picture.error > 0 && options->picture.error < ERROR_OF_FP64 &&
-        kernel->form == KERNEL_AUTO && !option_is_given(options, "precision"))
-        kernel->precision = PRECISION_FP64;
+    ClrtSettings *renderer = &options->renderer;
+    if (request_needs_fp64(&options->picture) && renderer->kernel == CLRT_KERNEL_AUTO &&
+        !option_is_given(options, "precision"))
+        renderer->precision = CLRT_FP64;
 }
 
-static bool check_kernel(const KernelRequest *kernel, Error *error)
+static bool check_kernel(const Options *options, Error *error)
 {
-    return kernel_is_valid(kernel) ||
+    SessionSettings unused;
+    return request_settings(&options->renderer, &unused) ||
            error_set(error, "--precision fp64 traces rays one by one through pair nodes: leave out "
                             "--tune kernel");
 }
@@ -294,6 +292,6 @@ static bool check_action(Options *options, Error *error)
 bool options_check(Options *options, const Command *command, Error *error)
 {
     return check_uses(options, command, error) && check_exclusions(options, error) &&
-           check_request(options, error) && check_kernel(&options->kernel, error) &&
+           check_request(options, error) && check_kernel(options, error) &&
            check_action(options, error);
 }

@@ -260,8 +260,8 @@ bool set_kernel(Options *options, const char *text, Error *error)
     int64_t lanes = 0;
     const bool ok = text[length] == '\0' || read_integer(text + length + 1, 4, 16, &lanes);
     const KernelRequest request = {(KernelForm)form, (uint32_t)lanes, PRECISION_FP32};
-    options->kernel.form = request.form;
-    options->kernel.lanes = request.lanes;
+    options->renderer.kernel = (ClrtKernel)form;
+    options->renderer.lanes = request.lanes;
     return (form >= 0 && ok && kernel_is_valid(&request)) ||
            error_set(error,
                      "--tune kernel wants auto, pair, wide or packet, and wide or packet may have "

@@ -114,18 +114,9 @@ typedef enum {
 
 #define REPEAT_MAX 1000
 
-// The argument of --tune bvh.
-typedef enum {
-    TUNE_BVH_AUTO, // as SAH, but few triangles get no tree with wide nodes
-    TUNE_BVH_SAH,
-    TUNE_BVH_MIDPOINT,
-    TUNE_BVH_NONE // test every triangle
-} TuneBvh;
-
 // The largest values of options.
 #define EXPOSURE_MOST   8 // stops, as the window's keys allow
 #define VIEW_MOST       1000000
-#define GROUP_SIDE_MOST 1024
 #define THREADS_MOST    4096
 #define QUIT_AFTER_MOST 1000000
 
@@ -142,21 +133,16 @@ typedef struct {
     const char *format;      // a result of image_format_named; NULL without an output
     AovSet aovs;             // channels besides the colors
     ClrtPicture picture;     // without crop, camera and truncation, which need the scene
+    ClrtSettings renderer;
     SceneLoadOptions load;
     Crop crop;
     uint32_t part, parts; // from 1; 0, 0: the whole picture
     bool resume;          // for one picture; frames have skips_finished
     Frames frames;
     bool fits_level; // use the smallest max_level whose error is invisible in a file of the format
-    const char *device;         // NULL: the best one
-    uint32_t threads;           // 0: as many as the process may use
-    bool reference;             // measure the picture against a reference
+    bool reference;  // measure the picture against a reference
     const char *reference_path; // the file for the reference; NULL: do not write it
     uint32_t repeat;            // the number of times to draw the picture, at least 1
-    KernelRequest kernel;
-    TuneBvh bvh;
-    Specialization specialization;
-    uint32_t group_width, group_height; // 0: the kernel's default
     Encoding encoding;
     double exposure;           // in stops
     bool no_metadata;          // omit the metadata of picture files

@@ -73,7 +73,7 @@ const Option option_table[] = {
      "precision"},
     {"time", "S", 0, ODD(set_time), GROUP_QUALITY, CLASS_STATISTICAL,
      FOR_DRAWING | FOR_GENERAL | FOR_WARM, "take as many samples as fit in S seconds of tracing"},
-    {"precision", "fp32|fp64", 0, WORD(kernel.precision), GROUP_QUALITY, CLASS_STATISTICAL,
+    {"precision", "fp32|fp64", 0, WORD(renderer.precision), GROUP_QUALITY, CLASS_STATISTICAL,
      FOR_KERNELS,
      "arithmetic: fp32 (default), or fp64 as a reference; fp64 has single rays and pair nodes"},
 
@@ -86,13 +86,13 @@ const Option option_table[] = {
      "vectors"},
     {"tune tile", "WxH", 0, AREA(picture.tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT,
      FOR_DRAWING, "size of the picture's tiles (default: 128x128, in parts 64x64)"},
-    {"tune group", "WxH", 0, AREA(group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
+    {"tune group", "WxH", 0, AREA(renderer.group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_GENERAL | FOR_WARM,
      "size of work-groups (default: 8x8, with wide nodes 2x2)"},
-    {"tune specialize", "auto|always|never", 0, WORD(specialization), GROUP_SPEED, CLASS_EXACT,
+    {"tune specialize", "auto|always|never", 0, WORD(renderer.specialize), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
      "compile kernels for the scene if it pays (auto), always or never; auto is the default"},
-    {"tune bvh", "auto|sah|midpoint|none", 0, WORD(bvh), GROUP_SPEED, CLASS_EXACT,
+    {"tune bvh", "auto|sah|midpoint|none", 0, WORD(renderer.tree), GROUP_SPEED, CLASS_EXACT,
      FOR_SCENE | FOR_WARM,
      "build the tree by surface areas, by midpoints or not at all; without a tree, rays test every "
      "triangle; auto (default) is sah, but up to 32 triangles get no tree with wide nodes"},
@@ -111,10 +111,10 @@ const Option option_table[] = {
      "keep finished tiles in FILE.part, and resume from them; for many pictures, skip those whose "
      "files exist"},
 
-    {"device", "SPEC", 0, TEXT(device), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
+    {"device", "SPEC", 0, TEXT(renderer.device), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
      "OpenCL device: PLATFORM:DEVICE, cpu, gpu or part of a name"},
-    {"threads", "N", 'j', COUNT(threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT, FOR_KERNELS,
-     "threads of a CPU device (default: all that the process may use)"},
+    {"threads", "N", 'j', COUNT(renderer.threads, THREADS_MOST), GROUP_DEVICE, CLASS_EXACT,
+     FOR_KERNELS, "threads of a CPU device (default: all that the process may use)"},
 
     {"stats", NULL, 0, FLAG(picture.statistics), GROUP_REPORT, CLASS_NONE,
      FOR_PICTURE | FOR_EXPLAIN | FOR_GENERAL | FOR_WARM,
