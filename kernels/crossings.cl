@@ -56,7 +56,7 @@ static inline void cross_block(const CrossingRay *ray, uint number, Crossings *c
     const int8 inner = front == ((id & TRIANGLE_REVERSED) != 0);
     const int8 open = (id & TRIANGLE_TWO_SIDED) == 0 && inner;
     const int8 own = (id & ~TRIANGLE_MARKS) == ray->own;
-    uint bits = lane_bits(owned && !open && !own && t > 0.0f && t <= ray->limit);
+    uint bits = lane_bits(owned && !open && !own && t >= 0.0f && t <= ray->limit);
     for (; bits != 0; bits &= bits - 1) {
         const uint place = lowest_bit(bits);
         const uint mark = ((const uint *)&id)[place] & ~TRIANGLE_MARKS;
@@ -112,7 +112,7 @@ static inline void cross_range(const Search *search, uint2 range, Crossings *cro
         const bool front = edges_face(&edges, &search->shear);
         const bool inner = front == ((triangle->material & TRIANGLE_REVERSED) != 0);
         const bool open = (triangle->material & TRIANGLE_TWO_SIDED) == 0 && inner;
-        if (!open && t > 0.0f && t <= search->limit)
+        if (!open && t >= 0.0f && t <= search->limit)
             add_crossing(crossings, (HitData){(float)t, triangle->id});
     }
 }

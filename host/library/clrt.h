@@ -401,7 +401,8 @@ CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const C
 // Finds all triangles that each ray crosses, and stores the nearest hits->room of them, by distance
 // and then by id. Results of ray i start at entry i * room; CLRT_NOTHING fills unused entries. A
 // ray through an edge or vertex of a closed mesh crosses it in one triangle, or in none or two
-// where it only touches a ridge. Spheres are not crossed.
+// where it only touches a ridge. A ray that starts in a triangle crosses it unless `starts` names
+// the triangle. Spheres are not crossed.
 CLRT_API bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                              const ClrtHits *hits, ClrtError *error);
 

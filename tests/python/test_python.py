@@ -93,6 +93,8 @@ class Rays(unittest.TestCase):
         hits = clrt.Renderer().trace_all(cube(), [(0, 0, 3), (9, 9, 9), (0.1, 0.2, 0)], (0, 0, -1))
         self.assertEqual(hits.ray.tolist(), [0, 0, 2])
         self.assertEqual(hits.distance.tolist(), [2, 4, 1])
+        on_face = clrt.Renderer().trace_all(cube(), [(0.1, 0.2, 1)], (0, 0, -1))
+        self.assertEqual(on_face.distance.tolist(), [0, 2])
 
     def test_rays_may_start_on_faces(self):
         renderer, scene = clrt.Renderer(), cube()
