@@ -38,31 +38,26 @@ SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine 
                     "camera 5.1 -1 0 5.1 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
           "edge": "size 40 20\ncamera 3.9 -1 0 3.9 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
           "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n"}
-# Each file with its exit status and parts of its report.
+# Each file with its exit status, and the places and keywords of its report.
 FINDINGS = [
-    ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed",
-                       "of its 10 edges and points: 0 hidden by other parts, 0 pass through", "\nfine\n"]),
-    ("open.ply", 0, ["note: 3 edges of a single triangle, the first at triangle 0",
-                     "open.ply: 3 triangles, 4 vertices, not closed",
-                     " pass through, because it is not closed\n", "\nno faults, 1 note\n"]),
-    ("eyes.scn", 0, ["note: 2 cameras are inside an object, the first is view 2 in sphere 1\nno faults, 1 note\n"]),
-    ("within.scn", 0, ["note: 1 cameras are inside an object, the first is view 1 in closed.ply\n"]),
+    ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed", "10 edges and points: 0 hidden", "\nfine\n"]),
+    ("open.ply", 0, ["note: 3 edges of a single triangle", "triangle 0", "not closed\n", "\nno faults, 1 note\n"]),
+    ("eyes.scn", 0, ["note: 2 cameras are inside", "view 2 in sphere 1\nno faults, 1 note\n"]),
+    ("within.scn", 0, ["note: 1 cameras are inside", "view 1 in closed.ply\n"]),
     ("beside.scn", 0, ["\nfine\n"]),
-    ("behind.scn", 0, ["closed.ply: 4 triangles", "note: it is outside every camera's view, so only reflections and "
-                       "shadows can show it\n", "\nno faults, 1 note\n"]),
+    ("behind.scn", 0, ["closed.ply: 4 triangles", "note: it is outside every camera's view", "\nno faults, 1 note\n"]),
     ("edge.scn", 0, ["\nfine\n"]),
-    ("turned.ply", 0, ["note: 3 edges whose triangles face opposite sides, the first at triangle 0"]),
-    ("equal.ply", 1, ["FAULT: 2 triangles with two equal corners, left out, the first triangle 2",
-                      "\n1 of 1 findings are faults\n"]),
-    ("line.ply", 1, ["FAULT: 1 triangles without area (corners on a line), the first triangle 2"]),
-    ("late.ply", 1, ["FAULT: 2 triangles with two equal corners, left out, the first triangle 0",
-                     "FAULT: 1 triangles without area (corners on a line), the first triangle 4"]),
-    ("nan.ply", 1, ["FAULT: 1 vertices with a coordinate that is not finite or past 1e30, the first vertex 2",
-                    "FAULT: 2 triangles with such a vertex, left out, the first triangle 0"]),
-    ("twice.ply", 1, ["FAULT: 1 triangles with the corners of another, the first triangle 4"]),
-    ("far.ply", 0, ["note: recenter it before writing the file"]),
-    ("mixed.scn", 0, ["note: the scale is too mixed: the scene is 1e+08 times as large as this mesh"]),
-    ("apart.scn", 1, ["FAULT: the scene cannot be drawn: sphere 1 is more than 5e11 times"]),
+    ("turned.ply", 0, ["note: 3 edges whose triangles face opposite sides", "triangle 0"]),
+    ("equal.ply", 1, ["FAULT: 2 triangles with two equal corners", "first triangle 2", "\n1 of 1 findings are faults\n"]),
+    ("line.ply", 1, ["FAULT: 1 triangles without area", "first triangle 2"]),
+    ("late.ply", 1, ["FAULT: 2 triangles with two equal corners", "first triangle 0",
+                     "FAULT: 1 triangles without area", "first triangle 4"]),
+    ("nan.ply", 1, ["FAULT: 1 vertices with a coordinate that is not finite", "first vertex 2",
+                    "FAULT: 2 triangles with such a vertex", "first triangle 0"]),
+    ("twice.ply", 1, ["FAULT: 1 triangles with the corners of another", "first triangle 4"]),
+    ("far.ply", 0, ["note: recenter it"]),
+    ("mixed.scn", 0, ["note: the scale is too mixed", "1e+08 times"]),
+    ("apart.scn", 1, ["FAULT: the scene cannot be drawn: sphere 1", "5e11 times"]),
     ("scene.scn", 1, ["FAULT: 1 spheres that are the same as another", "note: its fronts face inwards",
                       "note: 1 materials that are defined and not used"]),
 ]
@@ -153,18 +148,18 @@ class Check(Meshes):
         self.expect(found["meshes"][0], leak_test=None, closed=True)
 
     def test_files_that_cannot_be_read_or_written_are_one_message(self):
-        self.refuses(3, "nowhere.scn: cannot be opened: No such file or directory", "check", "nowhere.scn")
+        self.refuses(3, "nowhere.scn: cannot be opened", "check", "nowhere.scn")
         for name in "lie.ply", "noise.ply":
             self.assertRegex(self.clrt("check", name, code=3), rf"^clrt: {name}.*\n$")
-        self.refuses(5, "/dev/full: cannot be written: No space left on device",
+        self.refuses(5, "/dev/full: cannot be written",
                      "check", "closed.ply", "--json=/dev/full")
 
 
 class BadGeometry(Meshes):
     def test_drop_is_the_default_and_reported_once_unless_quiet(self):
         done = self.run_clrt("equal.ply", "-s", "8x8", "-o", "a.pfm")
-        told = "clrt: equal.ply: triangle 2 has two equal corners and is left out (triangles with this fault: 2)\n"
-        self.assertEqual((done.returncode, done.stderr), (0, told))
+        self.assertRegex(done.stderr, r"^clrt: equal.ply: triangle 2 has two equal corners .*\n$")
+        self.assertEqual(done.returncode, 0)
         done = self.run_clrt("equal.ply", "-s", "8x8", "-o", "b.pfm", "-q", "--bad-geometry", "drop")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assert_same_bytes("a.pfm", "b.pfm")

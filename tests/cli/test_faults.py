@@ -149,7 +149,7 @@ class Sizes(Faults):
     def test_few_bytes_hold_no_vast_picture(self):
         side = 8192
         self.write(a_png=bombs.png(side, side), a_exr=bombs.exr(side, side))
-        words = f"cannot be read: {side} x {side} pixels of 3 channels are too many for so small a file"
+        words = f"cannot be read: {side} x {side} pixels of 3 channels"
         self.within("compare", "a.png", "a.png", code=3, says="a.png: " + words)
         self.within("compare", "a.exr", "a.exr", code=3, says="a.exr: cannot be read: it is too large")
 
@@ -167,7 +167,7 @@ class Sizes(Faults):
     def test_a_header_of_many_attributes_is_refused(self):
         settings = {"width": 8, "height": 8, "part": [1, 1], "tile": [4, 4]}
         self.write(a_exr=bombs.exr_part(settings, attributes=200000))
-        says = "a.exr: cannot be read: it is not a tiled EXR file written by clrt"
+        says = "a.exr: cannot be read: it is not a tiled EXR file"
         self.within("merge", "a.exr", "-o", "m.exr", code=3, says=says)
 
     def test_check_lists_many_findings(self):
