@@ -25,21 +25,8 @@ typedef struct {
 void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream);
 void frame_times_free(FrameTimes *times);
 
-// The strings of saved files.
-typedef struct {
-    const char *scene_path; // determines the files' names
-    const char *state;      // stored in both files
-    char *notice;           // NOTICE_SIZE bytes for a message that names the files
-} SaveText;
-
 #define NOTICE_SIZE 512
-
-// Writes the displayed picture to a PNG file and the traced picture to an EXR file, both in the
-// current folder. Without EXR support, writes a PFM file instead.
-bool pictures_save(const Framebuffer *shown, const Framebuffer *traced, const SaveText *text,
-                   Error *error);
-
-#define STATE_SIZE 1024
+#define STATE_SIZE  1024
 
 typedef struct {
     // Copies, because the worker may outlive viewer_run. keys and quit_after hold what remains.

