@@ -21,12 +21,27 @@ static inline void store3(global Scalar *values, Real3 v)
     values[2] = v.z;
 }
 
-// A ray has six floats: {origin, direction}. Each ray has its triangle and 38 results.
+// Stores the discriminant of a sphere in sums of two floats, and the negative one of
+// sphere_is_passed in plain floats. The triangle's corners give the center and the radius.
+static inline void probe_sphere(const Ray *ray, const Corners *corners, global Scalar *values)
+{
+    const Real3 a = corners->a, b = scaled3(0x1p-25f, corners->b), o = ray->origin;
+    const Real r = fabs(corners->c.x);
+    const Sphere sphere = {{{a.x, a.x * b.x}, {a.y, a.y * b.y}, {a.z, a.z * b.z}}, {r, r * b.x}};
+    const TwoFloat3 f = sphere_to_origin(&sphere, o);
+    const Real3 d = ray->direction, plain = difference(o, a);
+    const Real dd = dot_product(d, d), along = -two_dot(f, d).high / dd;
+    const Real3 foot = difference(plain, scaled3(dot_product(plain, d) / dd, d));
+    values[0] = sphere_discriminant(f, d, along, dd, two_square(sphere.radius));
+    values[1] = dot_product(foot, foot) - r * r;
+}
+
+// A ray has six floats: {origin, direction}. Each ray has its triangle and 43 results.
 kernel void probe_bounds(global const float *rays, global const TriangleData *triangles,
                          global Scalar *results)
 {
     const uint item = get_global_id(0);
-    global Scalar *values = results + 38 * item;
+    global Scalar *values = results + 43 * item;
     Tracer tracer;
     tracer.triangles = (global const Triangles *)triangles;
     Ray ray;
@@ -62,6 +77,8 @@ kernel void probe_bounds(global const float *rays, global const TriangleData *tr
     store3(values + 29, search.slabs.inverse);
     store3(values + 32, search.slabs.near_offset);
     store3(values + 35, search.slabs.far_offset);
+    store3(values + 38, unit_vector(ray.direction));
+    probe_sphere(&ray, &corners, values + 41);
 }
 
 #ifdef CLRT_CERTIFY_CONE_CL
