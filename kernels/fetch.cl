@@ -91,6 +91,22 @@ static inline Corners fetch_corners(const Tracer *tracer, UInt index)
                      record_real3(&record, 2 * corner, stride)};
 }
 
+// Returns the corners of one triangle for all lanes.
+static inline Corners triangle_corners(const Tracer *tracer, uint index)
+{
+#if CLRT_WIDE_NODES
+    global const float *words = tracer->triangles[index / WIDE].corners[0][0] + index % WIDE;
+    const uint stride = WIDE, corner = 3 * WIDE;
+#else
+    global const float *words = tracer->triangles[index].a;
+    const uint stride = 1, corner = 4;
+#endif
+    global const float *b = words + corner, *c = b + corner;
+    return (Corners){real3_of(words[0], words[stride], words[2 * stride]),
+                     real3_of(b[0], b[stride], b[2 * stride]),
+                     real3_of(c[0], c[stride], c[2 * stride])};
+}
+
 static inline Look fetch_look(const Tracer *tracer, const Hit *hit)
 {
 #if CLRT_WIDE_NODES

@@ -11,8 +11,7 @@ typedef struct {
     UInt id, index;
 } Hit;
 
-// Equal distances go to the lowest id, regardless of the order of the tests. update_lane_hit in
-// wide.cl does the same for one lane.
+// Equal distances go to the lowest id, regardless of the order of the tests.
 static inline Mask hit_precedes(Real t, UInt id, const Hit *best)
 {
     return t < best->t || (t == best->t && id < best->id && t < INFINITY);

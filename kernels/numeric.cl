@@ -17,16 +17,19 @@ typedef Shear WideShear;
 typedef Corners WideCorners;
 typedef Edges WideEdges;
 typedef SurfaceRay WideSurfaceRay;
+typedef TriangleTest WideTriangleTest;
+typedef Meeting WideMeeting;
 #elif CLRT_WIDE_NODES
-#define Real       float8
-#define Mask       int8
-#define UInt       uint8
-#define Real3      Wide3
-#define Shear      WideShear
-#define Corners    WideCorners
-#define Edges      WideEdges
-#define SurfaceRay WideSurfaceRay
-#define Sides      WideSides
+#define Real         float8
+#define Mask         int8
+#define UInt         uint8
+#define Real3        Wide3
+#define Shear        WideShear
+#define Corners      WideCorners
+#define Edges        WideEdges
+#define SurfaceRay   WideSurfaceRay
+#define TriangleTest WideTriangleTest
+#define Meeting      WideMeeting
 #include "triangle.inc.cl"
 #undef Real
 #undef Mask
@@ -36,7 +39,8 @@ typedef SurfaceRay WideSurfaceRay;
 #undef Corners
 #undef Edges
 #undef SurfaceRay
-#undef Sides
+#undef TriangleTest
+#undef Meeting
 #endif
 
 static inline Real3 real3_of(Real x, Real y, Real z)

@@ -154,13 +154,15 @@ static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index
     return is_nearer(&own, &other, 0);
 }
 
-// Returns whether a triangle precedes the best hit, which is a triangle, too.
-static NOT_INLINE Mask triangle_is_nearer(const Search *search, UInt id, UInt index,
+// Returns whether a triangle precedes the best hit. In the given lanes, the best hit must be a
+// triangle, too.
+static NOT_INLINE Mask triangle_is_nearer(const Search *search, const Hit *triangle,
                                           const Hit *best, Mask lanes)
 {
-    const Nearness other = nearness_of(search->tracer, search->ray, index);
-    const Nearness nearest = nearness_of(search->tracer, search->ray, lanes ? best->index : index);
-    return is_nearer(&other, &nearest, id < best->id);
+    const UInt index = lanes ? best->index : triangle->index;
+    const Nearness other = nearness_of(search->tracer, search->ray, triangle->index);
+    const Nearness nearest = nearness_of(search->tracer, search->ray, index);
+    return is_nearer(&other, &nearest, triangle->id < best->id);
 }
 
 // Returns the lanes in which nearness decides between a triangle at t and the best hit. Only

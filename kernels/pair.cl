@@ -2,7 +2,7 @@
 // The simplest search, for GPUs and for fp64: one ray traverses the binary tree.
 #ifndef CLRT_PAIR_CL
 #define CLRT_PAIR_CL
-#include "order.cl"
+#include "accept.cl"
 
 #if !CLRT_WIDE_NODES
 
@@ -39,65 +39,18 @@ static inline Real3 corner_relative(global const float *corner, const Search *se
                     corner[search->axes.z] - search->origin.z);
 }
 
-// Returns whether the ray stops on a triangle that its line hits within rounding of its start.
-static NOT_INLINE bool stops_on_neighbor(const Tracer *tracer, const Ray *ray, uint index,
-                                         const Corners *corners, bool from_back)
-{
-    if (ray->own_index == NOTHING)
-        return false;
-    const Corners own = fetch_corners(tracer, ray->own_index);
-    Mask cross;
-    if (hits_neighbor(&own, corners, ray->direction, from_back, &cross))
-        return true;
-    return cross && is_ahead(tracer, ray, index);
-}
-
-// Returns the distance t at which the ray hits the triangle, INFINITY if it misses.
-static inline Real triangle_distance(const Search *search, uint index)
-{
-    global const TriangleData *triangle = &search->tracer->triangles[index];
-    const Ray *ray = search->ray;
-    const Corners relative = {corner_relative(triangle->a, search),
-                              corner_relative(triangle->b, search),
-                              corner_relative(triangle->c, search)};
-    const Corners sheared = corners_sheared(&relative, &search->shear);
-    const Edges edges = edges_of(&sheared);
-    if (!edges_contain(&edges))
-        return INFINITY;
-    const bool front = edges_face(&edges, &search->shear);
-    const bool inner = front == ((triangle->material & TRIANGLE_REVERSED) != 0);
-    const bool one_sided = (triangle->material & TRIANGLE_TWO_SIDED) == 0;
-    if ((one_sided && inner) || triangle->id == ray->own)
-        return INFINITY;
-    const Real t = triangle_depth(&sheared, &edges) * search->shear.inverse_z;
-    if (ray->kind == RAY_CAMERA && !triangle_is_at_origin(t, &search->shear))
-        return t > 0.0f ? t : INFINITY;
-    const Real error = triangle_depth_error(&sheared) * fabs(search->shear.inverse_z);
-    const Corners corners = {load3(triangle->a), load3(triangle->b), load3(triangle->c)};
-    const SurfaceRay surface = {ray->origin,        front,       inner, search->behind,
-                                length_of_ray(ray), blur_of(ray)};
-    Mask in_doubt;
-    const Real distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
-    if (in_doubt && (t > 0.0f || triangle_is_at_origin(t, &search->shear)) &&
-        stops_on_neighbor(search->tracer, ray, index, &corners, !front))
-        return max(t, (Real)(0.0f));
-    return distance;
-}
-
 // Tests range.y triangles from range.x on. A shadow ray stops at the first one that blocks it.
 static inline void intersect_range(const Search *search, uint2 range, Hit *best)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
         global const TriangleData *triangle = &search->tracer->triangles[index];
-        const Real t = triangle_distance(search, index);
-        const bool precedes = is_close(search, t, best)
-                                  ? triangle_is_nearer(search, triangle->id, index, best, 1)
-                                  : hit_precedes(t, triangle->id, best);
-        if (precedes) {
-            *best = (Hit){t, triangle->id, index};
-            if (search->ray->kind == RAY_SHADOW)
-                return;
-        }
+        const Corners relative = {corner_relative(triangle->a, search),
+                                  corner_relative(triangle->b, search),
+                                  corner_relative(triangle->c, search)};
+        const TriangleName name = {triangle->id, triangle->material & TRIANGLE_MARKS, index};
+        if (intersect_triangle(search, &name, &relative, 1, best) &&
+            search->ray->kind == RAY_SHADOW)
+            return;
     }
 }
 

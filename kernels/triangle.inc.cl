@@ -7,7 +7,7 @@
 // numeric.cl includes this file up to twice: for one triangle against one ray or a packet of rays,
 // and for eight triangles against one ray. The file expects the number types Real, Mask and UInt,
 // and OVERLOAD (lanes.cl). It defines the functions and the types Real3, Shear, Corners, Edges,
-// SurfaceRay and Sides. The second inclusion has to rename these types by macros.
+// TriangleTest, Meeting and SurfaceRay. The second inclusion has to rename these types by macros.
 #include "vector.inc.cl"
 
 // The shear that turns the ray into the axis z. z is the longest axis of the direction; x and y
@@ -105,6 +105,56 @@ static inline Mask OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
 }
 
+// The test of triangles against rays. `inside` selects the rays that pass inside the edges.
+typedef struct {
+    Shear shear;
+    Corners sheared;
+    Edges edges;
+    Mask inside;
+} TriangleTest;
+
+// The corners are relative to the ray's origin, with components in the order of the shear.
+static inline TriangleTest OVERLOAD triangle_test(const Corners *relative, const Shear *shear)
+{
+    TriangleTest test;
+    test.shear = *shear;
+    test.sheared = corners_sheared(relative, shear);
+    test.edges = edges_of(&test.sheared);
+    test.inside = edges_contain(&test.edges);
+    return test;
+}
+
+// The distances of rays that pass inside triangles.
+typedef struct {
+    Real t;
+    Mask front; // the ray comes from the triangle's stored front
+    Mask inner; // the ray comes from the back of the mesh's triangle
+    Mask near;  // surface_ray_distance decides whether the ray stops
+    Real clear; // otherwise: the distance at which the ray stops, INFINITY if it passes
+} Meeting;
+
+// `marks` has the triangles' flags. One-sided triangles do not stop rays on their inner side. Only
+// the first triangle near the eye is doubtful, but every triangle for rays that leave a surface.
+static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
+                                                bool from_eye)
+{
+    const Shear *shear = &test->shear;
+    Meeting met;
+    met.front = edges_face(&test->edges, shear);
+    met.inner = met.front == ((marks & TRIANGLE_REVERSED) != 0);
+    met.near = test->inside && ((marks & TRIANGLE_TWO_SIDED) != 0 || !met.inner);
+    met.clear = INFINITY;
+    met.t = INFINITY;
+    if (lane_bits(met.near) == 0)
+        return met;
+    met.t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
+    const Mask at_origin = triangle_is_at_origin(met.t, shear);
+    if (from_eye)
+        met.clear = met.near && met.t > 0.0f ? met.t : INFINITY;
+    met.near = met.near && met.t <= reach && (at_origin || (!from_eye && met.t > 0.0f));
+    return met;
+}
+
 // Returns a point's height over the triangle's front, multiplied by the normal's length, or zero if
 // rounding leaves the side undecided. Near a triangle, the height is far more precise than the
 // depth of a ray from afar. The bound adds the errors of the products, of the normal and of the
@@ -124,47 +174,6 @@ static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, flo
 
 // The error of a surface point, in units of rounding of its coordinates (B7).
 #define POINT_BLUR 16.0f
-
-// The sides of a triangle that another triangle certainly reaches.
-typedef struct {
-    Mask front, back;
-} Sides;
-
-static inline Sides OVERLOAD sides_of(const Corners *corners, const Corners *other)
-{
-    const Real a = height_over(corners, other->a, 0.0f);
-    const Real b = height_over(corners, other->b, 0.0f);
-    const Real c = height_over(corners, other->c, 0.0f);
-    const Real highest = max(max(a, b), c), lowest = min(min(a, b), c);
-    return (Sides){highest > 0.0f, lowest < 0.0f};
-}
-
-static inline Sides OVERLOAD sides_exchanged(Mask exchange, Sides sides)
-{
-    return (Sides){exchange ? sides.back : sides.front, exchange ? sides.front : sides.back};
-}
-
-// Returns whether a ray that leaves its own triangle certainly stops on another that its line hits
-// within rounding of the ray's start. The relative position of the triangles decides, seen from
-// both:
-//  - The other triangle is ahead if it is on the side of the own plane to which the ray leaves. It
-//    is not ahead if it is on the opposite side.
-//  - The ray starts on the own triangle. The other is ahead if the own triangle is on the side of
-//    the other's plane that the ray comes from. It is not ahead if the own is on the opposite side.
-// A ray does not hit coplanar neighbors. `cross` receives the lanes in which the triangles lie on
-// both sides of each other's planes. There the order along the ray decides (order.cl).
-static inline Mask OVERLOAD hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
-                                          Mask from_back, Mask *cross)
-{
-    const Real3 ab = difference(own->b, own->a), ac = difference(own->c, own->a);
-    const Mask downward = dot_product(cross_product(ab, ac), direction) < 0.0f;
-    const Sides neighbor = sides_exchanged(downward, sides_of(own, other));
-    const Sides start = sides_exchanged(from_back, sides_of(other, own));
-    const Mask behind = (neighbor.back && !neighbor.front) || (start.back && !start.front);
-    const Mask ahead = (neighbor.front && !neighbor.back) || (start.front && !start.back);
-    *cross = (neighbor.front || start.front) && !ahead && !behind;
-    return ahead && !behind;
-}
 
 // The state of a ray that leaves a surface, beside its direction.
 typedef struct {

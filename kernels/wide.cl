@@ -2,10 +2,10 @@
 // Traces single rays through the tree of wide nodes. All children of a node and all triangles of a
 // block are tested at once (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The rays of
 // a packet's lanes advance alternately, one step each. Boxes are culled as in pair.cl, and
-// triangle.inc.cl accepts hits, so both searches find the same hits.
+// accept.cl accepts hits, so both searches find the same hits.
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
-#include "order.cl"
+#include "accept.cl"
 #include "wide_stack.cl"
 
 #if CLRT_WIDE_NODES
@@ -106,15 +106,6 @@ static inline Wide3 block_corner_relative(global const TriangleBlock *block, uin
                    block_row(block, corner, ray->axes[2]) - ray->origin[2]};
 }
 
-// The result of testing a lane's ray against a block. `inside` selects the triangles whose edges
-// contain the ray.
-typedef struct {
-    WideShear shear;
-    WideCorners sheared;
-    WideEdges edges;
-    int8 inside;
-} BlockTest;
-
 // A triangle's position. index counts the triangles of all blocks.
 typedef struct {
     global const TriangleBlock *block;
@@ -131,103 +122,45 @@ static inline Wide3 splat3(const Real3 *v, uint lane)
     return (Wide3){lane_real(&v->x, lane), lane_real(&v->y, lane), lane_real(&v->z, lane)};
 }
 
-// Returns which triangles of the block stop the lane's ray, among the triangles that its line hits
-// within rounding of its start.
-static NOT_INLINE int8 block_neighbors(const WideCorners *corners, const Search *search, uint lane,
-                                       uint first, int8 from_back)
+// Returns which of the triangles stop the lane's ray, among triangles that its line hits within
+// rounding of its start.
+static NOT_INLINE int8 block_neighbors(const Search *search, uint lane, uint first, uint triangles,
+                                       uint from_back)
 {
-    const Ray *ray = search->ray;
-    if (lane_uint(&ray->own_index, lane) == NOTHING)
-        return 0;
-    const Corners owns = fetch_corners(search->tracer, (UInt)(lane_uint(&ray->own_index, lane)));
-    const WideCorners own = {splat3(&owns.a, 0), splat3(&owns.b, 0), splat3(&owns.c, 0)};
-    int8 cross;
-    int8 stops = hits_neighbor(&own, corners, splat3(&ray->direction, lane), from_back, &cross);
-    for (uint bits = lane_bits(cross); bits != 0; bits &= bits - 1) {
-        const uint place = lowest_bit(bits);
-        const Mask ahead = is_ahead(search->tracer, ray, (UInt)(first + place));
-        ((int *)&stops)[place] = (lane_bits(ahead) >> lane & 1) != 0 ? -1 : 0;
+    int8 stops = 0;
+    for (; triangles != 0; triangles &= triangles - 1) {
+        const uint place = lowest_bit(triangles);
+        const Mask back = lanes_of((from_back >> place & 1) << lane);
+        const Mask stop = stops_on_neighbor(search, (UInt)(first + place), back);
+        ((int *)&stops)[place] = (lane_bits(stop) >> lane & 1) != 0 ? -1 : 0;
     }
     return stops;
 }
 
-// Returns the distances of the triangles that stop the ray, INFINITY for the others. Distances of
-// camera rays may be beyond `reach`.
+// stop_distances for a block and a lane's ray.
 static inline float8 block_distances(const BlockPlace *start, const Search *search, uint lane,
-                                     const BlockTest *test, float reach)
+                                     const WideTriangleTest *test, float reach)
 {
     global const TriangleBlock *block = start->block;
     const Ray *ray = search->ray;
-    const WideShear *shear = &test->shear;
-    const uint8 id = vload8(0, block->id);
-    const int8 front = edges_face(&test->edges, shear);
-    const int8 inner = front == ((id & TRIANGLE_REVERSED) != 0);
-    const int8 one_sided = (id & TRIANGLE_TWO_SIDED) == 0;
-    const int8 open = one_sided && inner;
-    const int8 own = (id & ~TRIANGLE_MARKS) == lane_uint(&ray->own, lane);
-    const int8 closed = test->inside && !open && !own;
-    if (lane_bits(closed) == 0)
-        return INFINITY;
-    const float8 t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
-    const float8 clear = closed && t > 0.0f ? t : INFINITY;
-    int8 near = closed && t <= reach;
-    if (ray->kind == RAY_CAMERA)
-        near = near && triangle_is_at_origin(t, shear);
-    else
-        near = near && (t > 0.0f || triangle_is_at_origin(t, shear));
-    if (lane_bits(near) == 0)
-        return ray->kind == RAY_CAMERA ? clear : INFINITY;
-    const float8 error = triangle_depth_error(&test->sheared) * fabs(shear->inverse_z);
+    const bool from_eye = ray->kind == RAY_CAMERA;
+    const WideMeeting met = triangle_meeting(test, vload8(0, block->id), reach, from_eye);
+    if (lane_bits(met.near) == 0)
+        return met.clear;
     const WideCorners corners = {block_corner(block, 0), block_corner(block, 1),
                                  block_corner(block, 2)};
     const WideSurfaceRay surface = {
-        splat3(&ray->origin, lane), front,       inner, lane_real(&search->behind, lane),
-        length_of_ray(ray),         blur_of(ray)};
-    int8 in_doubt;
-    const float8 distance = surface_ray_distance(&corners, &surface, t, error, &in_doubt);
-    if (ray->kind == RAY_CAMERA)
-        return near ? distance : clear;
-    in_doubt = in_doubt && near;
-    if (lane_bits(in_doubt) == 0)
-        return near ? distance : INFINITY;
-    const int8 stops = block_neighbors(&corners, search, lane, start->index, !front);
-    return near ? (in_doubt && stops ? max(t, 0.0f) : distance) : INFINITY;
-}
-
-// triangle_is_nearer for one lane.
-static NOT_INLINE bool lane_triangle_is_nearer(const Search *search, uint lane, uint id, uint index,
-                                               const Hit *hits)
-{
-    const Mask lanes = lanes_of(1u << lane);
-    const Mask nearer = triangle_is_nearer(search, (UInt)(id), (UInt)(index), hits, lanes);
-    return (lane_bits(nearer) >> lane & 1) != 0;
-}
-
-// Records the nearest distance if it precedes the lane's hit, and returns whether it does.
-static inline bool update_lane_hit(const float8 *distances, const BlockPlace *start,
-                                   const Search *search, uint lane, Hit *hits)
-{
-    const float tie = lane_real(&search->tie, lane), limit = lane_real(&search->limit, lane);
-    float *best_t = (float *)&hits->t + lane;
-    uint *best_id = (uint *)&hits->id + lane, *best_index = (uint *)&hits->index + lane;
-    uint candidates =
-        lane_bits(*distances <= lane_reach(search, hits, lane) && *distances < INFINITY);
-    bool changed = false;
-    for (; candidates != 0; candidates &= candidates - 1) {
-        const uint place = lowest_bit(candidates);
-        const float t = ((const float *)distances)[place];
-        const uint id = start->block->id[place] & ~TRIANGLE_MARKS;
-        bool precedes = t < *best_t || (t == *best_t && id < *best_id);
-        if (fabs(t - *best_t) <= tie && t < limit && *best_t < limit)
-            precedes = lane_triangle_is_nearer(search, lane, id, start->index + place, hits);
-        if (precedes) {
-            *best_t = t;
-            *best_id = id;
-            *best_index = start->index + place;
-            changed = true;
-        }
-    }
-    return changed;
+        splat3(&ray->origin, lane),       met.front,          met.inner,
+        lane_real(&search->behind, lane), length_of_ray(ray), blur_of(ray)};
+    const float8 error = triangle_depth_error(&test->sheared) * fabs(test->shear.inverse_z);
+    int8 in_doubt, stops = 0;
+    const float8 distance = surface_ray_distance(&corners, &surface, met.t, error, &in_doubt);
+    in_doubt = in_doubt && met.near && !from_eye;
+    if (lane_bits(in_doubt) != 0)
+        stops =
+            block_neighbors(search, lane, start->index, lane_bits(in_doubt), lane_bits(!met.front));
+    const float8 near = stops ? max(met.t, 0.0f) : distance;
+    return met.near ? near : met.clear;
 }
 
 // Tests a block's triangles against the lane's ray. Returns whether its hit changed.
@@ -239,16 +172,23 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     const WideCorners relative = {block_corner_relative(block, 0, &ray),
                                   block_corner_relative(block, 1, &ray),
                                   block_corner_relative(block, 2, &ray)};
-    BlockTest test;
-    test.shear = ray.shear;
-    test.sheared = corners_sheared(&relative, &ray.shear);
-    test.edges = edges_of(&test.sheared);
-    test.inside = edges_contain(&test.edges);
+    WideTriangleTest test = triangle_test(&relative, &ray.shear);
+    const uint8 ids = vload8(0, block->id) & ~TRIANGLE_MARKS;
+    test.inside = test.inside && ids != lane_uint(&search->ray->own, lane);
     if (lane_bits(test.inside) == 0)
         return false;
     const float reach = lane_reach(search, hits, lane);
     const float8 distances = block_distances(start, search, lane, &test, reach);
-    return update_lane_hit(&distances, start, search, lane, hits);
+    uint candidates = lane_bits(distances <= reach && distances < INFINITY);
+    bool changed = false;
+    for (; candidates != 0; candidates &= candidates - 1) {
+        const uint place = lowest_bit(candidates);
+        const Hit triangle = {((const float *)&distances)[place], ((const uint *)&ids)[place],
+                              start->index + place};
+        const Mask accepted = accept_triangle(search, lanes_of(1u << lane), &triangle, hits);
+        changed |= any_lane(accepted);
+    }
+    return changed;
 }
 
 // Returns whether the scene probably exceeds the caches. Prefetching makes other scenes 7 % slower.

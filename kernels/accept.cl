@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Accepts triangles as hits, in every search. A packet's rays are tested against one triangle; a
+// packet of one lane is a single ray of pair.cl. wide.cl tests a single ray against a block and
+// takes the same decisions for one lane. Doubtful cases are rare and leave the common path: a
+// triangle within rounding of the ray's start (stops_on_neighbor), and triangles whose distances
+// differ only by rounding (triangle_is_nearer).
+#ifndef CLRT_ACCEPT_CL
+#define CLRT_ACCEPT_CL
+#include "order.cl"
+
+// The sides of a triangle that another triangle certainly reaches.
+typedef struct {
+    Mask front, back;
+} Sides;
+
+static inline Sides sides_of(const Corners *corners, const Corners *other)
+{
+    const Real a = height_over(corners, other->a, 0.0f);
+    const Real b = height_over(corners, other->b, 0.0f);
+    const Real c = height_over(corners, other->c, 0.0f);
+    const Real highest = max(max(a, b), c), lowest = min(min(a, b), c);
+    return (Sides){highest > 0.0f, lowest < 0.0f};
+}
+
+static inline Sides sides_exchanged(Mask exchange, Sides sides)
+{
+    return (Sides){exchange ? sides.back : sides.front, exchange ? sides.front : sides.back};
+}
+
+// Returns whether a ray that leaves its own triangle certainly stops on another that its line hits
+// within rounding of the ray's start. The relative position of the triangles decides, seen from
+// both:
+//  - The other triangle is ahead if it is on the side of the own plane to which the ray leaves. It
+//    is not ahead if it is on the opposite side.
+//  - The ray starts on the own triangle. The other is ahead if the own triangle is on the side of
+//    the other's plane that the ray comes from. It is not ahead if the own is on the opposite side.
+// A ray does not hit coplanar neighbors. `cross` receives the lanes in which the triangles lie on
+// both sides of each other's planes. There the order along the ray decides (order.cl).
+static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
+                                 Mask from_back, Mask *cross)
+{
+    const Real3 ab = difference(own->b, own->a), ac = difference(own->c, own->a);
+    const Mask downward = dot_product(cross_product(ab, ac), direction) < 0.0f;
+    const Sides neighbor = sides_exchanged(downward, sides_of(own, other));
+    const Sides start = sides_exchanged(from_back, sides_of(other, own));
+    const Mask behind = (neighbor.back && !neighbor.front) || (start.back && !start.front);
+    const Mask ahead = (neighbor.front && !neighbor.back) || (start.front && !start.back);
+    *cross = (neighbor.front || start.front) && !ahead && !behind;
+    return ahead && !behind;
+}
+
+// Returns which rays stop on a triangle that their lines hit within rounding of their start.
+static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask from_back)
+{
+    const Ray *ray = search->ray;
+    const Mask known = ray->own_index != NOTHING;
+    const Corners other = fetch_corners(search->tracer, index);
+    const Corners own = fetch_corners(search->tracer, known ? ray->own_index : index);
+    Mask cross;
+    const Mask stops = hits_neighbor(&own, &other, ray->direction, from_back, &cross);
+    if (!any_lane(known && cross))
+        return known && stops;
+    return known && (stops || (cross && is_ahead(search->tracer, ray, index)));
+}
+
+// Records the triangle as the hit of the candidates that it precedes, and returns these lanes.
+static inline Mask accept_triangle(const Search *search, Mask candidates, const Hit *triangle,
+                                   Hit *best)
+{
+    const Real t = triangle->t;
+    const Mask close = candidates && is_close(search, t, best);
+    Mask precedes = candidates && hit_precedes(t, triangle->id, best);
+    if (any_lane(close)) {
+        const Mask nearer = triangle_is_nearer(search, triangle, best, close);
+        precedes = close ? nearer : precedes;
+    }
+    best->t = precedes ? t : best->t;
+    best->id = precedes ? triangle->id : best->id;
+    best->index = precedes ? triangle->index : best->index;
+    return precedes;
+}
+
+// A triangle's id, its flags and its position.
+typedef struct {
+    uint id, marks, index;
+} TriangleName;
+
+// Returns the distances of the rays that stop on the triangle, INFINITY for the others. Distances
+// of camera rays may be beyond `reach`.
+static inline Real stop_distances(const Search *search, const TriangleName *name,
+                                  const TriangleTest *test, Real reach)
+{
+    const Ray *ray = search->ray;
+    const bool from_eye = ray->kind == RAY_CAMERA;
+    const Meeting met = triangle_meeting(test, (UInt)(name->marks), reach, from_eye);
+    if (!any_lane(met.near))
+        return met.clear;
+    const Corners corners = triangle_corners(search->tracer, name->index);
+    const SurfaceRay surface = {ray->origin,    met.front,          met.inner,
+                                search->behind, length_of_ray(ray), blur_of(ray)};
+    const Real error = triangle_depth_error(&test->sheared) * fabs(test->shear.inverse_z);
+    Mask in_doubt;
+    const Real distance = surface_ray_distance(&corners, &surface, met.t, error, &in_doubt);
+    in_doubt = in_doubt && met.near && !from_eye;
+    Mask stops = 0;
+    if (any_lane(in_doubt))
+        stops = in_doubt && stops_on_neighbor(search, (UInt)(name->index), !met.front);
+    const Real near = stops ? max(met.t, (Real)(0.0f)) : distance;
+    return met.near ? near : met.clear;
+}
+
+// Tests a triangle, given by its corners relative to the rays' origins, against the rays in
+// `lanes`. Returns the lanes whose hits changed.
+static ALWAYS_INLINE Mask intersect_triangle(const Search *search, const TriangleName *name,
+                                             const Corners *relative, Mask lanes, Hit *best)
+{
+    TriangleTest test = triangle_test(relative, &search->shear);
+    test.inside = lanes && test.inside;
+    if (!any_lane(test.inside))
+        return 0;
+    test.inside = test.inside && search->ray->own != name->id;
+    if (!any_lane(test.inside))
+        return 0;
+    const Real t = stop_distances(search, name, &test, search_reach(search, best));
+    const Hit triangle = {t, (UInt)(name->id), (UInt)(name->index)};
+    return accept_triangle(search, lanes, &triangle, best);
+}
+
+#endif
