@@ -25,6 +25,7 @@ typedef struct {
     Bounds bounds;       // over all rays
     Bounds own[PACKETS]; // over each packet's rays, if its bit is set in bounded
     uint bounded;
+    uint own_index;       // index of the triangle that all rays start on, or NOTHING
     uint live[PACKETS];   // bits of the lanes that search
     float reach[PACKETS]; // largest search_reach of the live lanes
     Hit hits[PACKETS];
@@ -115,8 +116,9 @@ static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint packets
                                             const uint bits[PACKETS])
 {
     const BlockPlace start = block_start(beam->tracer, block);
-    const uint near =
-        triangles_near(start.block, bounds_of(beam, packets), reach_of(beam, packets));
+    uint near = triangles_near(start.block, bounds_of(beam, packets), reach_of(beam, packets));
+    if (beam->own_index / WIDE == block)
+        near &= ~(1u << beam->own_index % WIDE);
     bool any = false;
     if (near == 0)
         return false;
@@ -201,6 +203,17 @@ static inline void test_all_blocks(Beam *beam)
             packets = packets_searching(beam);
 }
 
+// Returns the index of the triangle that all rays start on, or NOTHING if there is none. No ray
+// hits this triangle.
+static inline uint shared_own(const Beam *beam, const Ray *rays)
+{
+    const uint own = lane_uint(&rays->own_index, 0);
+    Mask other = 0;
+    for (uint number = 0; number < beam->count; number++)
+        other = other || rays[number].own_index != own;
+    return any_lane(other) ? NOTHING : own;
+}
+
 // Sets up a beam of rays whose directions share their signs. The count and the hits must be set.
 static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *rays)
 {
@@ -213,6 +226,7 @@ static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *ray
     }
     beam->bounds = bounds_over(beam->packets, (1u << beam->count) - 1);
     beam->bounded = 0;
+    beam->own_index = shared_own(beam, rays);
 }
 
 // Finds the nearest hits of the beam's rays, or any hit of each shadow ray. At least one lane must
