@@ -31,15 +31,42 @@ static inline Real3 splat_corner(const BlockPlace *at, uint corner)
                     at->block->corners[corner][2][at->place]);
 }
 
+// The rows of a block's first corners, in the order of a packet's axes. The rows of the next corner
+// follow 3 * WIDE words later.
+typedef struct {
+    global const float *x, *y, *z;
+} BlockRows;
+
+static inline BlockRows rows_ordered(global const TriangleBlock *block, const Packet *packet)
+{
+    global const float *rows = block->corners[0][0];
+    return (BlockRows){rows + packet->axes[0] * WIDE, rows + packet->axes[1] * WIDE,
+                       rows + packet->axes[2] * WIDE};
+}
+
+// Returns a corner relative to each ray's origin, if all rays have the same axes.
+static inline Real3 corner_in_rows(const BlockRows *rows, uint word, Real3 backward)
+{
+    return real3_of(rows->x[word] + backward.x, rows->y[word] + backward.y,
+                    rows->z[word] + backward.z);
+}
+
 // Returns a corner relative to each ray's origin, in the order of each ray's axes.
 static inline Real3 corner_from(const BlockPlace *at, uint corner, const Packet *packet)
 {
-    const Real3 o = packet->rays.origin;
-    if (!packet->one_axis)
-        return difference(axes_ordered(splat_corner(at, corner), &packet->rays.axes), o);
-    return real3_of((Real)(at->block->corners[corner][packet->axes[0]][at->place]) - o.x,
-                    (Real)(at->block->corners[corner][packet->axes[1]][at->place]) - o.y,
-                    (Real)(at->block->corners[corner][packet->axes[2]][at->place]) - o.z);
+    return sum3(axes_ordered(splat_corner(at, corner), &packet->rays.axes), packet->rays.backward);
+}
+
+static ALWAYS_INLINE Corners corners_from(const BlockPlace *at, const BlockRows *rows,
+                                          const Packet *packet, bool one_axis)
+{
+    const Real3 backward = packet->rays.backward;
+    if (one_axis)
+        return (Corners){corner_in_rows(rows, at->place, backward),
+                         corner_in_rows(rows, at->place + 3 * WIDE, backward),
+                         corner_in_rows(rows, at->place + 6 * WIDE, backward)};
+    return (Corners){corner_from(at, 0, packet), corner_from(at, 1, packet),
+                     corner_from(at, 2, packet)};
 }
 
 // Tests a block's triangles against the rays of the lanes whose bits are set. `near` has the bits
@@ -49,11 +76,12 @@ static ALWAYS_INLINE bool intersect_packet_block(const BlockPlace *start, const 
 {
     Mask changed = 0;
     const Mask lanes = lanes_of(bits);
+    const BlockRows rows = rows_ordered(start->block, packet);
+    const bool one_axis = packet->one_axis;
     for (; near != 0; near &= near - 1) {
         const uint place = lowest_bit(near);
         const BlockPlace at = {start->block, place, start->index + place};
-        const Corners relative = {corner_from(&at, 0, packet), corner_from(&at, 1, packet),
-                                  corner_from(&at, 2, packet)};
+        const Corners relative = corners_from(&at, &rows, packet, one_axis);
         const uint id = at.block->id[place];
         const TriangleName name = {id & ~TRIANGLE_MARKS, id & TRIANGLE_MARKS, at.index};
         changed = intersect_triangle(&packet->rays, &name, &relative, lanes, best) || changed;

@@ -34,9 +34,9 @@ static inline void intersect_slabs(global const BvhPair *node, const Search *sea
 // Reading the components by axis makes the permutation free.
 static inline Real3 corner_relative(global const float *corner, const Search *search)
 {
-    return real3_of(corner[search->axes.x] - search->origin.x,
-                    corner[search->axes.y] - search->origin.y,
-                    corner[search->axes.z] - search->origin.z);
+    return real3_of(corner[search->axes.x] + search->backward.x,
+                    corner[search->axes.y] + search->backward.y,
+                    corner[search->axes.z] + search->backward.z);
 }
 
 // Tests range.y triangles from range.x on. A shadow ray stops at the first one that blocks it.

@@ -74,7 +74,7 @@ typedef struct {
     const Ray *ray;
     ShearAxes axes;
     Shear shear;
-    Real3 origin; // in the order of the axes
+    Real3 backward; // minus the origin, in the order of the axes
     Slabs slabs;
     Real limit;  // distance of the nearest sphere, or the end of a shadow ray
     Real tie;    // rounding may exchange two triangles whose distances differ by this or less
@@ -90,7 +90,7 @@ static inline Search search_along(const Tracer *tracer, const Ray *ray, Real lim
     search.slabs = slabs_of(ray->origin, ray->direction);
     search.axes = shear_axes(ray->direction);
     search.shear = shear_along(ray->direction, &search.axes);
-    search.origin = axes_ordered(ray->origin, &search.axes);
+    search.backward = axes_ordered(negative3(ray->origin), &search.axes);
     search.limit = limit;
     // triangle_depth_error is at most 54 (far + 1), as corners are at most 1 (B4).
     const Real unit = UNIT_ROUNDOFF * fabs(search.shear.inverse_z);

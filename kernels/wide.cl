@@ -82,8 +82,8 @@ static inline Wide3 block_corner(global const TriangleBlock *block, uint corner)
 
 // A lane's ray, prepared for testing a block.
 typedef struct {
-    uint axes[3];    // of the shear: its x, y and z
-    float origin[3]; // in the order of these axes
+    uint axes[3];      // of the shear: its x, y and z
+    float backward[3]; // minus the origin, in the order of these axes
     WideShear shear;
 } LaneRay;
 
@@ -92,8 +92,8 @@ static inline LaneRay lane_ray(const Search *search, uint lane)
     return (LaneRay){
         {lane_uint(&search->axes.x, lane), lane_uint(&search->axes.y, lane),
          lane_uint(&search->axes.z, lane)},
-        {lane_real(&search->origin.x, lane), lane_real(&search->origin.y, lane),
-         lane_real(&search->origin.z, lane)},
+        {lane_real(&search->backward.x, lane), lane_real(&search->backward.y, lane),
+         lane_real(&search->backward.z, lane)},
         {lane_real(&search->shear.shear_x, lane), lane_real(&search->shear.shear_y, lane),
          lane_real(&search->shear.inverse_z, lane), lane_real(&search->shear.direction_z, lane)}};
 }
@@ -101,9 +101,9 @@ static inline LaneRay lane_ray(const Search *search, uint lane)
 static inline Wide3 block_corner_relative(global const TriangleBlock *block, uint corner,
                                           const LaneRay *ray)
 {
-    return (Wide3){block_row(block, corner, ray->axes[0]) - ray->origin[0],
-                   block_row(block, corner, ray->axes[1]) - ray->origin[1],
-                   block_row(block, corner, ray->axes[2]) - ray->origin[2]};
+    return (Wide3){block_row(block, corner, ray->axes[0]) + ray->backward[0],
+                   block_row(block, corner, ray->axes[1]) + ray->backward[1],
+                   block_row(block, corner, ray->axes[2]) + ray->backward[2]};
 }
 
 // A triangle's position. index counts the triangles of all blocks.
