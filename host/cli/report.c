@@ -170,10 +170,10 @@ static json_t *report_json(const Run *run)
         FIELD("bytes",
               JSON(FIELD("uploaded", report->drawn.upload_size), FIELD("peak_memory", peak))),
         FIELD("scene", scene_json(run)), FIELD("bvh", tree_json(run)),
-        FIELD("settings", settings_json(run)), FIELD("tiles", tiles_json(run)),
-        FIELD("samples", samples_json(run)), FIELD("rays", rays_json(tallies)),
-        FIELD("tests", tests_json(tallies)), FIELD("seconds", seconds_json(run)),
-        FIELD("frame_seconds", frames_json(report)),
+        FIELD("settings", settings_json(run)), FIELD("cached", report->drawn.was_compiled),
+        FIELD("tiles", tiles_json(run)), FIELD("samples", samples_json(run)),
+        FIELD("rays", rays_json(tallies)), FIELD("tests", tests_json(tallies)),
+        FIELD("seconds", seconds_json(run)), FIELD("frame_seconds", frames_json(report)),
         FIELD("reference", reference_json(&report->reference)),
         FIELD("certainty", certainty_json(run)));
 }
@@ -233,6 +233,7 @@ void report_write_setup(const Run *run, FILE *stream)
     json_print(json, "kernels: {settings.kernel}, {settings.nodes} nodes, {settings.precision}, ",
                stream);
     fputs(run->report.drawn.is_special ? "specialized" : "general", stream);
+    fputs(run->report.drawn.was_compiled ? ", cached" : ", compiled", stream);
     json_print(json, ", ready in {seconds.kernel_build .3f} s; uploaded {bytes.uploaded} bytes\n",
                stream);
     json_decref(json);

@@ -285,6 +285,7 @@ typedef struct {
     uint64_t sample_count;     // samples taken
     uint64_t pixels_open, pixels_repaired, pixels_certified; // of the channel certainty
     double seconds;                                          // for colors and channels
+    bool cached; // an earlier process compiled the kernels
 
     // Zero without ClrtPicture::statistics.
     uint64_t camera_rays, shadow_rays, reflected_rays, camera_hits, shaded_points;

@@ -130,6 +130,7 @@ static void fill_result(const Drawing *drawing)
         .pixels_repaired = marks[CERTAINTY_REPAIRED],
         .pixels_certified = marks[CERTAINTY_CERTIFIED],
         .seconds = drawing->seconds,
+        .cached = drawn->was_compiled,
         .camera_rays = tallies[TALLY_CAMERA_RAYS],
         .shadow_rays = tallies[TALLY_SHADOW_RAYS],
         .reflected_rays = tallies[TALLY_REFLECTED_RAYS],

@@ -33,7 +33,8 @@ typedef struct {
 
 typedef struct {
     // Set by session_prepare.
-    bool is_special; // the kernels are specialized for the scene
+    bool is_special;   // the kernels are specialized for the scene
+    bool was_compiled; // an earlier process compiled the kernels
     size_t upload_size;
     double upload_seconds, build_seconds;
     uint32_t group[2]; // size of the work-groups

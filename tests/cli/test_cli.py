@@ -271,6 +271,10 @@ class Compiled(Work):
             self.assertRegex(self.clrt("warm", "--tune", "kernel=pair", *words, **self.cache), f"(?m)^{line}")
         found = self.statistics(*SMALL, "a.pfm", "--tune", "kernel=pair", **self.cache)
         self.expect(found, settings__specialized=True)
+        for words, cached, text in ([], True, "cached"), (["--aa-adaptive"], False, "compiled"):
+            done = self.run_clrt(*SMALL, "a.pfm", "--tune", "kernel=pair", "-v", "--json=a.json", *words, **self.cache)
+            self.expect(self.json_of("a.json"), cached=cached)
+            self.assertRegex(done.stderr, f"(?m)^kernels: .*, {text}, ready in ")
 
     def test_small_pictures_use_the_kernels_that_compile_sooner(self):
         self.draws_by("ray, pair")

@@ -75,7 +75,7 @@ TRIALS = {
 IN_THE_WINDOW = {"keys": "tests/view/test_keys.py", "quit-after": "tests/view/test_keys.py"}
 
 # Values that differ between two runs with the same arguments.
-MEASURED = ("seconds", "frame_seconds", "bytes")
+MEASURED = ("seconds", "frame_seconds", "bytes", "cached")
 
 
 def listed_options():

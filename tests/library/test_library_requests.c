@@ -72,6 +72,20 @@ TEST(goals_are_the_programs)
     assert_int_equal(expect_program(picture, "--error 2% --max-level 2").max_level, 2);
 }
 
+TEST(kernels_are_cached_after_a_renderer_compiled_them)
+{
+    ClrtPicture picture = request();
+    ClrtResult result = {.size = sizeof result};
+    picture.contrast = 0.5;
+    picture.result = &result;
+    for (int i = 0; i < 2; i++) {
+        ClrtRenderer *own = program_renderer(0);
+        assert_true(own != NULL && clrt_render(own, scene, &picture, rgb, NULL));
+        clrt_renderer_free(own);
+    }
+    assert_true(result.cached);
+}
+
 TEST(a_time_is_spent_or_missed)
 {
     ClrtResult result = {.size = sizeof result};
