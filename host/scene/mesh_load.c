@@ -6,6 +6,7 @@
 #include "mesh/foreign_stream.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 // Materials without highlights become matte.
@@ -92,6 +93,38 @@ static bool add_model(Scene *scene, ForeignModel *model, const char *path,
            add_parts(scene, model, &here, first_material, error);
 }
 
+void foreign_files_free(ForeignFiles *files)
+{
+    for (size_t i = 0; i < files->files.count; i++) {
+        free(files->files.data[i].path);
+        file_free(&files->files.data[i].stream);
+    }
+    free(files->files.memory);
+    *files = (ForeignFiles){0};
+}
+
+static const File *kept_stream(const ForeignFiles *kept, const char *path)
+{
+    for (size_t i = 0; kept != NULL && i < kept->files.count; i++)
+        if (strcmp(kept->files.data[i].path, path) == 0)
+            return &kept->files.data[i].stream;
+    return NULL;
+}
+
+// Keeps the stream, or frees it.
+static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
+{
+    Error unused = {0};
+    const bool fits = kept != NULL && stream->size <= FOREIGN_KEPT_MOST - kept->size;
+    const ForeignFile file = {fits ? text_copy(path, &unused) : NULL, *stream};
+    if (file.path != NULL && array_push(&kept->files, file, &unused)) {
+        kept->size += stream->size;
+        return;
+    }
+    free(file.path);
+    file_free(stream);
+}
+
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error)
 {
     // The time exceeds clrt-foreign's own limit, so that clrt-foreign's alarm normally ends it
@@ -99,13 +132,16 @@ bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *opt
     static const ForeignReader assimp = {.library = "Assimp",
                                          .limits = {.seconds = 125, .bytes = (size_t)8 << 30}};
     const char *const words[FOREIGN_WORDS] = {path};
-    File stream;
+    const File *kept = kept_stream(options->kept, path);
+    File stream = {0};
     ForeignModel model = {0};
     Error cause = {0};
-    const bool parsed = foreign_run(&stream, &assimp, words, &cause)
-                            ? foreign_stream_parse(&model, &stream, path, options->parse, error)
+    const bool parsed = kept != NULL || foreign_run(&stream, &assimp, words, &cause)
+                            ? foreign_stream_parse(&model, kept != NULL ? kept : &stream, path,
+                                                   options->parse, error)
                             : error_set(error, "%s: %s", path, cause.text);
-    file_free(&stream);
+    if (kept == NULL)
+        keep_or_free(options->kept, path, &stream);
     const bool ok = parsed && add_model(scene, &model, path, options, error);
     foreign_model_free(&model);
     return ok;

@@ -24,6 +24,20 @@ typedef struct {
 
 #define NO_CREASE (-2)
 
+// The output of clrt-foreign for the files of a scene, so that each file is read once. A file whose
+// output would take more than FOREIGN_KEPT_MOST bytes together with the others is read each time.
+#define FOREIGN_KEPT_MOST ((size_t)256 << 20)
+typedef struct {
+    char *path;
+    File stream;
+} ForeignFile;
+typedef struct {
+    ARRAY(ForeignFile) files;
+    size_t size;
+} ForeignFiles;
+
+void foreign_files_free(ForeignFiles *files);
+
 // Options for loading a file.
 typedef struct {
     MeshObject object;        // properties of the file's objects, without meshes
@@ -33,6 +47,7 @@ typedef struct {
     bool takes_own_materials; // the file's materials, if it has any, replace the object's
     bool is_plain_ply;        // PLY only, without transforms
     PlyParse *parse;          // the reader of PLY files
+    ForeignFiles *kept;       // files in other formats; borrowed; NULL keeps none
 } MeshLoadOptions;
 
 // Adds an object with the mesh of the file read from path, and adds the file to the inputs.

@@ -282,6 +282,14 @@ class Hostile(Work):
                "polygons if they are convex"
         self.assertEqual((status, text), (3, f"clrt: a.obj: {says}\n"))
 
+    def test_a_scene_reads_each_file_once(self):
+        self.write(a_obj="v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                   c_obj="v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")
+        lines = (f"mesh {'ac'[i % 2]}.obj translate {i} 0 0\n" for i in range(1000))
+        self.write(a_scn="light 4 4 4 1\n" + "".join(lines))
+        self.assertEqual(self.run_within(4, 500, "convert", "a.scn", "b.ply")[0], 0)
+        self.assertIn(b"element face 1000\n", self.bytes_of("b.ply"))
+
     def test_a_model_reads_no_file_outside_of_its_folder(self):
         (self.work / "inner").mkdir()
         self.write(secret_mtl=LIBRARY)
