@@ -38,7 +38,7 @@ case "$*" in
     [ ! -f build/release/clrt ] || { echo "ninja: no work to do."; exit 0; }
     mkdir -p build/release
     echo "[30/120] Building C object main.c.o"
-    printf '#!/bin/sh\\nsleep "$DELAY"; echo "clrt $*"; exit 3\\n' >build/release/clrt
+    printf '#!/bin/sh\\nsleep "$DELAY"; echo "clrt $*"; echo "$*" >>"$LOG.clrt"; exit 3\\n' >build/release/clrt
     chmod +x build/release/clrt ;;
 esac
 exit 0
@@ -147,7 +147,7 @@ class Setup(unittest.TestCase):
         told = self.run_tool("tools/setup", "picture", DELAY="2.5")
         self.assertRegex(told, r"(?m)^download, 42 %, [12] s$")
         told = self.run_tool("tools/render", "a.scn", code=3, DELAY="2.5")
-        self.assertRegex(told, r"(?m)^kernels and picture, [12] s\n(.*\n)*clrt a.scn$")
+        self.assertRegex(told, r"(?m)^picture, [12] s\n(.*\n)*clrt a.scn$")
         told = self.run_tool("tools/test", code=8, DELAY="2.5")
         self.assertRegex(told, r"(?m)sec\ntests, 33 %, [12] s\n(.*\n)*2/3 Test")
         self.assertNotRegex(told, "[\r\x1b]")
@@ -172,7 +172,9 @@ class Setup(unittest.TestCase):
     def test_render_names_the_program_once(self):
         told = self.run_on_terminal("tools/render", "a.scn", "-o", "a b.png", code=3)
         self.assertRegex(told, r"\r\x1b\[Kbuild, 25 %, \d+ s")
-        self.assertRegex(told, r"build: done in \d+ s; next: kernels and picture\r\nclrt a.scn -o a b.png\r\n")
+        self.assertRegex(told, r"build: done in \d+ s; next: kernels\r\n")
+        self.assertRegex(told, r"kernels: done in \d+ s; next: picture\r\nclrt a.scn -o a b.png\r\n")
+        self.assertEqual("warm\na.scn -o a b.png\n", (self.work / "log.clrt").read_text())
         self.assertTrue(told.endswith("From now on, run build/release/clrt.\r\n"), told)
         packages = "".join(f"{name} installed\\n" for name in re.findall(r"[a-z0-9-]+", APT + self.log()))
         told = self.run_tool("tools/render", "b.scn", code=3, INSTALLED=packages)

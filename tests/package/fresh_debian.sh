@@ -63,6 +63,8 @@ done
 in_namespaces bash -euc '
     root=$1 course=$2 commands=$3
     shift 3
+    # Tests that mount disks need a root that is a mount point.
+    mount --bind "$root" "$root"
     mount -t proc proc "$root/proc"
     mount -t sysfs -o ro sysfs "$root/sys"
     if [ -d "$course" ]; then
