@@ -14,6 +14,11 @@ const KernelChoice form_all[FORMS] = {
     {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
     {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
 
+const KernelChoice form_few[FORMS_FEW] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
+                                          {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
+                                          {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32},
+                                          {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
+
 static const struct {
     const char *name;
     KernelChoice choice;

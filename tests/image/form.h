@@ -11,6 +11,11 @@
 #define FORMS_FP32 (FORMS - 1)
 extern const KernelChoice form_all[FORMS];
 
+// One number of lanes, for kernels whose own code is the same for every number: channels and
+// explanations. fp64 is last.
+#define FORMS_FEW 4
+extern const KernelChoice form_few[FORMS_FEW];
+
 // Returns the selected form. Ends the process if CLRT_TEST_KERNEL names no form.
 KernelChoice form_choice(void);
 

@@ -131,15 +131,16 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 static Session session;
 
 // Opens the session at the first request, and whenever the compiler's options change. Programs with
-// options are not saved, because saving takes longer than their pictures. The session stays open,
-// because some implementations of OpenCL cannot be called at exit.
+// options and special ones are not saved, because saving takes longer than their pictures. The
+// session stays open, because some implementations of OpenCL cannot be called at exit.
 static bool open_session(const PictureRequest *request, Error *error)
 {
     const char *options = request->extra_options;
     const char *older = session.settings.extra_options;
     if (session.is_open && options != older)
         session_close(&session);
-    session.cache = options == NULL ? *shared_cache() : (Cache){0};
+    const bool is_kept = options == NULL && request->specialization != SPECIALIZE_ALWAYS;
+    session.cache = is_kept ? *shared_cache() : (Cache){0};
     session.settings = (SessionSettings){.device = getenv("CLRT_DEVICE"),
                                          .threads = request->threads,
                                          .kernel_folder = getenv("CLRT_KERNEL_DIR"),
