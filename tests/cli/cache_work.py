@@ -6,10 +6,10 @@ import pathlib
 import shutil
 import tempfile
 
-from work import SCENE, Work
+from work import ROOT, Work
 
 # The picture uses the kernels that compile fastest.
-PICTURE = [SCENE, "-s", "48x32", "-q", "--tune=kernel=pair,specialize=never"]
+PICTURE = [str(ROOT / "tests/cli/sphere.scn"), "-s", "48x32", "-q", "--tune=kernel=pair,specialize=always"]
 CHOSEN = ("POCL_CACHE_DIR", "XDG_CACHE_HOME", "TMPDIR", "CLRT_KERNEL_DIR")
 
 

@@ -68,7 +68,7 @@ class Damage(CacheWork):
 
     def test_a_running_process_keeps_its_private_folder(self):
         running = self.start_clrt(*PICTURE, "--aa=60", "-s", "800x600", "-o", "long.pfm")
-        self.wait_for(lambda: any(self.cache.glob("clrt/clrt-*/lock")))
+        self.wait_for(lambda: any(self.cache.glob("clrt/clrt-*/**/*.so")))  # it has loaded its kernels
         kept = self.private_folders()
         self.assertEqual(self.draw(), self.expected)
         self.assertEqual(self.private_folders(), kept)

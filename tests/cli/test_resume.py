@@ -22,7 +22,7 @@ NAME = "a.exr" if HAS_EXR else "a.pfm"
 # LONG has many small tiles and takes some seconds. ONE_TILE has one tile and takes much longer.
 WIDTH, HEIGHT, TILE = 400, 300, 20
 TILES = WIDTH // TILE * HEIGHT // TILE
-LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=8", "--tune", f"tile={TILE}x{TILE}", "-j", "1"]
+LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=6", "--tune", f"tile={TILE}x{TILE}", "-j", "1"]
 ONE_TILE = [SCENE, "-s", "2000x2000", "--aa=16", "--tune", "tile=2000x2000", "-j", "1"]
 SMALL = [SCENE, "-s", "61x43", "--tune", "tile=16x8"]
 OTHER = "has another scene, other settings or another version of clrt: remove it to begin again"
@@ -100,7 +100,7 @@ class Kills(Resume):
         self.stop(*LONG, number=signal.SIGKILL)
         journal, chance = self.journal.read_bytes(), random.Random(2)
         record = 24 + TILE * TILE * 12
-        for _ in range(4):
+        for _ in range(2):
             place = chance.randrange(24, 40 * record)
             torn = journal[:place]
             damaged = journal[:place] + bytes([journal[place] ^ 1]) + journal[place + 1 :]
@@ -109,7 +109,7 @@ class Kills(Resume):
                 self.assertEqual(self.resumed_tiles(*LONG), (place - 24) // record)
                 self.assertTrue(self.bytes_of(NAME) == whole)
                 (self.work / NAME).unlink()
-        for size in 0, 5, 23, 24:
+        for size in 0, 23, 24:
             self.journal.write_bytes(journal[:size])
             self.assertEqual(self.resumed_tiles(*LONG), 0)
             (self.work / NAME).unlink()
@@ -134,8 +134,8 @@ class Kills(Resume):
         drawn = rest["tiles"]["drawn"]
         self.assertEqual(rest["tiles"], {"total": TILES, "found": TILES - drawn, "drawn": drawn})
         self.assertLess(drawn, TILES - 39)
-        samples = drawn * TILE * TILE * 64
-        self.expect(rest, rays__camera=samples, samples__total=samples, samples__per_pixel=64)
+        samples = drawn * TILE * TILE * 36
+        self.expect(rest, rays__camera=samples, samples__total=samples, samples__per_pixel=36)
 
     def test_statistics_as_text_say_that_found_tiles_do_not_count(self):
         self.clrt(*SMALL, "-o", NAME)

@@ -82,7 +82,7 @@ class Stops(Work):
     def test_at_any_moment_of_a_cold_start_under_load(self):
         load = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
         try:
-            self.stop_often([self.chance.uniform(0, 3) for _ in range(6)], cold=True)
+            self.stop_often([self.chance.uniform(0, 3) for _ in range(3)], cold=True)
         finally:
             for process in load:
                 process.kill()
@@ -94,7 +94,7 @@ class Stops(Work):
         moment = 1
         while self.stop_often([moment], cold=False) == 0:  # a busy machine takes longer to the first tile
             moment *= 2
-        self.stop_often([self.chance.uniform(0, 0.3) for _ in range(10)], cold=False)
+        self.stop_often([self.chance.uniform(0, 0.3) for _ in range(5)], cold=False)
 
     def test_a_second_signal_ends_it_at_once_at_any_moment(self):
         for moment in 0, 0.05, 0.3, 1, 2:

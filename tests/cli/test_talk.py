@@ -136,7 +136,7 @@ class Terminal(Talk):
         self.assertNotIn(b"loading", self.on_terminal("a.scn", "-s", "8x8", "-o", "a.pfm"))
 
     def test_every_command_announces_compiling(self):
-        for words in (["warm"], [*SMALL, "-o", "a.pfm", "--stats"], ["check", SCENE, "--json"],
+        for words in (["warm", "--tune=kernel=pair"], [*SMALL, "-o", "a.pfm", "--tune=kernel=pair"], ["check", SCENE, "--json"],
                       ["explain", *SMALL, "3,3"]):
             shutil.rmtree(self.work / "cache", ignore_errors=True)
             self.assertIn(b"compiling kernels, 0 s", self.on_terminal(*words), words)
