@@ -267,7 +267,7 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
 // Returns the start of a ray that leaves the surface, and may lift its direction. The ray's line
 // should pass through the surface's triangle, which rounding can prevent only near edges. A point
 // with coordinates up to 1 is off by some units of rounding. Along the plane, the line is off by
-// this error over the sine.
+// this error over the sine (docs/numerics.md, B14).
 static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Heading *heading,
                                Real sine, Mask active)
 {
