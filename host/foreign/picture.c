@@ -5,7 +5,6 @@
 #include "foreign/limits.h"
 #include "foreign/send.h"
 #include "image/image_module.h"
-#include "image/stored_image.h"
 
 #include <dlfcn.h>
 #include <errno.h>
@@ -13,16 +12,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
-_Static_assert(STORED_CHANNELS_MAX == IMAGE_MODULE_CHANNELS &&
-                   STORED_NAME_SIZE == IMAGE_MODULE_NAME_SIZE &&
-                   STORED_TEXTS == IMAGE_MODULE_TEXTS && STORED_TEXT_SIZE == IMAGE_MODULE_TEXT_SIZE,
-               "names and texts are copied whole");
-
 static void send_values(FILE *stream, const ImageModuleContent *content)
 {
-    const size_t row = (size_t)content->width * content->channel_count;
+    const size_t row = (size_t)content->image.width * content->image.channel_count;
     float *floats = content->is_8_bit ? malloc(row * sizeof *floats) : content->values;
-    for (size_t y = 0; floats != NULL && y < content->height; y++) {
+    for (size_t y = 0; floats != NULL && y < content->image.height; y++) {
         if (content->is_8_bit)
             stored_image_values((const unsigned char *)content->values + y * row, row, floats);
         fwrite(content->is_8_bit ? floats : floats + y * row, sizeof *floats, row, stream);
@@ -31,15 +25,10 @@ static void send_values(FILE *stream, const ImageModuleContent *content)
 
 static void send_content(FILE *stream, const ImageModuleContent *content)
 {
-    StoredImage image = {.width = content->width,
-                         .height = content->height,
-                         .channel_count = content->channel_count};
-    memcpy(image.names, content->names, sizeof image.names);
-    memcpy(image.texts, content->texts, sizeof image.texts);
-    send_head(stream, FOREIGN_PICTURE, 0,
-              sizeof image +
-                  (size_t)image.width * image.height * image.channel_count * sizeof(float));
-    fwrite(&image, sizeof image, 1, stream);
+    const StoredImage *image = &content->image;
+    const size_t count = (size_t)image->width * image->height * image->channel_count;
+    send_head(stream, FOREIGN_PICTURE, 0, sizeof *image + count * sizeof(float));
+    fwrite(image, sizeof *image, 1, stream);
     send_values(stream, content);
 }
 

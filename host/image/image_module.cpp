@@ -120,7 +120,7 @@ bool check_head(const OIIO::ImageSpec &spec, uint64_t values_max, std::string &m
         message = "it holds no flat picture";
     else if (spec.deep)
         message = "deep pictures are not read";
-    else if (spec.nchannels > IMAGE_MODULE_CHANNELS ||
+    else if (spec.nchannels > STORED_CHANNELS_MAX ||
              uint64_t(spec.width) * uint64_t(spec.height) > values_max / uint64_t(spec.nchannels))
         message = "it is too large";
     return message.empty();
@@ -128,15 +128,15 @@ bool check_head(const OIIO::ImageSpec &spec, uint64_t values_max, std::string &m
 
 void fill_head(const OIIO::ImageSpec &spec, ImageModuleContent &content)
 {
-    content.width = uint32_t(spec.width);
-    content.height = uint32_t(spec.height);
-    content.channel_count = uint32_t(spec.nchannels);
+    StoredImage &image = content.image;
+    image.width = uint32_t(spec.width);
+    image.height = uint32_t(spec.height);
+    image.channel_count = uint32_t(spec.nchannels);
     content.is_8_bit = spec.format == OIIO::TypeDesc::UINT8 && spec.channelformats.empty();
     for (int i = 0; i < spec.nchannels; i++)
-        std::snprintf(content.names[i], sizeof content.names[i], "%s",
-                      spec.channel_name(i).c_str());
-    for (int i = 0; i < IMAGE_MODULE_TEXTS; i++)
-        std::snprintf(content.texts[i], sizeof content.texts[i], "%s",
+        std::snprintf(image.names[i], sizeof image.names[i], "%s", spec.channel_name(i).c_str());
+    for (int i = 0; i < STORED_TEXTS; i++)
+        std::snprintf(image.texts[i], sizeof image.texts[i], "%s",
                       std::string(spec.get_string_attribute(content.text_names[i])).c_str());
 }
 

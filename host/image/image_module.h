@@ -2,6 +2,8 @@
 /* The C interface of the module that contains OpenImageIO and all C++. */
 #pragma once
 
+#include "image/stored_image.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -25,19 +27,12 @@ typedef int ImageModuleWrite(const ImageModulePicture *picture, char *message, s
 #define IMAGE_MODULE_WRITE "clrt_image_module_write"
 ImageModuleWrite clrt_image_module_write;
 
-#define IMAGE_MODULE_CHANNELS  64
-#define IMAGE_MODULE_NAME_SIZE 32
-#define IMAGE_MODULE_TEXTS     8
-#define IMAGE_MODULE_TEXT_SIZE 512
-
 /* A picture file's contents, and the limits for reading it. */
 typedef struct {
     uint64_t values_max;           /* input: the largest width * height * channel_count */
     const char *const *text_names; /* input: names of the requested texts */
-    uint32_t width, height, channel_count;
+    StoredImage image;             /* without values */
     int is_8_bit;
-    char names[IMAGE_MODULE_CHANNELS][IMAGE_MODULE_NAME_SIZE];
-    char texts[IMAGE_MODULE_TEXTS][IMAGE_MODULE_TEXT_SIZE];
     void *values; /* unsigned char, or float (32-bit integers in channels of ids); all channels of
                     a pixel together, top row first */
 } ImageModuleContent;
