@@ -32,28 +32,27 @@ static bool count_leaks(Check *check, const SessionSettings *settings, RayCaster
     return ok;
 }
 
-static bool trace_leaks(Check *check, Run *run, Error *error)
+static bool trace_leaks(Check *check, Session *session, Error *error)
 {
     RayCaster caster;
     check->leaks = memory_zeroed(check->scene.objects.count, sizeof *check->leaks, error);
-    if (check->leaks == NULL || !ray_caster_open(&caster, &run->session, error))
+    if (check->leaks == NULL || !ray_caster_open(&caster, session, error))
         return false;
-    const bool ok = count_leaks(check, &run->session.settings, &caster, error);
+    const bool ok = count_leaks(check, &session->settings, &caster, error);
     ray_caster_close(&caster);
     return ok;
 }
 
 // A missing device is an error only if the options name a device or fp64. Otherwise the report
 // contains the other checks.
-static bool find_leaks(Check *check, Run *run, Error *error)
+static bool find_leaks(Check *check, Session *session, const Options *options, Error *error)
 {
-    const Options *options = run->options;
     Error cause = {0};
     if (scene_triangle_count(&check->scene) == 0)
         return true;
-    run_begin(run);
-    if (session_await(&run->session, NULL, &cause) && trace_leaks(check, run, &cause))
-        check->device = run->session.device.name;
+    run_begin(session, options);
+    if (session_await(session, NULL, &cause) && trace_leaks(check, session, &cause))
+        check->device = session->device.name;
     else if (options->renderer.device != NULL || options->renderer.precision == CLRT_FP64)
         return error_set(error, "%s", cause.text);
     else {
@@ -81,9 +80,8 @@ static void print_notes(const Options *options, const Scene *scene)
         fprintf(stderr, "clrt: %s\n", scene->notes.data[note]);
 }
 
-static ExitCode perform(Check *check, Run *run, Error *error)
+static ExitCode perform(Check *check, Session *session, const Options *options, Error *error)
 {
-    const Options *options = run->options;
     const double start = clock_seconds();
     if (!scene_source_load(&check->scene, options, error))
         return EXIT_SCENE;
@@ -94,7 +92,7 @@ static ExitCode perform(Check *check, Run *run, Error *error)
     if (!census_take(&check->census, &check->scene, &check->normalization, error))
         return EXIT_SCENE;
     print_notes(options, &check->scene);
-    if (!find_leaks(check, run, error))
+    if (!find_leaks(check, session, options, error))
         return EXIT_DEVICE;
     check->seconds = clock_seconds() - start;
     return report(check, options, error);
@@ -103,7 +101,7 @@ static ExitCode perform(Check *check, Run *run, Error *error)
 ExitCode check_scene(Run *run, Error *error)
 {
     Check check = {.scene_path = run->options->scene_path};
-    const ExitCode outcome = perform(&check, run, error);
+    const ExitCode outcome = perform(&check, &run->session, run->options, error);
     free(check.findings.data);
     free(check.leaks);
     census_free(&check.census);

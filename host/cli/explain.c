@@ -5,13 +5,11 @@
 #include "explain/report.h"
 #include "image/json_file.h"
 
-static bool has_pixel(const Run *run, Error *error)
+static bool has_pixel(const uint32_t pixel[2], const RenderSettings *settings, Error *error)
 {
-    const Options *options = run->options;
-    const RenderSettings *settings = &run->request.settings;
-    return (options->pixel[0] < settings->width && options->pixel[1] < settings->height) ||
-           error_set(error, "pixel %u,%u: the picture has %u x %u pixels, counted from 0",
-                     options->pixel[0], options->pixel[1], settings->width, settings->height);
+    return (pixel[0] < settings->width && pixel[1] < settings->height) ||
+           error_set(error, "pixel %u,%u: the picture has %u x %u pixels, counted from 0", pixel[0],
+                     pixel[1], settings->width, settings->height);
 }
 
 static ExitCode explain(const ExplainReport *report, Explainer *explainer, const Options *options,
@@ -32,7 +30,7 @@ ExitCode explain_pixel(Run *run, Error *error)
     ExitCode code = run_start(run, error);
     if (code != EXIT_DONE)
         return code;
-    if (!has_pixel(run, error))
+    if (!has_pixel(options->pixel, &run->request.settings, error))
         return EXIT_USAGE;
     code = run_prepare(run, error);
     if (code != EXIT_DONE)

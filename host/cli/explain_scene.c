@@ -29,16 +29,16 @@ __attribute__((format(printf, 3, 4))) static ScenePart part(const char *name, bo
     return made;
 }
 
-static ScenePart tree_part(const Run *run, bool is_needed)
+static ScenePart tree_part(const Session *session, const SceneForm *form, bool is_needed)
 {
-    const uint32_t triangles = run->form->flat.triangle_count, stored = run->form->flat.node_count;
+    const uint32_t triangles = form->flat.triangle_count, stored = form->flat.node_count;
     if (is_needed)
         return part("tree", true, "%u node%s over the triangles, uploaded as %u %s node%s",
-                    run->form->tree.node_count, run->form->tree.node_count == 1 ? "" : "s", stored,
-                    kernel_nodes_name(run->session.choice.nodes), stored == 1 ? "" : "s");
+                    form->tree.node_count, form->tree.node_count == 1 ? "" : "s", stored,
+                    kernel_nodes_name(session->choice.nodes), stored == 1 ? "" : "s");
     if (triangles == 0)
         return part("tree", false, "there are no triangles to find");
-    if (run->options->renderer.tree == CLRT_TREE_NONE)
+    if (session->settings.tree == TREE_NEVER)
         return part("tree", false, "--tune bvh=none: every triangle is tested");
     return part("tree", false, "testing all %u triangles is faster", triangles);
 }
@@ -52,7 +52,7 @@ static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
                        : part("spheres", false, "there are none"),
         needed.triangles ? part("triangles", true, "%u of them", flat->triangle_count)
                          : part("triangles", false, "there are none"),
-        tree_part(run, needed.bvh),
+        tree_part(&run->session, run->form, needed.bvh),
         needed.shaded
             ? part("lights", true, "%u of them shade materials in use", flat->light_count)
             : part("lights", false, "all materials in use are silhouettes: no shadow rays"),
@@ -67,24 +67,23 @@ static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
             parts[i].is_needed || (!run->report.drawn.is_special && i < SCENE_PARTS - 1);
 }
 
-static const char *scene_family_reason(const Run *run)
+static const char *scene_family_reason(const Session *session)
 {
-    const ClrtSettings *wanted = &run->options->renderer;
-    if (wanted->precision == CLRT_FP64)
+    const KernelRequest *wanted = &session->settings.kernel;
+    if (wanted->precision == PRECISION_FP64)
         return "--precision fp64 traces rays one by one";
-    if (wanted->kernel != CLRT_KERNEL_AUTO)
+    if (wanted->form != KERNEL_AUTO)
         return "--tune kernel requests it";
-    if (run->session.is_quick)
+    if (session->is_quick)
         return "packets are not compiled yet, and compiling takes longer than they would save";
-    if (kernel_suits_packets(&run->session.device))
+    if (kernel_suits_packets(&session->device))
         return "it suits CPUs";
-    return run->session.device.is_cpu ? "it suits this OpenCL implementation" : "it suits GPUs";
+    return session->device.is_cpu ? "it suits this OpenCL implementation" : "it suits GPUs";
 }
 
-static const char *scene_program_reason(const Run *run)
+static const char *scene_program_reason(Specialization wanted, bool is_special)
 {
-    const bool is_special = run->report.drawn.is_special;
-    if (run->options->renderer.specialize != CLRT_SPECIALIZE_AUTO)
+    if (wanted != SPECIALIZE_AUTO)
         return is_special ? "--tune specialize=always" : "--tune specialize=never";
     return is_special
                ? "the kernels are compiled already, or save more than compiling costs"
@@ -103,11 +102,11 @@ static json_t *parts_json(const Run *run)
     return list;
 }
 
-static json_t *arrays_json(const Run *run)
+static json_t *arrays_json(const FlatScene *flat)
 {
     FlatArray arrays[FLAT_ARRAYS];
     json_t *object = json_object();
-    flat_arrays(&run->form->flat, arrays);
+    flat_arrays(flat, arrays);
     for (int i = 0; i < FLAT_ARRAYS; i++)
         json_object_set_new(object, arrays[i].name, json_count(arrays[i].bytes));
     return object;
@@ -119,13 +118,15 @@ static json_t *report_json(const Run *run)
     json_t *kernels = JSON(FIELD("family", kernel_family_name(choice->family)),
                            FIELD("nodes", kernel_nodes_name(choice->nodes)),
                            FIELD("precision", kernel_precision_name(choice->precision)),
-                           FIELD("reason", scene_family_reason(run)));
-    json_t *program = JSON(FIELD("special", run->report.drawn.is_special),
-                           FIELD("reason", scene_program_reason(run)));
+                           FIELD("reason", scene_family_reason(&run->session)));
+    const bool is_special = run->report.drawn.is_special;
+    const Specialization wanted = run->session.settings.specialization;
+    json_t *program = JSON(FIELD("special", is_special),
+                           FIELD("reason", scene_program_reason(wanted, is_special)));
     return REPORT(2, FIELD("scene", run->options->scene_path),
                   FIELD("device", run->session.device.name), FIELD("kernels", kernels),
                   FIELD("program", program), FIELD("parts", parts_json(run)),
-                  FIELD("uploaded_bytes", arrays_json(run)));
+                  FIELD("uploaded_bytes", arrays_json(&run->form->flat)));
 }
 
 // Prints the features with these properties below the heading, if there are any.
@@ -140,12 +141,12 @@ static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading,
     }
 }
 
-static void write_arrays(const Run *run)
+static void write_arrays(const FlatScene *flat, size_t upload_size)
 {
     FlatArray arrays[FLAT_ARRAYS];
     int missing = 0;
-    flat_arrays(&run->form->flat, arrays);
-    printf("uploaded, %zu bytes\n", run->report.drawn.upload_size);
+    flat_arrays(flat, arrays);
+    printf("uploaded, %zu bytes\n", upload_size);
     for (int i = 0; i < FLAT_ARRAYS; i++)
         if (arrays[i].bytes > 0)
             printf("  %-11s %zu bytes\n", arrays[i].name, arrays[i].bytes);
@@ -173,7 +174,7 @@ static void write_text(const Run *run)
     write_parts(parts, "compiled in\n", true, true);
     write_parts(parts, "compiled in but idle, because the program is general\n", false, true);
     write_parts(parts, "left out\n", false, false);
-    write_arrays(run);
+    write_arrays(&run->form->flat, run->report.drawn.upload_size);
 }
 
 ExitCode explain_scene(Run *run, Error *error)

@@ -108,7 +108,7 @@ static bool measure_error(Picture *picture, Error *error)
         return true;
     const bool ok = reference_measure(picture, error);
     if (ok && !run->options->quiet)
-        report_write_error(run, stderr);
+        report_write_error(&run->report.reference, stderr);
     return ok;
 }
 
@@ -211,11 +211,11 @@ static ExitCode check_files(Picture *picture, Error *error)
 }
 
 // Rejects pictures that are too large for their formats.
-static bool check_sizes(const Run *run, Error *error)
+static bool check_sizes(const Options *options, const RenderSettings *settings, Error *error)
 {
-    const uint32_t width = run->request.settings.width, height = run->request.settings.height;
-    const char *reference = run->options->reference_path;
-    return image_check_size(run->options->format, width, height, error) &&
+    const uint32_t width = settings->width, height = settings->height;
+    const char *reference = options->reference_path;
+    return image_check_size(options->format, width, height, error) &&
            (reference == NULL ||
             image_check_size(image_format_of_path(reference), width, height, error));
 }
@@ -226,8 +226,8 @@ static ExitCode prepare(Run *run, Error *error)
     const ExitCode started = run_start(run, error);
     if (started != EXIT_DONE)
         return started;
-    picture_warn_of_few_tiles(run);
-    if (!check_sizes(run, error))
+    picture_warn_of_few_tiles(run->options, &run->request.settings);
+    if (!check_sizes(run->options, &run->request.settings, error))
         return EXIT_OUTPUT;
     const ExitCode prepared = run_prepare(run, error);
     if (prepared != EXIT_DONE)
@@ -290,7 +290,8 @@ static ExitCode finish(Picture *picture, double start, Error *error)
         return picture_fail_stopped(picture, error);
     if (!report_print_hash(run->options, run->report.pixel_hash, error))
         return EXIT_FAULTS;
-    return run->report.drawn.goal_missed ? picture_fail_goal(run, error) : EXIT_DONE;
+    return run->report.drawn.goal_missed ? picture_fail_goal(run->options, &run->report, error)
+                                         : EXIT_DONE;
 }
 
 static ExitCode make_frame(Picture *picture, uint32_t number, double start, Error *error)

@@ -26,7 +26,7 @@ typedef struct {
 void picture_warn_of_goal(const Options *options);
 
 // Prints a note if the parts have so few tiles that their times may differ much.
-void picture_warn_of_few_tiles(const Run *run);
+void picture_warn_of_few_tiles(const Options *options, const RenderSettings *settings);
 
 // With --verbose, prints the start of each picture.
 void picture_print_beginning(const Picture *picture);
@@ -36,7 +36,7 @@ void picture_print_beginning(const Picture *picture);
 void picture_print_end(Picture *picture);
 
 // Fill error for a picture that misses its goal or is stopped, and return the exit status.
-ExitCode picture_fail_goal(const Run *run, Error *error);
+ExitCode picture_fail_goal(const Options *options, const Report *report, Error *error);
 ExitCode picture_fail_stopped(const Picture *picture, Error *error);
 
 // Appends the channel of each pixel's error: the largest difference of its colors from the

@@ -21,13 +21,13 @@ void picture_warn_of_goal(const Options *options)
                 100 * options->picture.error, options->picture.error, options->picture.error);
 }
 
-void picture_warn_of_few_tiles(const Run *run)
+void picture_warn_of_few_tiles(const Options *options, const RenderSettings *settings)
 {
-    RenderSettings whole = run->request.settings;
+    RenderSettings whole = *settings;
     whole.part = whole.parts = 0;
     const unsigned long long tiles = tile_count(&whole);
     const unsigned long long most = tiles / PART_TILES > 1 ? tiles / PART_TILES : 1;
-    if (run->request.settings.parts > most && !run->options->quiet)
+    if (settings->parts > most && !options->quiet)
         fprintf(stderr,
                 "clrt: a part of fewer than %d tiles may take much longer than the others: "
                 "for %llu tiles, give at most N=%llu\n",
@@ -56,10 +56,9 @@ void picture_print_end(Picture *picture)
                 framebuffer->height, seconds);
 }
 
-ExitCode picture_fail_goal(const Run *run, Error *error)
+ExitCode picture_fail_goal(const Options *options, const Report *report, Error *error)
 {
-    const Report *report = &run->report;
-    if (run->options->picture.seconds > 0)
+    if (options->picture.seconds > 0)
         error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
                   report->frame_seconds[0]);
     else

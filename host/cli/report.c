@@ -19,11 +19,11 @@ static uint64_t ray_count(const uint64_t *tallies)
     return tallies[TALLY_CAMERA_RAYS] + tallies[TALLY_SHADOW_RAYS] + tallies[TALLY_REFLECTED_RAYS];
 }
 
-const char *report_tree_name(const Run *run)
+const char *report_tree_name(const Bvh *tree, BvhBuilder builder)
 {
-    if (run->report.tree.node_count == 0)
+    if (tree->node_count == 0)
         return "none";
-    return run->session.settings.builder == BVH_MIDPOINT ? "midpoint" : "sah";
+    return builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }
 
 static json_t *frames_json(const Report *report)
@@ -42,10 +42,9 @@ static json_t *inner_nodes_json(const Bvh *tree)
     return list;
 }
 
-static json_t *tree_json(const Run *run)
+static json_t *tree_json(const Bvh *tree, BvhBuilder builder)
 {
-    const Bvh *tree = &run->report.tree;
-    return JSON(FIELD("builder", report_tree_name(run)), FIELD("nodes", tree->node_count),
+    return JSON(FIELD("builder", report_tree_name(tree, builder)), FIELD("nodes", tree->node_count),
                 FIELD("leaves", tree->leaf_count), FIELD("depth", tree->depth),
                 FIELD("inner_nodes", inner_nodes_json(tree)),
                 FIELD("largest_leaf", tree->largest_leaf));
@@ -91,12 +90,11 @@ static json_t *tiles_json(const Run *run)
                 FIELD("drawn", run->report.drawn.progress.tiles_done - found));
 }
 
-static json_t *samples_json(const Run *run)
+static json_t *samples_json(const PictureResult *drawn, double contrast)
 {
-    const PictureResult *drawn = &run->report.drawn;
     return JSON(
         FIELD("total", drawn->samples), FIELD("per_pixel", ratio(drawn->samples, drawn->pixels)),
-        FIELD("contrast", run->options->picture.contrast), FIELD("error_estimate", drawn->estimate),
+        FIELD("contrast", contrast), FIELD("error_estimate", drawn->estimate),
         FIELD("error_bound", drawn->bound), FIELD("goal_reached", (bool)!drawn->goal_missed));
 }
 
@@ -120,11 +118,10 @@ static json_t *tests_json(const uint64_t *tallies)
                 FIELD("sphere_per_ray", ratio(sphere, rays)));
 }
 
-static json_t *seconds_json(const Run *run)
+static json_t *seconds_json(const Report *report, double device_seconds)
 {
-    const Report *report = &run->report;
     return JSON(FIELD("parse", report->parse), FIELD("load", report->load),
-                FIELD("build", report->build), FIELD("device", run->session.device_seconds),
+                FIELD("build", report->build), FIELD("device", device_seconds),
                 FIELD("upload", report->drawn.upload_seconds),
                 FIELD("kernel_build", report->drawn.build_seconds),
                 FIELD("trace", report->frame_seconds[0]), FIELD("write", report->write),
@@ -145,11 +142,10 @@ static json_t *reference_json(const ReferenceResult *result)
                 FIELD("seconds", result->seconds));
 }
 
-static json_t *certainty_json(const Run *run)
+static json_t *certainty_json(const CertaintyResult *certainty, AovSet channels)
 {
-    const CertaintyResult *certainty = &run->report.certainty;
     const uint64_t *pixels = certainty->pixels;
-    if (!aov_needs(run->options->aovs, AOV_NEEDS_CERTAINTY))
+    if (!aov_needs(channels, AOV_NEEDS_CERTAINTY))
         return json_null();
     return JSON(FIELD("certified", pixels[CERTAINTY_CERTIFIED]),
                 FIELD("repaired", pixels[CERTAINTY_REPAIRED]),
@@ -169,13 +165,16 @@ static json_t *report_json(const Run *run)
         FIELD("device", JSON(FIELD("name", device->name), FIELD("driver", device->version))),
         FIELD("bytes",
               JSON(FIELD("uploaded", report->drawn.upload_size), FIELD("peak_memory", peak))),
-        FIELD("scene", scene_json(run)), FIELD("bvh", tree_json(run)),
+        FIELD("scene", scene_json(run)),
+        FIELD("bvh", tree_json(&run->report.tree, run->session.settings.builder)),
         FIELD("settings", settings_json(run)), FIELD("cached", report->drawn.was_compiled),
-        FIELD("tiles", tiles_json(run)), FIELD("samples", samples_json(run)),
+        FIELD("tiles", tiles_json(run)),
+        FIELD("samples", samples_json(&report->drawn, run->options->picture.contrast)),
         FIELD("rays", rays_json(tallies)), FIELD("tests", tests_json(tallies)),
-        FIELD("seconds", seconds_json(run)), FIELD("frame_seconds", frames_json(report)),
+        FIELD("seconds", seconds_json(report, run->session.device_seconds)),
+        FIELD("frame_seconds", frames_json(report)),
         FIELD("reference", reference_json(&report->reference)),
-        FIELD("certainty", certainty_json(run)));
+        FIELD("certainty", certainty_json(&report->certainty, run->options->aovs)));
 }
 
 static void print_error(const Run *run, const json_t *json, FILE *stream)
@@ -239,9 +238,9 @@ void report_write_setup(const Run *run, FILE *stream)
     json_decref(json);
 }
 
-void report_write_error(const Run *run, FILE *stream)
+void report_write_error(const ReferenceResult *result, FILE *stream)
 {
-    json_t *json = reference_json(&run->report.reference);
+    json_t *json = reference_json(result);
     json_print(json,
                "RMSE {rmse .4g} ({rmse .3g%}), largest difference "
                "{maximum .4g} at {maximum_at.0},{maximum_at.1}; "
@@ -272,7 +271,9 @@ static void add_tree(json_t *json, const Run *run)
 {
     if (!aov_needs(run->options->aovs, AOV_NEEDS_TESTS))
         return;
-    json_object_set_new(json, "bvh", json_string(report_tree_name(run)));
+    json_object_set_new(
+        json, "bvh",
+        json_string(report_tree_name(&run->report.tree, run->session.settings.builder)));
     json_object_set_new(json, "nodes", json_string(kernel_nodes_name(run->session.choice.nodes)));
 }
 

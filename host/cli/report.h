@@ -6,10 +6,10 @@
 #include "image/provenance.h"
 
 // Returns the name of the tree's builder as in --tune bvh, or "none" without a tree.
-const char *report_tree_name(const Run *run);
+const char *report_tree_name(const Bvh *tree, BvhBuilder builder);
 
 // Prints the error against the reference, if one was drawn.
-void report_write_error(const Run *run, FILE *stream);
+void report_write_error(const ReferenceResult *result, FILE *stream);
 
 // Prints the scene, the tree, the device and the kernels, before the picture is drawn.
 void report_write_setup(const Run *run, FILE *stream);

@@ -99,10 +99,10 @@ SessionSettings run_session_settings(const Options *options)
     return settings;
 }
 
-void run_begin(Run *run)
+void run_begin(Session *session, const Options *options)
 {
-    run->session.settings = run_session_settings(run->options);
-    session_begin(&run->session);
+    session->settings = run_session_settings(options);
+    session_begin(session);
 }
 
 bool run_await_device(Run *run, Error *error)
@@ -127,7 +127,7 @@ bool run_build_scene(Run *run, Error *error)
 
 ExitCode run_start(Run *run, Error *error)
 {
-    run_begin(run);
+    run_begin(&run->session, run->options);
     if (!run_load_scene(run, error))
         return EXIT_SCENE;
     return command_files_check(run->options, &run->scene, error) ? EXIT_DONE : EXIT_OUTPUT;

@@ -52,7 +52,7 @@ double run_lap(double *moment);
 SessionSettings run_session_settings(const Options *options);
 
 // Sets the session's settings, and starts a thread that opens the device.
-void run_begin(Run *run);
+void run_begin(Session *session, const Options *options);
 
 // Reads the scene, and computes the picture's settings.
 bool run_load_scene(Run *run, Error *error);

@@ -24,7 +24,7 @@ ExitCode warm_kernels(Run *run, Error *error)
 {
     const Options *options = run->options;
     const bool has_scene = options->scene_path != NULL;
-    run_begin(run);
+    run_begin(&run->session, options);
     if (has_scene && !run_load_scene(run, error))
         return EXIT_SCENE;
     if (!run_await_device(run, error))
