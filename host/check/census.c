@@ -87,8 +87,8 @@ static double signed_volume(const Mesh *mesh)
     return volume;
 }
 
-static bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld,
-                            const Edges *edges, Error *error)
+bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld, const Edges *edges,
+                     Error *error)
 {
     Fans fans;
     *closedness = (Closedness){0};

@@ -20,6 +20,9 @@ typedef struct {
     bool is_inside_out;   // the mesh is closed, and the fronts face inwards
 } Closedness;
 
+bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld, const Edges *edges,
+                     Error *error);
+
 // The counts of one mesh. Triangles are named by their numbers in the file. The Mesh itself holds
 // the faults that its file reader found.
 typedef struct {
