@@ -28,7 +28,7 @@ typedef struct {
     uint own_index;       // index of the triangle that all rays start on, or NOTHING
     uint live[PACKETS];   // bits of the lanes that search
     float reach[PACKETS]; // largest search_reach of the live lanes
-    Hit hits[PACKETS];
+    Hit *hits;            // of the packets
     WideStack stack;
     uint inside[WIDE_STACK_SIZE]; // for each child on the stack: the packets inside its parent
 } Beam;
