@@ -224,6 +224,9 @@ class Completions(Work):
                     continue  # any value
                 self.assertRegex(text, rf"(?<!\w){word}(?!\w)", f"{shell} --{name}")
         self.assertIn("pfm", self.offered(shell, "clrt a.scn --format p"))
+        text = self.offered(shell, "clrt a.scn --tune ")
+        for word in "kernel=packet", "tile=", "bvh=midpoint":
+            self.assertIn(word, text, shell)
 
     def check_files(self, shell):
         text = self.offered(shell, "clrt ")
