@@ -96,7 +96,7 @@ TEST(a_program_of_that_name_in_the_current_folder_is_not_started)
 {
     const ForeignReader reader = {"Assimp", NULL, {.seconds = 1, .bytes = 1}};
     char folder[] = "/tmp/clrt_folder_XXXXXX";
-    File stream;
+    FREED_BY(file_free) File stream = {0};
     Error error = {0};
     assert_non_null(mkdtemp(folder));
     assert_int_equal(chdir(folder), 0);
