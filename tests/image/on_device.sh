@@ -50,7 +50,8 @@ unoptimized)
 oclgrind)
   command -v oclgrind >/dev/null || pass_over "oclgrind is not installed (Debian 13 has none)"
   log=$cache/oclgrind.log
-  # Oclgrind's optimizer generates an intrinsic that its interpreter does not support.
+  # Oclgrind's optimizer and its inliner generate intrinsics that its interpreter does not support.
+  export CLRT_TEST_OPTIONS=-Dalways_inline=unused
   oclgrind --build-options -cl-opt-disable --uninitialized --data-races --log "$log" "$@"
   if [ -s "$log" ]; then
     cat "$log"
