@@ -5,7 +5,6 @@
 #include "support/shapes.h"
 
 #define TRIANGLES 10000
-#define RAYS      50000
 
 // Returns a point above the fan. The fan's apex is the origin of normalized coordinates.
 static Vec3 point_above(Random *random)
@@ -43,7 +42,7 @@ static void aim_along_spokes(Rays rays, const Triangles *triangles, Random *rand
 EXTREME(no_ray_slips_through_a_fan_t07)
 {
     Random random = {7};
-    FREED_BY(rays_free) const Rays rays = rays_make(RAYS);
+    FREED_BY(rays_free) const Rays rays = rays_make(tier_size(10000, 50000));
     FREED_BY(rig_close) Rig rig = rig_open("T-07", *state, shape_scene(shape_fan(TRIANGLES)));
     aim_at_apex(rays, &random);
     outcome_report(rig_judge(&rig, rays, judge_misses, NULL), "aim=apex");
