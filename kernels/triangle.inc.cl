@@ -66,8 +66,8 @@ static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
     return edge > 0.0f || (edge == 0.0f && beside);
 }
 
-// Returns whether the triangle owns the ray. Of the triangles that surround a ray through an edge
-// or vertex, an odd number owns it if the ray crosses their surface, else an even number.
+// Returns whether the triangle owns the ray. If a ray passes through an edge or vertex, an odd
+// number of the triangles around it own the ray if it crosses their surface, else an even number.
 static inline Mask OVERLOAD edges_own(const Corners *sheared, const Edges *edges)
 {
     const Real3 a = sheared->a, b = sheared->b, c = sheared->c;

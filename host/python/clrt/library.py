@@ -144,14 +144,21 @@ def vector(values, what):
 
 def progress_of(progress):
     """A callback for the library from a function, from True (tqdm if installed) or from None."""
+
+    def nothing():
+        pass
+
+    def ask(_, done, all_):
+        return progress(done, all_) is not False
+
     if not progress:
-        return None, lambda: None
+        return None, nothing
     if progress is not True:
-        return ffi.callback("ClrtProgress", lambda _, done, all_: progress(done, all_) is not False), lambda: None
+        return ffi.callback("ClrtProgress", ask), nothing
     try:
         from tqdm.auto import tqdm
     except ImportError:
-        return None, lambda: None
+        return None, nothing
     bar = tqdm(unit="tile")
 
     def advance(_, done, all_):

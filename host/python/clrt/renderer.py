@@ -12,6 +12,7 @@ import numpy as np
 from . import library
 from .library import NOTHING, call, ffi, rows, struct
 
+_RESULTS = ("distance", "primitive", "mesh", "face", "weights", "normal", "front")
 _GOALS = ("samples", "contrast", "error", "seconds", "max_level", "truncation")
 _LIGHTS = ("behind", "reaches", "blocked", "behind face")
 
@@ -82,8 +83,8 @@ class Renderer:
     """A device that draws pictures and casts rays. Keeps the last scene's tree between calls.
 
     device: as `clrt --device`: "cpu", "gpu", a part of a name or PLATFORM:DEVICE. threads build
-    trees; PoCL's own threads follow POCL_MAX_PTHREAD_COUNT. precision: "fp32" or "fp64". Threads may
-    share a renderer, but then wait for each other.
+    trees; PoCL's own threads follow POCL_MAX_PTHREAD_COUNT. precision: "fp32" or "fp64". Threads
+    may share a renderer, but then wait for each other.
     """
 
     def __init__(self, device=None, threads=0, precision="fp32"):
@@ -151,8 +152,7 @@ class Renderer:
         return made
 
     def trace(self, scene, origins, directions, *, near=None, far=None, starts=None,
-              one_sided=False, results=("distance", "primitive", "mesh", "face", "weights", "normal",
-                                        "front"), progress=None):
+              one_sided=False, results=_RESULTS, progress=None):
         """Finds the nearest hit of each ray and returns Hits.
 
         origins, directions: (n, 3) numbers; float64 arrays are not copied. near, far: limits of the
@@ -164,17 +164,17 @@ class Renderer:
         return self._hits("trace", scene, rays, results, 1, progress)[0]
 
     def trace_all(self, scene, origins, directions, *, near=None, far=None, starts=None,
-                  one_sided=False, results=("distance", "primitive", "mesh", "face", "weights",
-                                            "normal", "front"), progress=None):
+                  one_sided=False, results=_RESULTS, progress=None):
         """Finds all faces that the rays cross, and returns Hits ordered by ray, then by distance.
 
-        A ray through an edge or vertex of a closed mesh crosses it in one face. Spheres do not count.
+        A ray through an edge or vertex of a closed mesh crosses it in one face. Spheres do not
+        count.
         """
         rays = _Rays(origins, directions, near, far, starts, one_sided)
         counts = self._hits("trace_all", scene, rays, (), 0, None)[1]
-        room = int(counts.max(initial=0))
-        hits, _ = self._hits("trace_all", scene, rays, {*results, "primitive"}, max(room, 1), progress)
-        found = np.arange(max(room, 1)) < counts[:, None]
+        room = max(int(counts.max(initial=0)), 1)
+        hits, _ = self._hits("trace_all", scene, rays, {*results, "primitive"}, room, progress)
+        found = np.arange(room) < counts[:, None]
         hits.ray = np.nonzero(found)[0]
         for name, values in vars(hits).items():
             if name != "ray" and values is not None:
@@ -203,8 +203,9 @@ class Renderer:
         if max_level is not None:
             members["max_level"] = max_level or -1
         kept = camera and camera._struct()
-        return struct("ClrtPicture", width=given["width"], height=given["height"], camera=kept,
-                      view=given["view"], statistics=given.get("statistics", False), **members), kept
+        members.update(width=given["width"], height=given["height"], view=given["view"])
+        members.update(camera=kept, statistics=given.get("statistics", False))
+        return struct("ClrtPicture", **members), kept
 
     def _draw(self, kind, scene, picture, pixels, progress):
         callback, close = library.progress_of(progress)
@@ -242,7 +243,9 @@ class Renderer:
         members = {"face": "triangles", "primitive": "primitives", "mesh": "meshes"}
         given = {members.get(name, name + "s" * (name != "weights")): array
                  for name, array in wanted.items()}
-        target = struct("ClrtHits", room=room, counts=counts if kind == "trace_all" else None, **given)
+        if kind == "trace_all":
+            given["counts"] = counts
+        target = struct("ClrtHits", room=room, **given)
         self._cast(kind, scene, rays, target, progress)
         if "weights" in wanted:
             weights = wanted.pop("weights")
@@ -262,9 +265,11 @@ class _Rays:
                 directions = np.broadcast_to(directions, origins.shape)
             directions = rows(directions, np.float64, 3, "directions")
             if len(directions) != self.count:
-                raise library.ArgumentError(f"{self.count} origins, but {len(directions)} directions")
+                raise library.ArgumentError(
+                    f"{self.count} origins, but {len(directions)} directions")
         self.struct = struct("ClrtRays", count=self.count, origins=origins, directions=directions,
-                             nears=self._per_ray(near, np.float64), fars=self._per_ray(far, np.float64),
+                             nears=self._per_ray(near, np.float64),
+                             fars=self._per_ray(far, np.float64),
                              starts=self._per_ray(starts, np.uint32), one_sided=one_sided)
 
     def _per_ray(self, values, dtype):
@@ -318,7 +323,8 @@ def hash(picture):  # pylint: disable=redefined-builtin
     """The 32 digits that `clrt SCENE --hash` prints for this picture."""
     pixels = np.ascontiguousarray(picture, np.float32)
     text = ffi.new("char[33]")
-    library.plain("hash", ffi.from_buffer("float[]", pixels), pixels.shape[1], pixels.shape[0], text)
+    height, width = pixels.shape[:2]
+    library.plain("hash", ffi.from_buffer("float[]", pixels), width, height, text)
     return ffi.string(text).decode()
 
 

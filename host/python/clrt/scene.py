@@ -23,8 +23,9 @@ class Camera:
         return f"Camera({self.eye}, {self.look_at}, {self.up}, {self.fov})"
 
     def _struct(self):
-        return struct("ClrtCamera", eye=vector(self.eye, "eye"), look_at=vector(self.look_at, "look_at"),
-                      up=vector(self.up, "up"), fov_degrees=self.fov)
+        return struct("ClrtCamera", eye=vector(self.eye, "eye"),
+                      look_at=vector(self.look_at, "look_at"), up=vector(self.up, "up"),
+                      fov_degrees=self.fov)
 
 
 class Scene:
@@ -42,8 +43,8 @@ class Scene:
     def __init__(self):
         self._handle = library.handle("scene_create", free="scene")
 
-    def material(self, shading="blinn_phong", *, diffuse=(1, 1, 1), specular=(1, 1, 1), kd=0.8, ks=0.5,
-                 shininess=50.0, reflectivity=0.0):
+    def material(self, shading="blinn_phong", *, diffuse=(1, 1, 1), specular=(1, 1, 1), kd=0.8,
+                 ks=0.5, shininess=50.0, reflectivity=0.0):
         """Adds a material and returns its number.
 
         shading: "silhouette", "matte" or "blinn_phong". Colors are R G B in [0, 1]; clrt.h has the
@@ -56,8 +57,8 @@ class Scene:
         call("scene_add_material", self._handle, given, number)
         return number[0]
 
-    def mesh(self, vertices, faces, material="matte", *, normals=None, two_sided=False, smooth=False,
-             crease=None):
+    def mesh(self, vertices, faces, material="matte", *, normals=None, two_sided=False,
+             smooth=False, crease=None):
         """Adds a mesh.
 
         vertices: (n, 3) numbers, kept as float64. faces: (m, 3) vertex numbers, counter-clockwise
@@ -79,7 +80,8 @@ class Scene:
 
     def sphere(self, center, radius, material="matte"):
         """Adds a sphere."""
-        call("scene_add_sphere", self._handle, vector(center, "center"), radius, _material(material))
+        center = vector(center, "center")
+        call("scene_add_sphere", self._handle, center, radius, _material(material))
 
     def light(self, position, intensity=1.0, color=(1, 1, 1)):
         """Adds a point light without attenuation."""
@@ -113,7 +115,8 @@ class Scene:
     def _camera(self, view):
         camera = struct("ClrtCamera")
         call("scene_get_camera", self._handle, view, camera)
-        return Camera(tuple(camera.eye), tuple(camera.look_at), tuple(camera.up), camera.fov_degrees)
+        vectors = (tuple(camera.eye), tuple(camera.look_at), tuple(camera.up))
+        return Camera(*vectors, camera.fov_degrees)
 
     def render(self, width=0, height=0, **settings):
         """Draws the scene on the default device. See Renderer.render."""
