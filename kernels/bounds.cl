@@ -41,7 +41,7 @@ static inline float highest(Real v)
 }
 
 // The extremes of rays' inverse directions and origins on an axis, lane by lane. Each origin moves
-// by its own slack, and by the slack of node boxes, because boxes of single triangles do not grow.
+// by its own slack, and by the slack of node boxes, which the boxes of single triangles lack.
 typedef struct {
     Real inverse_low, inverse_high, behind, ahead;
 } AxisRange;

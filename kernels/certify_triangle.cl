@@ -226,7 +226,7 @@ static inline Candidate triangle_candidate(const RayCone *ray, global const Tria
 }
 
 // Coincident triangles have the same stored corners (shared.h). A ray hits both at the same
-// distance, bit for bit, so the lower id wins if the ray certainly hits one of them first. A ray
+// distance, bit for bit. If the ray certainly hits nothing before them, the lower id wins. A ray
 // that leaves one of them starts in the plane of the other and does not hit it.
 static inline bool is_same_corner(global const float *a, global const float *b)
 {

@@ -11,7 +11,8 @@ typedef struct {
     UInt id, index;
 } Hit;
 
-// Equal distances go to the lowest id, regardless of the order of the tests.
+// Equal distances go to the lowest id, regardless of the order of the tests. Triangles at almost
+// equal distances are ordered by order.cl before.
 static inline Mask hit_precedes(Real t, UInt id, const Hit *best)
 {
     return t < best->t || (t == best->t && id < best->id && t < INFINITY);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Orders triangles that a ray hits at almost equal distances. The edge tests decide exactly about
 // the sheared corners (triangle.inc.cl). Neighbors share these corners, so the triangles that a ray
-// hits form one surface, which differs from the stored one by the corners' rounding. A Nearness is
+// hits form one surface: the stored one, with each corner moved by rounding. A Nearness is
 // the distance to this surface with twice the bits of t. It depends only on the ray and on the
 // triangle's corners. docs/numerics.md proves that rays then stay inside closed surfaces.
 #ifndef CLRT_ORDER_CL
@@ -9,8 +9,8 @@
 #include "fetch.cl"
 #include "search.cl"
 
-// Where the ray hits an edge or a corner exactly, all triangles there have the same t. The ray then
-// hits the triangle that is the nearest a little beside the ray.
+// Where the ray hits an edge or a corner exactly, all triangles there have the same t. The slopes
+// then decide for the triangle that is nearest to a point a little beside the ray.
 typedef struct {
     TwoFloat t;
     Real lowest; // at a corner: the least slope of t away from the ray in the triangle; else 0

@@ -92,7 +92,7 @@ static inline Search search_along(const Tracer *tracer, const Ray *ray, Real lim
     search.shear = shear_along(ray->direction, &search.axes);
     search.backward = axes_ordered(negative3(ray->origin), &search.axes);
     search.limit = limit;
-    // triangle_depth_error is at most 54 (far + 1), as corners are at most 1 (B4).
+    // triangle_depth_error is at most 54 u (far + 1), as corners are at most 1 (B4).
     const Real unit = UNIT_ROUNDOFF * fabs(search.shear.inverse_z);
     const Real far = largest_component(ray->origin);
     search.tie = 128.0f * unit * (far + 1.0f);

@@ -28,9 +28,9 @@ typedef uint64_t ulong;
 // A triangle that triangle.inc.cl accepts lies within 22 units of the ray (B8 of docs/numerics.md),
 // and the slab arithmetic adds 4 (B9). If division is only accurate to 2.5 ulp, these become 34
 // and 8. A hit can be behind the ray's start: its error bound is at most 54, and Search::behind is
-// 256 units of the origin. These count half, because the box there has the origin's coordinates,
-// too. search_reach (search.cl) covers hits beyond the best one. The sum is at most 34 + 8 + 54 +
-// 128 = 224. In measurements, doubling the slack costs nothing.
+// 256 units of the origin. The 256 count as 128, because the box there has the origin's
+// coordinates, too. The sum is at most 34 + 8 + 54 + 128 = 224. search_reach (search.cl) covers
+// hits beyond the best one. In measurements, doubling the slack costs nothing.
 #define BVH_SLACK 0x1p-16f
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG } Shader;

@@ -49,7 +49,7 @@ static inline Edges OVERLOAD edges_of(const Corners *sheared)
     return edges;
 }
 
-// Zero counts for both signs: a ray through an edge hits both triangles.
+// A zero has either sign, so a ray through an edge hits both triangles.
 static inline Mask OVERLOAD edges_contain(const Edges *edges)
 {
     const Real smallest = min(min(edges->u, edges->v), edges->w);
@@ -89,7 +89,8 @@ static inline Real OVERLOAD triangle_depth(const Corners *sheared, const Edges *
                fma(edges->v * r, sheared->b.z, (edges->w * r) * sheared->c.z));
 }
 
-// Bounds the error of the reported depth along z: 14 u of the largest depth (docs/numerics.md, B4).
+// Bounds the error of the reported depth along z. It is at most 14 u of the largest depth
+// (docs/numerics.md, B4); this bound is larger.
 static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 {
     const Real depth = max(max(fabs(s->a.z), fabs(s->b.z)), fabs(s->c.z));
@@ -189,10 +190,10 @@ typedef struct {
 // triangle's distance, known within `error`. Near the ray's start, t is only rounding, and every
 // point's neighbors would mirror and shadow it. The ray therefore stops only if its surface point
 // is certainly on the side that the ray comes from. On the inner side, which only two-sided
-// triangles show, this is also true of convex neighbors. There t must be certain, too, except for
-// the eye, which is on no surface. A triangle on which the light lies, within the error of t, does
-// not shadow the ray. in_doubt receives the lanes whose rays may pass only because of rounding. In
-// a valley, rounding can also put the start beyond the neighbor that stops the ray.
+// triangles show, convex neighbors meet this condition, too. There t must also be certain, except
+// for the eye, which is on no surface. A triangle on which the light lies, within the error of t,
+// does not shadow the ray. in_doubt receives the lanes whose rays may pass only because of
+// rounding. In a valley, rounding can also put the start beyond the neighbor that stops the ray.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Mask *in_doubt)
 {

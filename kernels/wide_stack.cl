@@ -31,7 +31,7 @@ static inline uint lowest_bit(uint bits)
 
 // Returns the entry distances as integers that sort in reverse; the bits of nonnegative floats
 // sort like the floats. Children not hit come last. The lowest bits hold the child's index, which
-// shortens the distance by a factor of less than 1 + 2^-20.
+// shortens the distance by less than 2^-20 of itself.
 static inline uint8 entry_order(float8 entry, int8 met)
 {
     const uint8 place = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);

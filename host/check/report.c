@@ -114,7 +114,7 @@ bool check_report_write_json(const Check *check, const char *path, Error *error)
     return json_file_write(report_json(check), path, error);
 }
 
-// Writes the findings from index *next on that are about this object, and advances *next.
+// Writes this object's findings, which start at index *next, and advances *next past them.
 static void write_findings(const Check *check, size_t object, size_t *next, FILE *stream)
 {
     for (; *next < check->findings.count; ++*next) {

@@ -51,7 +51,7 @@ static const float cases[][3] = {
     {INFINITY, 0x1.8p+1f, -INFINITY},                    // infinities
     {-1.0f, INFINITY, 1.0f},                             // a denominator without end
     {0x1.2aaaaap+3f, 0x1.8p+2f, 0x1.8p+2f},              // conversions of long integers
-    {-0x1.555556p+30f, 0x1.000002p-30f, 0x1.fffffep+0f}, // a product next to -1/3
+    {-0x1.555556p+30f, 0x1.000002p-30f, 0x1.fffffep+0f}, // a product next to -4/3
 };
 
 typedef struct {
@@ -95,7 +95,7 @@ static bool has_denormals(const float operands[3], uint32_t result)
            is_denormal(operands[0] * operands[1]) || is_denormal(value_of(result));
 }
 
-// The bits that the device promises.
+// The optional operations that the device promises to round correctly.
 typedef struct {
     bool denormals, quotients;
 } Promise;

@@ -66,7 +66,7 @@ static void write_prefix(char prefix[PREFIX_SIZE])
     snprintf(prefix, PREFIX_SIZE, "clrt-%s-", host);
 }
 
-// Removes a private folder of this user whose process was killed. A process that has just created
+// Removes the private folder at path if its process was killed. A process that has just created
 // its folder holds no lock yet; it tries again if the empty folder vanishes.
 static void remove_abandoned(const char *path)
 {

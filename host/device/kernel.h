@@ -23,7 +23,7 @@ typedef struct {
     ARRAY(Kernel *) kernels;
 } KernelSet;
 
-// A kernel to make. The group may be {0, 0} for a kernel that its file launches in its own shape.
+// A kernel to make. For the group {0, 0}, the code that launches the kernel chooses the group.
 typedef struct {
     const KernelEntry *entry;
     KernelChoice choice;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Memory for models has a soft limit, which rises with each file read, up to a hard limit. With the
-// hard limit alone, a short file whose nodes share children could use that much memory.
+// Memory for models has a soft limit, which rises with the size of the files read, up to a hard
+// limit. The soft limit stops short files whose nodes share children, which stand for vast models.
 #include "foreign/limits.h"
 
 #include "base/processors.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Walks the tree of nodes and multiplies their matrices in fp64. An identity leaves coordinates
-// unchanged. A mirroring matrix reverses the corner order, so that fronts stay fronts.
+// Walks the tree of nodes and multiplies their matrices in fp64. Identity matrices are
+// skipped, so that coordinates keep their bits. A mirroring matrix reverses the corner order, so
+// that fronts stay fronts.
 #include "foreign/parts.h"
 
 #include "base/limits.h"

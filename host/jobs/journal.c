@@ -29,7 +29,7 @@ static bool cannot(const Journal *journal, const char *what, Error *error)
     return error_set(error, "%s: cannot be %s: %s", journal->path, what, strerror(errno));
 }
 
-// A process killed at its start leaves a file shorter than a head, which gets a new head.
+// If a process that was killed at its start left less than a head, the file gets a new head.
 static bool check_head(const Journal *journal, const uint64_t key[2], Error *error)
 {
     Head head;

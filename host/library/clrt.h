@@ -276,11 +276,11 @@ CLRT_API bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError
 // The results of a call besides its pixels. Costs cover the colors, not the channels.
 typedef struct {
     size_t size;
-    uint32_t width, height;    // of the drawn pixels
-    uint32_t samples;          // per pixel and axis; 1 with a goal
-    uint32_t max_level;        // at which rays end
-    double truncation;         // bound on the error of every color because rays end there
-    bool goal_missed;          // the picture has a larger error than requested
+    uint32_t width, height; // of the drawn pixels
+    uint32_t samples;       // per pixel and axis; 1 with a goal
+    uint32_t max_level;     // at which rays end
+    double truncation;      // bound on the error of every color because rays end there
+    bool goal_missed; // the goal is missed: the error, or the time of the first pass, is larger
     double error, error_bound; // RMSE of goals: estimated, and with 95 % confidence
     uint64_t sample_count;     // samples taken
     uint64_t pixels_open, pixels_repaired, pixels_certified; // of the channel certainty
@@ -349,9 +349,9 @@ CLRT_API void clrt_hash(const float *rgb, uint32_t width, uint32_t height, char 
 // The number of no primitive, mesh or triangle.
 #define CLRT_NOTHING 0xffffffffu
 
-// Rays origin + t * direction. A ray hits what its t in [near, far] meets, faces from both sides.
-// Rays whose numbers are not finite, or whose direction is shorter than 1e-300 or longer than
-// 1e300, hit nothing.
+// Rays origin + t * direction. A ray hits primitives at t in [near, far], from both sides unless
+// one_sided is set. Rays whose numbers are not finite, or whose direction is shorter than 1e-300 or
+// longer than 1e300, hit nothing.
 //
 // A ray that starts on a primitive does not hit it again, except a sphere from inside. It passes
 // neighbors from which its start differs only by rounding. Its near must be 0 (or nears NULL) for

@@ -67,6 +67,6 @@ struct ClrtRenderer {
     uint64_t state;      // ClrtScene::state of the session's scene; 0 without a scene
 };
 
-// Gives the session the scene, unless it already has the scene in this state. Pictures and rays
-// compile the scene when they need it.
+// Gives the session the scene, unless it already has the scene in this state. The scene is
+// compiled when a picture is drawn or rays are cast.
 bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);

@@ -134,16 +134,15 @@ static Vec3 convert(const Entry *entry, const GivenRay *given)
     return origin;
 }
 
-// Moves the start of a ray onto the plane of its triangle.
-static bool move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle)
+// Moves the start of a ray onto the plane of its triangle, by *off along the normal. Returns false
+// if the start is too far away.
+static bool move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle, double *off)
 {
     const FaceCorners corners = corners_of(&scene->triangles, triangle);
     const Vec3 normal = normal_of(&corners);
-    const double off = vec3_dot(normal, vec3_sub(*origin, corners.at[0]));
-    if (!(fabs(off) <= OFF_PLANE))
-        return false;
-    *origin = vec3_sub(*origin, vec3_scale(normal, off));
-    return true;
+    *off = vec3_dot(normal, vec3_sub(*origin, corners.at[0]));
+    *origin = vec3_sub(*origin, vec3_scale(normal, *off));
+    return fabs(*off) <= OFF_PLANE;
 }
 
 // Returns whether the ray starts on the primitive that it names.
@@ -157,6 +156,7 @@ static bool fill_entry(const Entry *entry, const GivenRay *given, size_t number,
     RayData *ray = &entry->part->rays[entry->entry];
     const uint32_t spheres = entry->scene->flat.sphere_count;
     const uint64_t primitives = (uint64_t)spheres + entry->scene->flat.triangle_count;
+    double off = 0;
     Vec3 origin = convert(entry, given);
     ray->own = given->own;
     ray->own_index = NOTHING;
@@ -165,10 +165,12 @@ static bool fill_entry(const Entry *entry, const GivenRay *given, size_t number,
                           given->own, (unsigned long long)primitives);
     if (is_on_surface(given) && given->own >= spheres && ray->limit >= 0) {
         ray->own_index = entry->scene->places[given->own - spheres];
-        if (!move_to_plane(&origin, entry->scene, given->own - spheres))
+        if (!move_to_plane(&origin, entry->scene, given->own - spheres, &off))
             return check_fail(error, CLRT_ARGUMENT,
-                              "ray %zu starts too far from primitive %u, on which it should start",
-                              number, given->own);
+                              "ray %zu should start on primitive %u, but starts %.3g from its "
+                              "plane; at most %.3g are allowed",
+                              number, given->own, fabs(off) * entry->inverse_scale,
+                              OFF_PLANE * entry->inverse_scale);
     }
     vec3_store(ray->origin, origin);
     return true;

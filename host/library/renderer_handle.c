@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The caller's settings -> a device, its kernels and, later, a scene in their layouts.
+// Opens the device and its kernels for the caller's settings. Later takes the scene to draw.
 #include "library/handles.h"
 #include "session/request.h"
 

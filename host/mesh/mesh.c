@@ -78,8 +78,8 @@ bool mesh_drop_triangles(Mesh *mesh, Error *error)
     return true;
 }
 
-// dropped[i] - i remaining triangles precede dropped triangle i. A binary search therefore finds
-// how many dropped triangles precede a remaining one.
+// The number of remaining triangles before the i-th dropped one is dropped[i] - i. A binary search
+// therefore finds how many dropped triangles precede a remaining one.
 size_t mesh_original_number(const Mesh *mesh, size_t triangle)
 {
     size_t low = 0, high = mesh->dropped.count;

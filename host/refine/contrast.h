@@ -13,8 +13,8 @@
 #include "base/thread_pool.h"
 #include "refine/thin_parts.h"
 
-// A cell's contrast is its largest color difference from a neighbor, weighted and multiplied by the
-// cell's fraction of the pixel.
+// A cell's contrast is its largest color difference from a neighbor, multiplied by the
+// cell's fraction of the pixel, and doubled between pixels or halved inside one.
 typedef struct {
     const ThinParts *thin_parts;
     float threshold; // cells with more contrast are subdivided

@@ -138,8 +138,9 @@ static double mean_feature(const Stratum *stratum)
     return stratum->entered > 0 ? stratum->feature / (double)stratum->entered : 0;
 }
 
-// Returns the prior change per feature. Features shrink like the squared error of independent
-// samples. The squared error of Sobol points shrinks faster, so the ratio falls from rung to rung.
+// Returns the ratio of change to feature that is expected before any pixel advances. Features
+// shrink like the squared error of independent samples. The squared error of Sobol points shrinks
+// faster, so the ratio falls from rung to rung.
 static double first_ratio(const Rung rungs[], uint32_t rung)
 {
     if (rung < 2)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Searches piece by piece. Threads first record which pixels' samples the piece contains. They then
-// list the thin triangles of each pixel at which the piece is not wide. Finally, they search these
-// pixels level by level, with a mask of cells for each row. The results are sets, which do not
-// depend on the order of work.
+// Searches piece by piece. Threads first record which pixels' samples the piece contains. Where
+// the piece is not wide (thin_parts.h), they list each pixel's thin triangles. They then search
+// these pixels level by level, with a mask of cells for each row. The results are sets, which do
+// not depend on the order of work.
 #include "refine/thin_triangles.h"
 
 #include "refine/mesh_pieces.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of a picture: a kernel, which belongs to the device, the buffers of a scene, and the
-// settings of the picture.
+// A picture's kernel, scene buffers and settings. The kernel belongs to the device.
 #pragma once
 
 #include "device/kernel.h"

@@ -24,7 +24,7 @@ typedef struct {
 
 #define NO_CREASE (-2)
 
-// The output of clrt-foreign for the files of a scene, so that each file is read once. A file whose
+// Keeps the output of clrt-foreign for the files of a scene, to read each file once. A file whose
 // output would take more than FOREIGN_KEPT_MOST bytes together with the others is read each time.
 #define FOREIGN_KEPT_MOST ((size_t)256 << 20)
 typedef struct {

@@ -113,7 +113,8 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
     return ok;
 }
 
-// Refines toward the time or error goal. Does nothing if truncation alone reaches the error goal.
+// Refines toward the time or error goal. Does nothing if the error of truncation alone exceeds the
+// goal.
 static bool refine(const PictureGoal *goal, Ladder *ladder, double start, GoalOutcome *outcome,
                    Error *error)
 {

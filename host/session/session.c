@@ -54,9 +54,9 @@ static bool is_compiled(const Session *session, const KernelEntry *entry, Kernel
     return kernel_set_has(&session->kernels, &spec);
 }
 
-// Until packets are compiled, kernels that compile faster render small pictures of small scenes, if
-// they save more compile time than the pictures then lose. Kernels under development never count as
-// compiled.
+// Pair kernels compile faster than packets and trace slower. Until packets are compiled, pair
+// kernels draw small pictures of small scenes, if this saves time in total. Kernels under
+// development never count as compiled.
 static void choose_quick_kernels(Session *session, const SessionWork *work)
 {
     const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32};

@@ -89,6 +89,13 @@ class Rays(unittest.TestCase):
         place = a + hits.u[0] * (b - a) + hits.v[0] * (c - a)
         self.assertTrue(np.allclose(place, (0.5, 0.25, 1), atol=1e-6))
 
+    def test_hits_are_known_from_the_distance_alone(self):
+        cast = clrt.Renderer().trace
+        hits = cast(cube(), (0, 0, 3), [(0, 0, -1), (0, 0, 1)], results=("distance",))
+        self.assertEqual(hits.hit.tolist(), [True, False])
+        with self.assertRaises(clrt.ArgumentError):
+            _ = cast(cube(), (0, 0, 3), [(0, 0, -1)], results=("face",)).hit
+
     def test_all_crossings_are_in_order(self):
         hits = clrt.Renderer().trace_all(cube(), [(0, 0, 3), (9, 9, 9), (0.1, 0.2, 0)], (0, 0, -1))
         self.assertEqual(hits.ray.tolist(), [0, 0, 2])
@@ -145,7 +152,7 @@ class Errors(unittest.TestCase):
     def test_errors_have_the_librarys_text_and_a_kind(self):
         cases = ((clrt.SceneError, "cannot be opened", lambda: clrt.load("/nowhere.scn")),
                  (clrt.ArgumentError, "vertex 12", lambda: clrt.Scene().mesh(CUBE, [(0, 1, 12)])),
-                 (clrt.ArgumentError, "negative", lambda: clrt.Scene().mesh(CUBE, [(0, 1, -1)])),
+                 (clrt.ArgumentError, "not an integer", lambda: clrt.Scene().mesh(CUBE, [(0, 1, -1)])),
                  (clrt.ArgumentError, "shape", lambda: clrt.Scene().mesh(CUBE[0], SIDES)),
                  (clrt.ArgumentError, "channel",
                   lambda: clrt.load(CREATURE).render(8, 8, channels=["dept"])),

@@ -109,8 +109,8 @@ static bool mark_given(Options *options, size_t row, Error *error)
     return true;
 }
 
-// Returns the command that the options and operands select: the last row with its name that wants
-// no more than `count` operands, or else the first row with its name.
+// Returns the command that the options and operands select: among the rows with its name, the last
+// one that `count` operands suffice for, or else the first one.
 static const Command *find_command(const Options *options, const char *name, int count)
 {
     const unsigned picture = options->output_path != NULL ? FOR_FILE

@@ -15,6 +15,6 @@ from .renderer import Hits, Picture, Renderer, channel_kinds, compare, devices, 
 from .scene import Camera, Scene, load
 
 __version__ = library.ffi.string(library.plain("version")).decode()
-__all__ = ["NOTHING", "ArgumentError", "Camera", "DeviceError", "Error", "Hits", "Picture",
+__all__ = ["NOTHING", "ArgumentError", "Camera", "DeviceError", "Error", "Hits",
            "Renderer", "Scene", "SceneError", "Stopped", "channel_kinds", "compare", "devices",
            "hash", "load"]

@@ -134,6 +134,13 @@ def rows(array, dtype, columns, what):
     return rows_
 
 
+def check_unsigned(numbers, what):
+    """Raises unless the numbers are integers that uint32 can hold."""
+    if numbers.size and (numbers.dtype.kind not in "iu" or numbers.min() < 0
+                         or numbers.max() > NOTHING):
+        raise ArgumentError(f"a {what} is not an integer from 0 to {NOTHING}")
+
+
 def vector(values, what):
     """Three doubles for the library."""
     array = np.asarray(values, np.float64)

@@ -56,9 +56,11 @@ class Hits:
     """What rays hit. Arrays have one element per ray, or per crossing of trace_all.
 
     distance: float64, in lengths of the ray's direction; infinity without a hit. primitive, mesh,
-    face: uint32; mesh and face count from 0 in the order in which meshes were added. Without a hit,
-    and for the mesh and face of spheres, they are clrt.NOTHING. u, v: float64, the weights of the
-    face's second and third corner. normal: float64, of shape (n, 3), the unit normal of the front.
+    face: uint32. primitive is the number that `starts` and the channel of this name take: first
+    all spheres, then all faces but those with two corners at one place. mesh and face count from 0,
+    as the meshes and their faces were given. Without a hit, and for the mesh and face of spheres,
+    they are clrt.NOTHING. u, v: float64, the weights of the face's second and third corner
+    (requested as "weights"). normal: float64, of shape (n, 3), the unit normal of the front.
     front: bool, whether the ray comes from the front. ray: the rays' numbers, of trace_all only.
     Arrays that were not requested are None.
     """
@@ -75,8 +77,12 @@ class Hits:
 
     @property
     def hit(self):
-        """Which rays hit something, as bools."""
-        return self.primitive != NOTHING
+        """Which rays hit something, as bools, from distance or primitive."""
+        if self.primitive is not None:
+            return self.primitive != NOTHING
+        if self.distance is not None:
+            return np.isfinite(self.distance)
+        raise library.ArgumentError("neither 'distance' nor 'primitive' was requested")
 
 
 class Renderer:
@@ -155,10 +161,11 @@ class Renderer:
               one_sided=False, results=_RESULTS, progress=None):
         """Finds the nearest hit of each ray and returns Hits.
 
-        origins, directions: (n, 3) numbers; float64 arrays are not copied. near, far: limits of the
-        distance, one number or n. starts: the primitive on which each ray starts, so that it is not
-        hit again, or clrt.NOTHING. one_sided: rays pass the backs of faces. results: what to
-        compute; fewer take less time.
+        origins, directions: (n, 3) numbers, or three for all rays; float64 arrays are not copied.
+        near, far: limits of the distance, one number or n. starts: the primitive on which each ray
+        starts (Hits.primitive), so that it is not hit again, or clrt.NOTHING; without `near`.
+        one_sided: rays pass the backs of meshes that are not two-sided; otherwise all faces stop
+        rays from both sides. results: what to compute; fewer take less time.
         """
         rays = _Rays(origins, directions, near, far, starts, one_sided)
         return self._hits("trace", scene, rays, results, 1, progress)[0]
@@ -189,7 +196,8 @@ class Renderer:
 
     def contains(self, scene, points, *, progress=None):
         """Whether each point is inside of the scene's meshes, which must be closed."""
-        return self._flags("contains", scene, _Rays(points), progress)
+        points = rows(points, np.float64, 3, "points")
+        return self._flags("contains", scene, _Rays(points, (0, 0, 1)), progress)
 
     def _size(self, scene, width, height):
         info = scene.info if not (width and height) else {}
@@ -238,7 +246,7 @@ class Renderer:
             "mesh": np.empty(n, np.uint32), "face": np.empty(n, np.uint32),
             "weights": np.empty((n, 2)), "normal": np.empty((n, 3)), "front": np.empty(n, np.bool_)}
         for unknown in set(results) - set(arrays):
-            raise library.ArgumentError(f"{unknown!r} is no result of rays")
+            raise library.ArgumentError(f"{unknown!r} is not one of {', '.join(_RESULTS)}")
         wanted = {name: array for name, array in arrays.items() if name in results}
         members = {"face": "triangles", "primitive": "primitives", "mesh": "meshes"}
         given = {members.get(name, name + "s" * (name != "weights")): array
@@ -256,17 +264,17 @@ class Renderer:
 class _Rays:
     """Rays as the library takes them."""
 
-    def __init__(self, origins, directions=None, near=None, far=None, starts=None, one_sided=False):
+    def __init__(self, origins, directions, near=None, far=None, starts=None, one_sided=False):
+        origins, directions = np.asarray(origins, np.float64), np.asarray(directions, np.float64)
+        if origins.ndim == 1 and directions.ndim == 2:
+            origins = np.broadcast_to(origins, directions.shape)
+        if directions.ndim == 1:
+            directions = np.broadcast_to(directions, origins.shape)
         origins = rows(origins, np.float64, 3, "origins")
+        directions = rows(directions, np.float64, 3, "directions")
         self.count = len(origins)
-        if directions is not None:
-            directions = np.asarray(directions, np.float64)
-            if directions.ndim == 1:
-                directions = np.broadcast_to(directions, origins.shape)
-            directions = rows(directions, np.float64, 3, "directions")
-            if len(directions) != self.count:
-                raise library.ArgumentError(
-                    f"{self.count} origins, but {len(directions)} directions")
+        if len(directions) != self.count:
+            raise library.ArgumentError(f"{self.count} origins, but {len(directions)} directions")
         self.struct = struct("ClrtRays", count=self.count, origins=origins, directions=directions,
                              nears=self._per_ray(near, np.float64),
                              fars=self._per_ray(far, np.float64),
@@ -275,7 +283,10 @@ class _Rays:
     def _per_ray(self, values, dtype):
         if values is None:
             return None
-        return np.ascontiguousarray(np.broadcast_to(np.asarray(values, dtype), (self.count,)))
+        values = np.asarray(values)
+        if dtype is np.uint32:
+            library.check_unsigned(values, "start")
+        return np.ascontiguousarray(np.broadcast_to(values.astype(dtype), (self.count,)))
 
 
 def _explained(explanation, kind, struct_kind, *place):

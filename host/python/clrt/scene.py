@@ -63,11 +63,14 @@ class Scene:
 
         vertices: (n, 3) numbers, kept as float64. faces: (m, 3) vertex numbers, counter-clockwise
         seen from the front. normals: (n, 3), one per vertex. smooth computes normals that are
-        missing; angles above `crease` degrees (33) stay sharp. material: a number that `material`
+        missing; angles above `crease` degrees (33) stay sharp. Pictures show the backs of two_sided
+        meshes, too. material: a number that `material`
         returned, "silhouette", "matte", "blinn_phong" or "mirror".
         """
         vertices = rows(vertices, np.float64, 3, "vertices")
-        faces = rows(_unsigned(faces), np.uint32, 3, "faces")
+        faces = np.asarray(faces)
+        library.check_unsigned(faces, "vertex number")
+        faces = rows(faces, np.uint32, 3, "faces")
         if normals is not None:
             normals = rows(normals, np.float32, 3, "normals")
             if len(normals) != len(vertices):
@@ -145,11 +148,3 @@ def _named(names, given, what):
 
 def _material(material):
     return _named(_MATERIALS, material, "material") if isinstance(material, str) else material
-
-
-def _unsigned(faces):
-    """Faces whose numbers fit uint32. Negative numbers would wrap around."""
-    faces = np.asarray(faces)
-    if faces.size and faces.dtype.kind != "u" and faces.min() < 0:
-        raise library.ArgumentError("a face has a negative vertex number")
-    return faces

@@ -186,9 +186,6 @@ void line_view_draw(const LineView *view, const Lens *lens, const float color[3]
     glBindVertexArray(0);
 }
 
-// The course's viewer draws normals of length 0.15. Its scenes have a size of 2 to 4, which
-// normalization reduces to 1 to 2. The normals here are therefore half as long.
-
 typedef struct {
     Boxes *boxes;
     const Bvh *bvh;
@@ -224,6 +221,7 @@ void boxes_free(Boxes *boxes)
     *boxes = (Boxes){0};
 }
 
+// Half of the course's 0.15, because normalization halves the course's scenes.
 #define LINE_LENGTH 0.075
 
 static bool add_line(Boxes *lines, Vec3 start, Vec3 normal, Error *error)
