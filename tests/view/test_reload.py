@@ -113,7 +113,7 @@ def changed_kernels_trace_the_next_picture(screen, folder):
         window.until(lambda shown: shown != line, "reports that the kernels do not compile")
         window.press("t", "text off")
         assert window.read() == before, "the last good picture is gone"
-        dark = text.replace("rint(clamp_to_one(color)", "rint(clamp_to_one(0.5f * color)")
+        dark = text.replace("clamp_to_one(color) *", "clamp_to_one(0.5f * color) *")
         assert dark != text
         shade.write_text(dark)
         window.until(lambda shown: sum(shown[1::4]) < 0.6 * sum(before[1::4]), "is darker")
