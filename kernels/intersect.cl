@@ -60,30 +60,26 @@ static inline void intersect_triangles(const Tracer *tracer, const Ray *rays,
 #endif
 }
 
-// Finds the hits of `count` packets, at most PACKETS. The hits' t limits the search. A shadow ray
-// ends at the first sphere.
-static inline void search_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
+// Finds the nearest sphere before hit->t. Returns the lanes that then search for triangles.
+static inline Mask meet_spheres(const Tracer *tracer, const Ray *ray, Hit *hit)
+{
+    if (!any_lane(ray->active))
+        return 0;
+    if (CLRT_SPHERES)
+        intersect_spheres(tracer, ray, hit);
+    return is_searchable(ray);
+}
+
+// Finds the hits of `count` packets, at most PACKETS.
+static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
     Mask searching[PACKETS];
     for (uint i = 0; i < count; i++) {
-        searching[i] = 0;
-        if (!any_lane(rays[i].active))
-            continue;
-        if (CLRT_SPHERES)
-            intersect_spheres(tracer, &rays[i], &hits[i]);
-        searching[i] = is_searchable(&rays[i]);
-        if (rays[i].kind == RAY_SHADOW)
-            searching[i] = searching[i] && hits[i].id == NOTHING;
+        hits[i] = (Hit){INFINITY, NOTHING, NOTHING};
+        searching[i] = meet_spheres(tracer, &rays[i], &hits[i]);
     }
     if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
         intersect_triangles(tracer, rays, searching, count, hits);
-}
-
-static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
-{
-    for (uint i = 0; i < count; i++)
-        hits[i] = (Hit){INFINITY, NOTHING, NOTHING};
-    search_hits(tracer, rays, count, hits);
 }
 
 // Finds whether a primitive lies between a shaded point and the light, for each shadow ray. If
@@ -91,9 +87,13 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
 // lies on a primitive, within the error of a distance, this primitive does not block the ray.
 static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
-    for (uint i = 0; i < count; i++)
+    Mask searching[PACKETS];
+    for (uint i = 0; i < count; i++) {
         hits[i] = (Hit){1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
-    search_hits(tracer, rays, count, hits);
+        searching[i] = meet_spheres(tracer, &rays[i], &hits[i]) && hits[i].id == NOTHING;
+    }
+    if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
+        intersect_triangles(tracer, rays, searching, count, hits);
 }
 
 static inline Hit nearest_hit(const Tracer *tracer, const Ray *ray)

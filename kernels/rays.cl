@@ -45,9 +45,7 @@ static inline bool are_coherent(const Ray packets[PACKETS])
 
 static inline void search_singly(const Tracer *tracer, const Ray *ray, Hit *hits)
 {
-    if (CLRT_SPHERES)
-        intersect_spheres(tracer, ray, hits);
-    const uint bits = lane_bits(is_searchable(ray));
+    const uint bits = lane_bits(meet_spheres(tracer, ray, hits));
     const Search search = search_along(tracer, ray, hits->t);
     if (bits != 0)
         intersect_lanes(&search, bits, 0, hits);
@@ -63,7 +61,11 @@ static inline void search_rays(const Tracer *tracer, const Ray packets[PACKETS],
         return;
     }
 #endif
-    search_hits(tracer, packets, PACKETS, hits);
+    Mask searching[PACKETS];
+    for (uint i = 0; i < PACKETS; i++)
+        searching[i] = meet_spheres(tracer, &packets[i], &hits[i]);
+    if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
+        intersect_triangles(tracer, packets, searching, PACKETS, hits);
 }
 
 static inline void store_hits(global HitData *hits, uint left, const Hit *found)
