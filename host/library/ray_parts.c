@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Coordinates are the normalized frame's, directions have a largest component in [1, 2).
+// Coordinates are normalized. Directions have a largest component in [1, 2).
 #include "library/ray_parts.h"
 
 #include <math.h>
 #include <string.h>
 
-// Rays that start outside of a cube of twice this side, around the frame's origin, enter it first.
-// The scene's triangles are within 1.
+// Half the side of the cube to which far rays advance before they are rounded to float. Rays are
+// far if a coordinate exceeds 2 * CUBE. The scene's triangles are within 1.
 #define CUBE 2.0
 
 // How far a ray's start may be off the plane of its triangle.
@@ -89,7 +89,7 @@ static double sum_of(Vec3 v)
 }
 
 // Returns the power of two that scales a size into [1, 2). The sizes are at least 1e-300 and at
-// most 1e300. Together with largest_of, this takes a third of the time of scalbn, ilogb and fmax.
+// most 1e300. For a camera's rays, ilogb, scalbn and fmax took 15 % of the call's processor time.
 static double power_to_one(double size)
 {
     uint64_t bits;

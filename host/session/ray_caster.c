@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All launches have the same size, because PoCL compiles a kernel again for each size.
+// All work-groups of a kernel have the same size, because PoCL compiles a kernel again for each
+// size.
 #include "session/ray_caster.h"
 
 #include "device/buffer.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Both sides of every triangle are compiled from a copy of the scene whose meshes are two-sided.
 #include "session/ray_scene.h"
 
 #include <stdlib.h>

@@ -123,7 +123,7 @@ static ClrtHits hits_in(Results *results, size_t first)
                       .fronts = results->fronts + first};
 }
 
-static Results all, others;
+static Results all, others, inward;
 
 static void trace_all_by(ClrtRenderer *by, Results *results)
 {
@@ -162,6 +162,33 @@ TEST(hits_have_a_place_on_the_mesh)
     assert_true(found > RAYS / 2);
 }
 
+static uint32_t starts[RAYS];
+static double meetings[RAYS][3], onward[RAYS][3];
+
+// Lets the rays that hit the outside go on into the ball. Returns their number.
+static size_t trace_inward(ClrtRenderer *by, const Results *outside, Results *results)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < RAYS; i++) {
+        if (outside->primitives[i] == CLRT_NOTHING || !outside->fronts[i])
+            continue;
+        for (int axis = 0; axis < 3; axis++) {
+            meetings[count][axis] = origins[i][axis] + outside->distances[i] * directions[i][axis];
+            onward[count][axis] = directions[i][axis];
+        }
+        starts[count++] = outside->primitives[i];
+    }
+    const ClrtRays rays = {.size = sizeof rays,
+                           .count = count,
+                           .origins = meetings[0],
+                           .directions = onward[0],
+                           .starts = starts};
+    const ClrtHits hits = hits_in(results, 0);
+    memset(results, 0x55, sizeof *results);
+    assert_true(clrt_trace(by, scene, &rays, &hits, NULL));
+    return count;
+}
+
 TEST(batches_and_kernels_change_no_bit)
 {
     const ClrtSettings settings[] = {
@@ -172,11 +199,14 @@ TEST(batches_and_kernels_change_no_bit)
     const ClrtRays all_rays = rays_given(RAYS);
     trace_all_by(renderer, &all);
     assert_true(clrt_contains(renderer, scene, &all_rays, inside, NULL));
+    trace_inward(renderer, &all, &inward);
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         ClrtRenderer *other = clrt_renderer_create(&settings[i], NULL);
         assert_non_null(other);
         trace_all_by(other, &others);
         assert_memory_equal(&others, &all, sizeof all);
+        trace_inward(other, &all, &others);
+        assert_memory_equal(&others, &inward, sizeof inward);
         assert_true(clrt_contains(other, scene, &all_rays, others_inside, NULL));
         assert_memory_equal(others_inside, inside, sizeof inside);
         clrt_renderer_free(other);
@@ -290,38 +320,24 @@ TEST(crossings_are_in_order_and_begin_with_the_hit)
 
 TEST(rays_that_start_on_a_triangle_leave_it)
 {
-    static uint32_t starts[RAYS];
-    static double points[RAYS][3], away[RAYS][3];
     uint32_t primitives[2];
-    size_t count = 0;
     trace_all_by(renderer, &all);
-    for (size_t i = 0; i < RAYS; i++) {
-        if (all.primitives[i] == CLRT_NOTHING || !all.fronts[i])
-            continue;
-        for (int axis = 0; axis < 3; axis++) {
-            points[count][axis] = origins[i][axis] + all.distances[i] * directions[i][axis];
-            away[count][axis] = directions[i][axis];
-        }
-        starts[count++] = all.primitives[i];
-    }
-    const ClrtRays inward = {.size = sizeof inward,
-                             .count = count,
-                             .origins = points[0],
-                             .directions = away[0],
-                             .starts = starts};
-    const ClrtHits hits = hits_in(&others, 0);
-    assert_true(clrt_trace(renderer, scene, &inward, &hits, NULL));
+    const size_t count = trace_inward(renderer, &all, &inward);
+    assert_true(count > RAYS / 4);
     for (size_t i = 0; i < count; i++) {
-        assert_true(others.primitives[i] != CLRT_NOTHING); // the mesh is closed
-        assert_true(others.primitives[i] != starts[i]);
+        assert_true(inward.primitives[i] != CLRT_NOTHING); // the mesh is closed
+        assert_true(inward.primitives[i] != starts[i]);
     }
-    ClrtRays wrong = inward;
-    wrong.count = 1;
+    const ClrtRays wrong = {.size = sizeof wrong,
+                            .count = 1,
+                            .origins = meetings[0],
+                            .directions = onward[0],
+                            .starts = starts};
     const ClrtHits few = {.size = sizeof few, .primitives = primitives};
     starts[0] = FACES;
     REFUSES(clrt_trace(renderer, scene, &wrong, &few, &error), "ray 0 starts on primitive");
     starts[0] = 0;
-    points[0][2] += 1;
+    meetings[0][2] += 1;
     REFUSES(clrt_trace(renderer, scene, &wrong, &few, &error), "from its plane; at most");
 }
 

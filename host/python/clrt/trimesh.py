@@ -19,18 +19,22 @@ class RayMeshIntersector:
         self._renderer = renderer
         self._scene, self._state = None, None
 
-    def _cast(self, kind, origins, directions, **settings):
+    def _parts(self):
+        """The renderer, and the scene of the mesh as it is now."""
         state = hash(self.mesh)
         if self._state != state:
             self._scene = Scene()
             self._scene.mesh(self.mesh.vertices, self.mesh.faces)
             self._state = state
-        renderer = self._renderer or default_renderer()
+        return self._renderer or default_renderer(), self._scene
+
+    def _cast(self, kind, origins, directions, **settings):
+        renderer, scene = self._parts()
         origins = np.asarray(origins, np.float64).reshape(-1, 3)
         directions = np.asarray(directions, np.float64).reshape(-1, 3)
         if origins.shape != directions.shape:
             raise ValueError("Ray origin and direction don't match!")
-        return getattr(renderer, kind)(self._scene, origins, directions, **settings)
+        return getattr(renderer, kind)(scene, origins, directions, **settings)
 
     def intersects_id(self, ray_origins, ray_directions, multiple_hits=True, max_hits=None,
                       return_locations=False, **_):
@@ -66,9 +70,8 @@ class RayMeshIntersector:
 
     def contains_points(self, points):
         """Whether each point is inside of the mesh, which must be closed."""
-        points = np.asarray(points, np.float64).reshape(-1, 3)
-        self._cast("occluded", points[:0], points[:0])
-        return (self._renderer or default_renderer()).contains(self._scene, points)
+        renderer, scene = self._parts()
+        return renderer.contains(scene, np.asarray(points, np.float64).reshape(-1, 3))
 
 
 def _first_of_each(ray, most):
