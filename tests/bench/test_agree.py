@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests that the Embree renderer of tools/bench draws clrt's picture with as many rays, in each
-mode. Otherwise the comparison would be meaningless. Edges may differ, as Embree's arithmetic does.
-Usage: test_agree.py CLRT EMBREE_PEER
+"""Tests that the Embree renderers of tools/bench draw clrt's picture with as many rays, in each mode
+and for each target. Otherwise the comparison would be meaningless. Edges may differ, as Embree's
+arithmetic does. Usage: test_agree.py CLRT EMBREE_PEER...
 """
 
 import json
@@ -13,15 +13,18 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
+from benchmark import generated  # noqa: E402
 from benchmark.embree import MODES, share_of_differing_pixels  # noqa: E402
 
 SCENE = ROOT / "tests" / "bench" / "agree.scn"
+GENERATED = ["sky", "gear-6k"]
+WORDS = [["-c", "csr"], ["-c", "", "-j", "2"], ["-r", "-q", "high"]]
 PIXELS_APART = 0.0005
 RAYS_APART = 0.0005
 
 
-def peer_draws(peer, mode, words, picture):
-    done = subprocess.run([peer, str(SCENE), "-m", mode, "-f", "1", "-o", picture, *words],
+def peer_draws(peer, scene, mode, words, picture):
+    done = subprocess.run([peer, str(scene), "-m", mode, "-f", "1", "-o", picture, *words],
                           check=True, capture_output=True, text=True)
     return json.loads(done.stdout)["modes"][mode]
 
@@ -37,17 +40,27 @@ def faults_of(mode, found, expected, share):
             yield f"{mode}: {count} {kind} rays, where clrt has {expected[kind]}"
 
 
-def main(clrt, peer):
-    faults = []
-    with tempfile.TemporaryDirectory() as folder:
-        ours, theirs, report = (f"{folder}/{name}" for name in ("a.pfm", "b.pfm", "report.json"))
-        subprocess.run([clrt, str(SCENE), "-q", "-o", ours, f"--json={report}"], check=True)
-        expected = json.loads(pathlib.Path(report).read_text())["rays"]
+def faults_in(scene, size, clrt, peers, folder):
+    """Yields a message for each fault of a scene."""
+    ours, theirs, report = (f"{folder}/{name}" for name in ("a.pfm", "b.pfm", "report.json"))
+    subprocess.run([clrt, str(scene), "-q", "-o", ours, f"--json={report}", *size], check=True)
+    expected = json.loads(pathlib.Path(report).read_text())["rays"]
+    for peer in peers:
         for mode in MODES:
-            for words in (["-c", "csr"], ["-c", "", "-j", "2"], ["-r", "-q", "high"]):
-                found = peer_draws(peer, mode, words, theirs)
-                faults += faults_of(mode, found, expected, share_of_differing_pixels(ours, theirs))
-    print("\n".join(faults) or f"{len(MODES)} modes agree with clrt")
+            for words in WORDS:
+                found = peer_draws(peer, scene, mode, words + size, theirs)
+                yield from faults_of(f"{peer} {scene} {mode}", found, expected,
+                                     share_of_differing_pixels(ours, theirs))
+
+
+def main(clrt, *peers):
+    has_avx2 = " avx2 " in pathlib.Path("/proc/cpuinfo").read_text()
+    peers = [peer for peer in peers if has_avx2 or not peer.endswith("avx2")]
+    with tempfile.TemporaryDirectory() as folder:
+        faults = list(faults_in(SCENE, [], clrt, peers, folder))
+        for scene in generated.write(folder, GENERATED):
+            faults += faults_in(scene, ["-s", "96x96"], clrt, peers, folder)
+    print("\n".join(faults) or f"{len(peers)} renderers agree with clrt in {len(MODES)} modes")
     return 1 if faults else 0
 
 

@@ -8,22 +8,23 @@ rounds, embree_peer finds the fastest coherent flags of each mode.
 
 import array
 import json
-import pathlib
 import statistics
 import subprocess
 
 from benchmark import common, scenes
 
-PEER = common.BUILD / "embree_peer"
-# Without AVX-512, Embree splits packets of 16 into two of 8, and Debian's Embree 3.13 aborts there.
-HAS_AVX512 = "avx512f" in pathlib.Path("/proc/cpuinfo").read_text()
-MODES = ["single", "packet8", *(["packet16"] if HAS_AVX512 else []), "stream"]
+MODES = ["single", "packet4", "packet8", "packet16", "stream"]
 QUALITIES = ["low", "medium", "high"]
 
 
-def peer(scene, *words):
-    done = subprocess.run([str(PEER), str(scene), *words], capture_output=True, text=True,
-                          check=True)
+def program(target):
+    """Returns the path of the Embree renderer for a target, or for this machine if it is None."""
+    return common.BUILD / ("embree_peer" + (f"_{target}" if target else ""))
+
+
+def peer(target, scene, *words):
+    done = subprocess.run([str(program(target)), str(scene), *words], capture_output=True,
+                          text=True, check=True)
     return json.loads(done.stdout)
 
 
@@ -48,7 +49,7 @@ class Contest:
 
     def __init__(self, name, variant, scene, threads, columns, options):
         self.name, self.variant, self.scene, self.threads = name, variant, scene, threads
-        self.columns, self.frames = columns, options.frames or 3
+        self.columns, self.frames, self.target = columns, options.frames or 3, options.target
         self.size = ["-s", options.size] if options.size else []
         self.times = {contestant: [] for contestant in [*columns, *MODES]}
         self.rays = self.triangles = self.differing = None
@@ -56,7 +57,8 @@ class Contest:
 
     def prepare(self, folder):
         picture = f"{folder}/embree.pfm"
-        found = peer(self.scene, "-j", str(self.threads), "-f", "1", "-o", picture, *self.size)
+        found = peer(self.target, self.scene, "-j", str(self.threads), "-f", "1", "-o", picture,
+                     *self.size)
         for mode, figures in found["modes"].items():
             self.coherent[mode] = figures["coherent"]
             self.all_coherent[mode] = figures["all_coherent_seconds"]
@@ -72,8 +74,8 @@ class Contest:
             self.times[column].append(statistics.median(times[1:]))
         for letters in sorted(set(self.coherent.values())):
             modes = [mode for mode in MODES if self.coherent[mode] == letters]
-            found = peer(self.scene, "-j", str(self.threads), "-f", str(self.frames), "-c", letters,
-                         "-m", ",".join(modes), *self.size)
+            found = peer(self.target, self.scene, "-j", str(self.threads), "-f", str(self.frames),
+                         "-c", letters, "-m", ",".join(modes), *self.size)
             for mode in modes:
                 self.times[mode].append(statistics.median(found["modes"][mode]["frame_seconds"]))
 
@@ -117,14 +119,14 @@ def print_table(results, columns):
     print("Milliseconds per frame. x best and x single are clrt's time divided by the time of "
           "Embree's\nbest mode and of its single rays. differ: pixels that differ by more than "
           "1/255.\n")
-    print(f"{'scene':<10}{'variant':<9}{'threads':>7}"
+    print(f"{'scene':<12}{'variant':<9}{'threads':>7}"
           + "".join(f"{head:>{max(10, len(head) + 2)}}" for head in heads)
           + f"  {'best':<9}"
           + "".join(f"{'x best':>8}{'x single':>10}" for _ in columns) + "  Mray/s   differ")
     for result in results:
         times, rates = result["frame_seconds"], result["mray_per_second"]
         best = result["best_mode"]
-        print(f"{result['scene']:<10}{result['variant']:<9}{result['threads']:>7}"
+        print(f"{result['scene']:<12}{result['variant']:<9}{result['threads']:>7}"
               + "".join(f"{times[head] * 1e3:>{max(10, len(head) + 2)}.1f}" for head in heads)
               + f"  {best:<9}"
               + "".join(f"{result['ratio_to_best'][column]:>8.2f}"
@@ -133,15 +135,15 @@ def print_table(results, columns):
               + f"  {result['share_of_differing_pixels']:.2%}")
 
 
-def builds_of(name, scene, runs, folder):
+def builds_of(name, scene, options, folder):
     """Returns the seconds for building the tree on all threads, for clrt and for each quality of
     Embree."""
     threads = str(common.threads_of_machine())
     times = {"clrt": [], **{quality: [] for quality in QUALITIES}}
-    for _ in range(runs):
+    for _ in range(min(options.runs, 3)):
         times["clrt"].append(common.report(scene, ["-s", "64x64"], folder)["seconds"]["build"])
         for quality in QUALITIES:
-            built = peer(scene, "-j", threads, "-q", quality, "-m", "none")
+            built = peer(options.target, scene, "-j", threads, "-q", quality, "-m", "none")
             times[quality].append(built["build_seconds"])
     return {"scene": name, "build_seconds": {who: statistics.median(t) for who, t in times.items()}}
 
@@ -149,16 +151,16 @@ def builds_of(name, scene, runs, folder):
 def print_builds(builds):
     print(f"\nMilliseconds to build the tree (for clrt, including its arrays), "
           f"{common.threads_of_machine()} threads\n")
-    print(f"{'scene':<10}{'clrt':>10}" + "".join(f"{q:>10}" for q in QUALITIES))
+    print(f"{'scene':<12}{'clrt':>10}" + "".join(f"{q:>10}" for q in QUALITIES))
     for build in builds:
         times = build["build_seconds"]
-        print(f"{build['scene']:<10}" + "".join(f"{t * 1e3:>10.1f}" for t in times.values()))
+        print(f"{build['scene']:<12}" + "".join(f"{t * 1e3:>10.1f}" for t in times.values()))
 
 
 def run(options, folder):
-    if not PEER.exists():
-        print("The comparison with Embree is skipped: build/release/embree_peer does not exist. "
-              "It needs Embree 3 (libembree-dev of Debian 12).")
+    if not program(options.target).exists():
+        print(f"The comparison with Embree is skipped: {program(options.target)} does not exist. It "
+              "needs Embree 3 (libembree-dev of Debian 12).")
         return None
     columns = columns_of(options)
     counts = [options.threads] if options.threads else sorted({1, common.threads_of_machine()})
@@ -173,8 +175,8 @@ def run(options, folder):
         for contest in contests:
             contest.round(folder)
     results = [contest.summary() for contest in contests]
-    builds = [builds_of(name, scenes.write(text, name, "mirrors", folder), min(options.runs, 3),
-                        folder) for name, text in texts.items()]
+    builds = [builds_of(name, scenes.write(text, name, "mirrors", folder), options, folder)
+              for name, text in texts.items()]
     print_table(results, columns)
     print_builds(builds)
     return {"machine": common.machine(), "frames": results, "builds": builds}

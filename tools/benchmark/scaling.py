@@ -4,7 +4,7 @@
 import pathlib
 import statistics
 
-from benchmark import chart, common, scenes, torus
+from benchmark import chart, common, scenes, shapes
 
 TRIANGLES = [10 ** power for power in range(3, 8)]
 PIXELS_WITH = 10 ** 5  # triangles of the mesh for the series of picture sizes
@@ -15,7 +15,7 @@ CAMERA = "2.1 -1.3 1.5  0 0 0.26  32"
 def scene_of(count, folder):
     """Writes a mesh and its scene. Returns the scene's path and the mesh's number of triangles."""
     mesh = pathlib.Path(folder) / f"torus-{count}.ply"
-    made = torus.write(mesh, count)
+    made = shapes.write(mesh, "torus", count)
     text = scenes.with_absolute_paths(scenes.FOLDER / "creature.scn")
     return scenes.write(scenes.with_mesh(text, mesh, CAMERA), mesh.stem, "mirrors", folder), made
 

@@ -27,6 +27,8 @@ typedef struct {
 _Static_assert(sizeof(RayHits) == sizeof(struct RTCRayHit16), "a packet is not Embree's");
 #elif LANES == 8
 _Static_assert(sizeof(RayHits) == sizeof(struct RTCRayHit8), "a packet is not Embree's");
+#elif LANES == 4
+_Static_assert(sizeof(RayHits) == sizeof(struct RTCRayHit4), "a packet is not Embree's");
 #elif LANES == 1
 _Static_assert(sizeof(RayHits) == sizeof(struct RTCRayHit), "a ray is not Embree's");
 #endif
@@ -38,21 +40,36 @@ static inline void leave_out(Rays *rays, Mask valid)
     rays->near = choose(valid, rays->near, all(INFINITY));
     rays->far = choose(valid, rays->far, all(-INFINITY));
 }
+#elif LANES == 16 && !defined(__AVX512F__)
+// Without AVX-512, Embree splits packets of 16 into two of 8. Debian's Embree 3.13 then asserts
+// that masked rays are finite, too.
+static inline void leave_out(Rays *rays, Mask valid)
+{
+    rays->origin = points_choose(valid, rays->origin, (Points){0});
+    rays->direction = points_choose(valid, rays->direction, (Points){0});
+    rays->far = choose(valid, rays->far, all(0));
+}
+#else
+static inline void leave_out(Rays *rays, Mask valid)
+{
+    (void)rays, (void)valid;
+}
 #endif
 
 static inline void call_intersect(RTCScene scene, struct RTCIntersectContext *context,
                                   const Mask valid[PACKETS], RayHits hits[PACKETS])
 {
-#if PACKETS > 1
     for (int packet = 0; packet < PACKETS; packet++)
         leave_out(&hits[packet].rays, valid[packet]);
+#if PACKETS > 1
     rtcIntersectNM(scene, context, (struct RTCRayHitN *)hits, LANES, PACKETS, sizeof *hits);
 #elif LANES == 16
     rtcIntersect16((const int *)valid, scene, context, (struct RTCRayHit16 *)hits);
 #elif LANES == 8
     rtcIntersect8((const int *)valid, scene, context, (struct RTCRayHit8 *)hits);
+#elif LANES == 4
+    rtcIntersect4((const int *)valid, scene, context, (struct RTCRayHit4 *)hits);
 #else
-    (void)valid;
     rtcIntersect1(scene, context, (struct RTCRayHit *)hits);
 #endif
 }
@@ -61,16 +78,17 @@ static inline void call_intersect(RTCScene scene, struct RTCIntersectContext *co
 static inline void call_occluded(RTCScene scene, struct RTCIntersectContext *context,
                                  const Mask valid[PACKETS], Rays rays[PACKETS])
 {
-#if PACKETS > 1
     for (int packet = 0; packet < PACKETS; packet++)
         leave_out(&rays[packet], valid[packet]);
+#if PACKETS > 1
     rtcOccludedNM(scene, context, (struct RTCRayN *)rays, LANES, PACKETS, sizeof *rays);
 #elif LANES == 16
     rtcOccluded16((const int *)valid, scene, context, (struct RTCRay16 *)rays);
 #elif LANES == 8
     rtcOccluded8((const int *)valid, scene, context, (struct RTCRay8 *)rays);
+#elif LANES == 4
+    rtcOccluded4((const int *)valid, scene, context, (struct RTCRay4 *)rays);
 #else
-    (void)valid;
     rtcOccluded1(scene, context, (struct RTCRay *)rays);
 #endif
 }

@@ -28,8 +28,8 @@ static void usage(void)
     fprintf(stderr,
             "Usage: embree_peer SCENE [-m MODE,...] [-f FRAMES] [-j THREADS] [-s WxH]\n"
             "    [-q low|medium|high] [-r] [-c KINDS] [-o PICTURE.pfm]\n"
-            "MODE is single, packet8, packet16 or stream (default: all). -r selects Embree's "
-            "robust mode.\n"
+            "MODE is single, packet4, packet8, packet16 or stream (default: all). -r selects "
+            "Embree's robust mode.\n"
             "KINDS are the coherent rays: c (camera), s (shadow) and r (reflected), as in cs, or\n"
             "best (default) for the fastest choice. PICTURE comes from the last of these modes.\n");
     exit(2);
@@ -56,7 +56,7 @@ static void set_coherent(Options *options, const char *kinds)
 
 static Options read_options(int count, char **words)
 {
-    Options options = {.modes = "single,packet8,packet16,stream",
+    Options options = {.modes = "single,packet4,packet8,packet16,stream",
                        .frames = 5,
                        .settings = {.quality = RTC_BUILD_QUALITY_MEDIUM, .threads = 1}};
     bool ok = true;

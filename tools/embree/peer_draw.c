@@ -13,11 +13,13 @@
 #define THREADS_MAX 256
 
 void draw_tile_single(PeerTile *tile);
+void draw_tile_packet4(PeerTile *tile);
 void draw_tile_packet8(PeerTile *tile);
 void draw_tile_packet16(PeerTile *tile);
 void draw_tile_stream(PeerTile *tile);
 
 const PeerMode peer_modes[] = {{"single", draw_tile_single},
+                               {"packet4", draw_tile_packet4},
                                {"packet8", draw_tile_packet8},
                                {"packet16", draw_tile_packet16},
                                {"stream", draw_tile_stream}};

@@ -35,7 +35,7 @@ static bool build(PeerScene *peer, const Triangles *triangles, const PeerSetting
                   Error *error)
 {
     char config[64];
-    snprintf(config, sizeof config, "threads=%u", settings->threads);
+    snprintf(config, sizeof config, "threads=%u" DEVICE_CONFIG, settings->threads);
     peer->device = rtcNewDevice(config);
     peer->scene = rtcNewScene(peer->device);
     rtcSetSceneBuildQuality(peer->scene, settings->quality);
