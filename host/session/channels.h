@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A picture that is drawn already -> its channels and the certainty of its pixels.
+// A finished picture -> its channels and the certainty of its pixels.
 #pragma once
 
 #include "render/aov_pass.h"
 #include "session/picture.h"
 
-// Computes the certainty of each pixel, and replaces the colors of pixels repaired in fp64, until
-// the observer returns false. Fails if the device's arithmetic does not suffice.
+// Computes the certainty of each pixel and replaces the colors of pixels repaired in fp64. Stops
+// when the observer returns false. Fails on devices without double arithmetic or correctly rounded
+// float division.
 bool session_certify(Session *session, const SessionPicture *request,
                      const RenderObserver *observer, const CertifiedPicture *picture, Error *error);
 
@@ -16,8 +17,8 @@ typedef struct {
     const CertaintyMap *certainty; // NULL if no channel needs it
 } ChannelRequest;
 
-// Computes the channels into layers until the observer returns false. layers must have the names of
-// the set (aov_name_layers) and the picture's size.
+// Computes the channels into layers. Stops when the observer returns false. layers must have the
+// names of channels->set (aov_name_layers) and the picture's size.
 bool session_draw_channels(Session *session, const SessionPicture *request,
                            const ChannelRequest *channels, const RenderObserver *observer,
                            Layers *layers, Error *error);

@@ -73,7 +73,8 @@ static bool run_kernel(const Renderer *renderer, const FrameData *frame, const c
     return cl_succeeded(status, "run the kernel explain_sample", error);
 }
 
-// Traces a sample with no levels.
+// Runs the kernel once, as first_run requires. The sample has no levels, so the kernel writes no
+// more than 64 bytes to each output.
 static bool trace_nothing(Renderer *renderer, Error *error)
 {
     const Device *device = renderer->kernel->device;

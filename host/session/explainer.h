@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One sample of a picture -> its rays in scene coordinates, with hits and the state of each light.
-// A separate kernel traces the sample again with the picture's functions.
+// One sample of a picture -> its rays in scene coordinates, with their hits and the state of each
+// light.
+// A separate kernel traces the sample again with the functions that drew the picture (trace.cl).
 #pragma once
 
 #include "session/session.h"
@@ -29,8 +30,8 @@ typedef struct {
     const ExplainedLight *lights; // one per light of the scene; unset unless uses_lights
 } ExplainedRay;
 
-// A reflective surface that rays[ray_count - 1] hits shows the background, because the next ray
-// would have the level max_level.
+// If the last ray hits a reflective surface, the surface reflects the background, because a next
+// ray would have the level max_level.
 typedef struct {
     uint32_t ray_count;
     const ExplainedRay *rays; // the camera ray, then the reflected rays

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parts of accel that clients use: they show and examine triangles and trees, and cast rays.
+// The headers of accel that the session's clients may use. The window shows triangles and trees,
+// and check examines triangles.
 #pragma once
 
 #include "accel/flat.h"

@@ -32,7 +32,7 @@ const KernelEntry *picture_entry(const PictureGoal *goal)
     return goal_is_given(goal) ? &ladder_entry : &draw_entry;
 }
 
-// Returns a pixel's work, in samples of equal cost.
+// Returns the time that a pixel takes, in samples of --aa.
 static double samples_per_pixel(const SessionPicture *request)
 {
     const PictureGoal *goal = &request->goal;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A picture of the session's scene -> its colors, with equal samples for all pixels or toward a
-// goal.
+// A request for a picture -> its colors. Without a goal, all pixels have equally many samples. With
+// a goal, each pixel has as many as it needs.
 #pragma once
 
 #include "image/framebuffer.h"
 #include "session/session.h"
 
-// Where to stop refining. At most one member is above zero; without one, all pixels have
-// RenderSettings::samples.
+// The point at which refinement stops. At most one of contrast, error and seconds is above 0. If
+// all three are 0, every pixel has RenderSettings::samples squared samples.
 typedef struct {
-    double contrast;  // refine while neighboring samples differ by more than this
-    double error;     // refine until the root mean square error is at most this
+    double contrast;  // refine while neighboring samples differ more
+    double error;     // refine until the root mean square error is this small
     double seconds;   // refine for this time
     double truncated; // the part of `error` that is due to RenderSettings::max_level
 } PictureGoal;
@@ -42,9 +42,9 @@ typedef struct {
     RenderProgress progress;
     bool is_complete;
     bool goal_missed;
-    double estimate;         // of the RMSE, with PictureGoal::truncated; 0 without a goal
+    double estimate;         // of the RMSE, including PictureGoal::truncated; 0 without a goal
     double bound;            // upper bound of the RMSE with 95 % confidence
-    uint64_t pixels;         // drawn, without those that existed before
+    uint64_t pixels;         // drawn by this call
     uint64_t samples;        // total of these pixels
     uint32_t *pixel_samples; // by pixel; NULL if all are equal; the caller frees it
 } PictureResult;
@@ -55,14 +55,14 @@ const KernelEntry *picture_entry(const PictureGoal *goal);
 // Returns the camera for `samples` sub-pixels along each side of a pixel.
 CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples);
 
-// Returns the work of drawing the picture this number of times.
+// Returns the work of `pictures` pictures of this kind.
 SessionWork session_work(const SessionPicture *request, double pictures);
 
 // Uploads the scene and compiles the kernels for session_draw.
 bool session_prepare(Session *session, const SessionPicture *request, PictureResult *result,
                      Error *error);
 
-// Draws the picture into framebuffer, which has the size of tile_frame_size. If the observer stops
-// the picture, the call returns true, and result->is_complete is false.
+// Draws the picture into framebuffer, whose size is given by tile_frame_size. If the observer stops
+// the picture, the call returns true and result->is_complete is false.
 bool session_draw(Session *session, const SessionPicture *request, const RenderObserver *observer,
                   Framebuffer *framebuffer, PictureResult *result, Error *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All work-groups of a kernel have the same size, because PoCL compiles a kernel again for each
-// size.
+// Long lists of rays are split into launches, each of which fits the device buffers. All launches
+// of a kernel use work-groups of one size, because PoCL compiles a kernel again for each size.
 #include "session/ray_caster.h"
 
 #include "device/buffer.h"
@@ -10,17 +10,18 @@
 // The smallest vector width of wide kernels; the host may not know the actual width.
 #define FEWEST_LANES 4
 
-// Rays need three of the arrays that flat_arrays lists: spheres, nodes and triangles.
+// The kernels of rays take three of the arrays that flat_arrays lists: spheres, nodes and
+// triangles.
 #define FIRST_ARRAY 2
 #define ARRAYS      3
 
-// Rays in a launch that finds crossings, one in each work-item.
+// The rays of a launch that finds crossings. Each work-item traces one.
 #define LAUNCH_CROSSED 16384
 
 // kernels/rays.cl and kernels/crossings.cl, embedded at build time.
 extern const char rays_source[], crossings_source[];
 
-// Sets the arguments that both kernels have first: the scene and the rays.
+// Sets the first arguments of both kernels: the scene and the rays.
 static cl_int set_rays(cl_kernel kernel, const SceneBuffers *scene, cl_mem rays, cl_uint count)
 {
     cl_int status = clSetKernelArg(kernel, 0, sizeof scene->frame, &scene->frame);

@@ -13,10 +13,10 @@ typedef struct {
 bool ray_caster_open(RayCaster *caster, Session *session, Error *error);
 void ray_caster_close(RayCaster *caster);
 
-// How rays start. The numbers are those of the kernels' RayKind.
+// How rays start. The values equal those of RayKind in the kernels.
 typedef enum {
     RAYS_FREE,      // anywhere
-    RAYS_ON_SURFACE // on the primitives that they name
+    RAYS_ON_SURFACE // on the primitive that each ray names
 } RayStart;
 
 typedef struct {
@@ -29,7 +29,7 @@ typedef struct {
 // Stores the nearest hit of each ray.
 bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, Error *error);
 
-// Finds all crossings (kernels/crossings.cl).
+// Finds all triangles that a ray crosses (kernels/crossings.cl).
 typedef struct {
     const Kernel *kernel;
     cl_mem rays, hits, counts; // room for one launch

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both sides of every triangle are compiled from a copy of the scene whose meshes are two-sided.
+// Rays hit one-sided triangles from behind too, unless a request says otherwise. For such rays, the
+// scene is compiled from a copy whose meshes are all two-sided.
 #include "session/ray_scene.h"
 
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A scene that rays are cast at: the session's scene, with faces on both sides unless requested
-// otherwise, on the device and as the host examines hits.
+// The session's scene, prepared for rays of the caller. It exists twice: in device buffers that
+// kernels search, and as triangles on the host that turn hits into positions. All triangles are
+// two-sided unless the caller requests one side.
 #pragma once
 
 #include "session/ray_caster.h"
@@ -17,8 +18,8 @@ typedef struct {
     bool is_loaded, one_sided;
 } RayScene;
 
-// Compiles the scene, unless ray_scene has it already. On failure, ray_scene
-// has no scene.
+// Compiles the scene, unless ray_scene has it already. If compiling fails, ray_scene is left
+// without a scene.
 bool ray_scene_take(RayScene *ray_scene, Session *session, bool one_sided, Error *error);
 
 // Releases the scene, after which the session's scene may change.
@@ -27,5 +28,5 @@ void ray_scene_drop(RayScene *ray_scene);
 // Releases everything, before the session closes.
 void ray_scene_free(RayScene *ray_scene);
 
-// Returns the number of the mesh that has the triangle.
+// Returns the index of the mesh that contains the triangle.
 uint32_t ray_scene_mesh(const RayScene *ray_scene, uint32_t triangle);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Each pass draws one sample per pixel, with the same sub-pixel shift for all pixels. The kernels
-// need no change, because the camera is shifted. Even and odd passes make two pictures, whose
-// difference measures the reference's own error. The shifts follow Roberts's R2 sequence, an
-// additive recurrence by powers of the plastic number. Even and odd passes start at different
-// shifts, so their errors are independent. No shift lies on the N x N grid of --aa.
+// Each pass draws one sample per pixel. A pass shifts the camera by a fraction of a pixel, so the
+// ordinary kernels draw it. The shifts follow Roberts's R2 sequence, an additive recurrence by
+// powers of the plastic number. No shift lies on the N x N grid of --aa.
+//
+// Even and odd passes form two pictures, whose shifts start at different points. The difference of
+// the two pictures measures the reference's own error.
 //
 // The reference is the picture in fp64, but most passes are in fp32, which is 6 to 9 times faster.
 // Some passes are drawn in both precisions. Their mean difference is added to the mean of all fp32
@@ -27,8 +28,8 @@ typedef struct {
     Renderer fast, exact; // fp32 and fp64
     CameraData camera;    // the picture's, for one sample per pixel
     const RenderObserver *observer;
-    Framebuffer pass;              // the latest one
-    double (*halves[2])[3];        // the pictures of the even and of the odd passes
+    Framebuffer pass;              // picture of the latest pass
+    double (*halves[2])[3];        // pictures of the even passes and of the odd passes
     uint32_t passes, exact_passes; // even numbers, at least 2
     uint32_t passes_done;
     uint32_t draws_done; // fp32 passes plus fp64 passes
@@ -64,7 +65,7 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return !reference->stopped;
 }
 
-// Draws a pass and adds it, multiplied by weight, to the picture of its half.
+// Draws a pass, multiplies it by weight, and adds it to the even or the odd picture.
 static bool add_pass(Reference *reference, Renderer *renderer, double weight, Error *error)
 {
     CameraData camera = reference->camera;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture -> the same picture with many other samples and the accuracy of fp64.
+// A request for a picture -> a reference picture with many more samples and the accuracy of fp64.
 #pragma once
 
 #include "session/picture.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The rules and defaults of ClrtPicture.
+// Checks the members of a ClrtPicture and replaces members of value 0 by defaults.
 #include "session/request.h"
 
 #include "scene/camera.h"
 
 #include <math.h>
 
-// The truncation of reflections may use this fraction of the error goal. The fraction is small
-// because more levels cost less than more samples.
+// Omitted reflections may cause this fraction of the error goal. The fraction is small because more
+// levels cost less time than more samples.
 #define TRUNCATION_PART 0.25
 
 // The samples per pixel and axis of a lone mesh.
@@ -16,7 +16,7 @@
 // The side of a tile in pixels.
 #define TILE 128
 
-// Half of the difference of neighboring floats just below 1.
+// Half the distance between neighboring floats just below 1.
 #define FLOAT_HALF_STEP 0x1p-25
 
 #define TURN_MOST 1e9 // degrees
@@ -146,7 +146,8 @@ static uint32_t samples_of(const ClrtPicture *wanted, const Scene *scene, const 
     return scene->mesh_up == UP_AUTO ? 1 : MESH_SAMPLES;
 }
 
-// Replaces the settings of a whole picture by the crop's settings.
+// Replaces the size of the whole picture by the crop's size and position. Returns false if the crop
+// leaves the picture.
 static bool crop_settings(RenderSettings *settings, const ClrtPicture *wanted)
 {
     const uint32_t width = settings->width, height = settings->height;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ClrtPicture of clrt.h -> a picture of a scene, and ClrtSettings -> the settings of a session.
-// The library and the program share the defaults and the rules, and word the faults themselves.
+// ClrtPicture of clrt.h -> SessionPicture, and ClrtSettings -> SessionSettings. The library and the
+// program share these rules and defaults. Each words its own messages about a RequestFault.
 #pragma once
 
 #include "library/clrt.h"
@@ -21,25 +21,26 @@ typedef enum {
 // A rule that a request breaks.
 typedef struct {
     RequestRule rule;
-    const char *setting, *other; // names of members of ClrtPicture, of channels, "crop", "tile" or
-                                 // "fp64"; other is NULL unless they conflict
-    double value, low, high;     // of a number
+    const char *setting, *other; // members of ClrtPicture, channels, "crop", "tile" or "fp64";
+                                 // other is NULL unless the rule is REQUEST_CONFLICT
+    double value, low, high;     // for REQUEST_NUMBER
 } RequestFault;
 
-// Returns whether a request that needs these channels and this precision is valid for some scene.
+// Returns whether a request with these channels and this precision keeps all rules that do not
+// depend on the scene. Otherwise fills *fault.
 bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision precision,
                    RequestFault *fault);
 
 // Returns whether the error goal is too small for fp32.
 bool request_needs_fp64(const ClrtPicture *wanted);
 
-// Fills the settings of a session. Returns whether precision, kernel and lanes fit together.
+// Fills the settings of a session. Returns false if precision, kernel and lanes exclude each other.
 bool request_settings(const ClrtSettings *wanted, SessionSettings *settings);
 
-// Returns the goal without the error that max_level causes.
+// Returns the picture's goal. Its member `truncated` is 0, because it depends on the scene.
 PictureGoal request_goal(const ClrtPicture *wanted);
 
-// Fills in the scene's defaults. If camera is NULL, the scene must have the view. Returns whether
-// the crop is inside the picture. request_check has accepted the request.
+// Completes a request that request_check has accepted by the scene's defaults. If camera is NULL,
+// the scene must have the view wanted->view. Returns false if the crop leaves the picture.
 bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpoint *camera,
                      SessionPicture *picture);

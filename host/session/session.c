@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A background thread opens the device while the caller's thread reads the scene. Making the kernel
-// on the background thread too would not make runs measurably shorter.
+// Opens the device, and chooses and makes kernels. A background thread opens the device while the
+// caller's thread reads the scene. If this thread also made the kernel, runs would not be
+// measurably shorter.
+//
+// Two choices save time and never change a picture. Small pictures use kernels that compile faster,
+// and kernels are specialized if that saves more time than compiling takes (costs.h).
 #include "session/session.h"
 
 #include "base/clock.h"
@@ -39,7 +43,7 @@ bool session_open(Session *session, Error *error)
     return open_device(session, error);
 }
 
-// Explicit requests take precedence over the choice of quick kernels.
+// Returns whether the settings leave the choice of kernels to the session.
 static bool leaves_kernels_open(const Session *session)
 {
     const SessionSettings *settings = &session->settings;
@@ -55,8 +59,8 @@ static bool is_compiled(const Session *session, const KernelEntry *entry, Kernel
 }
 
 // Pair kernels compile faster than packets and trace slower. Until packets are compiled, pair
-// kernels draw small pictures of small scenes, if this saves time in total. Kernels under
-// development never count as compiled.
+// kernels draw small pictures of small scenes, if this saves time in total. Kernels from a
+// kernel_folder are never chosen for that reason.
 static void choose_quick_kernels(Session *session, const SessionWork *work)
 {
     const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32};

@@ -1,29 +1,35 @@
 // SPDX-License-Identifier: MIT
-// A device, its kernels, and a scene in the layouts of these kernels. The program, the window and
-// the library draw by a session. A session works on one thread at a time.
+// A session is the pipeline from a Scene to the results on a device. It holds a device, the kernels
+// made for the device, and the scene in each layout that a kernel needs. The program, the window
+// and the library make all pictures, channels, references, explanations and rays by a session.
+//
+// Kernels and layouts are made at their first use and then kept. A session works on one thread at a
+// time.
+//
+// Invariant: the settings change no bit of a result, except precision and replaced kernels.
 #pragma once
 
 #include "device/cache_private.h"
 #include "render/renderer.h"
 #include "session/geometry.h"
 
-// The program that draws: general, or specialized for this scene. Both draw the same picture.
+// Selects general kernels or kernels specialized for the scene. Both draw the same picture.
 typedef enum {
-    SPECIALIZE_AUTO, // specialized if compiled already, or if it saves more than compiling takes
+    SPECIALIZE_AUTO, // specialized if compiled already, or if that saves time in total
     SPECIALIZE_ALWAYS,
     SPECIALIZE_NEVER
 } Specialization;
 
-// Whether rays find triangles with a tree.
+// Selects whether rays find triangles by a tree.
 typedef enum {
     TREE_AUTO, // unless testing all triangles is faster
     TREE_ALWAYS,
     TREE_NEVER
 } TreeUse;
 
-// How a session draws. No member changes a picture.
+// The embedded kernels draw the same picture with all settings of equal kernel.precision.
 typedef struct {
-    const char *device;        // for device_open
+    const char *device;        // selects the device (device_open)
     uint32_t threads;          // on the host; 0: as many as the process may use
     const char *kernel_folder; // replaces the embedded kernels; may be NULL
     const char *extra_options; // for the kernels' compiler; may be NULL
@@ -53,30 +59,30 @@ typedef struct {
     SessionSettings settings;
     Cache cache;
     Device device;
-    double device_seconds; // spent on opening the device
+    double device_seconds; // time to open the device
     KernelChoice choice;
     bool is_quick; // choice compiles faster than the device's usual kernels
     KernelSet kernels;
     SessionScene scene;
-    Error error; // of opening the device
+    Error error; // set if opening the device failed
     pthread_t thread;
     bool is_open, is_running;
 } Session;
 
-// Starts a thread that opens the device. Until session_await returns, the caller may only use the
-// scene.
+// Starts a thread that opens the device. Until session_await returns, the caller may call
+// session_take but no other function of the session.
 void session_begin(Session *session);
 
-// The work of all pictures, by which the session chooses kernels.
+// The work of a run's pictures. The session chooses kernels by it.
 typedef struct {
     const KernelEntry *entry; // of the kernel that draws
     double samples;
-    double seconds; // limit for all pictures; 0 for none
-    bool counts;    // statistics must not depend on the cached kernels
+    double seconds; // time limit of all pictures; 0 for none
+    bool counts;    // requires the device's usual kernels, whose statistics are comparable
 } SessionWork;
 
-// Waits for the device and chooses the kernels. Without work, the choice depends only on the
-// device.
+// Waits for the device and chooses the kernels. If work is NULL, the choice depends only on the
+// settings and the device.
 bool session_await(Session *session, const SessionWork *work, Error *error);
 
 // Opens the device on the caller's thread.
@@ -95,14 +101,14 @@ bool session_take(Session *session, const Scene *scene, Error *error);
 // Releases the compiled forms of a scene.
 void session_scene_free(SessionScene *scene);
 
-// Returns whether a tree pays for the session's scene in this layout.
+// Returns whether the session's scene is traced faster in this layout with a tree.
 bool session_wants_tree(const Session *session, NodeLayout layout);
 
-// Returns the scene in a layout of nodes, compiled once, or NULL. The tree is left out if
-// has_tree is false, or if the settings or the number of triangles say so.
+// Returns the scene in this layout, or NULL on failure. The first call compiles it. The form has no
+// tree if has_tree is false or session_wants_tree returns false.
 SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Error *error);
 
-// Returns the settings for trees that suit the session's kernels.
+// Returns the settings of the trees that the session's kernels traverse.
 BvhSettings session_tree(const Session *session);
 
 // Returns the scene in the layout of session->choice, or NULL.

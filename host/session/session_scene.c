@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compiles the session's scene, once for each form that kernels need.
+// Compiles the session's scene. Each form is compiled when a kernel first needs it.
 #include "session/costs.h"
 #include "session/session.h"
 
