@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One pass over the tiles traces the paths, and another counts the tests if a channel needs them.
+// Makes one pass over the tiles that traces the paths. If a channel needs counts of tests, a second
+// pass counts them.
 #include "render/aov_pass.h"
 
 // kernels/aov.cl, embedded at build time.

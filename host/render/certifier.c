@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the kernel certify_tile and takes its marks.
+// Runs the kernel certify_tile and copies its marks into the map, tile by tile.
 #include "render/certifier.h"
 
 #include <stdlib.h>

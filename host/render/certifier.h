@@ -6,7 +6,7 @@
 
 #include "render/draw.h"
 
-// The kernel certify_tile. It needs fp64's KernelChoice.
+// The kernel certify_tile. Its KernelChoice must have PRECISION_FP64.
 extern const KernelEntry certify_entry;
 
 // Fails on devices without double arithmetic or correctly rounded float division, because the
@@ -29,7 +29,7 @@ typedef struct {
     CertaintyMap *map;
 } CertifiedPicture;
 
-// Fills the map and replaces the colors of repaired pixels, tile by tile, until the observer
+// Fills the map and replaces the colors of repaired pixels, tile by tile. Stops when the observer
 // returns false. The renderer has certify_entry.
 bool certifier_certify(const Renderer *renderer, const CameraData *camera,
                        const RenderObserver *observer, const CertifiedPicture *picture,

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Keeps two tiles in flight, each in its own queue. One tile is traced while the other is read back
-// or finishes its last work-groups. All tiles use the same padded grid with offset 0. PoCL
-// compiles separate versions of a kernel for other local sizes, for offsets and for large grids.
+// Draws a picture tile by tile. Two tiles are in flight, each in its own command queue: the device
+// traces one while the other is read back or finishes its last work-groups.
+//
+// All tiles use one padded grid with offset 0, because PoCL compiles another version of a kernel
+// for each local size, for offsets and for large grids. The kernels receive a tile's position by
+// FrameData instead of by the offset.
+//
+// Invariant: callers receive the tiles in the order of their numbers, so a count of finished tiles
+// identifies them.
 #include "render/draw.h"
 
 #include "device/buffer.h"
@@ -15,7 +21,7 @@
 typedef struct {
     cl_command_queue queue; // one per slot, so that tiles overlap
     cl_mem outputs[2];
-    void *values[2]; // of the outputs, on the host
+    void *values[2]; // host copies of the outputs
     cl_event done;
     Tile tile;
 } Slot;
@@ -36,7 +42,7 @@ static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer
     return ok;
 }
 
-// Waits until the device has finished writing, and frees the slot.
+// Waits until the device has finished the slot's tile, and frees the slot.
 static void close_slot(Slot *slot)
 {
     if (slot->queue != NULL) {
@@ -79,8 +85,8 @@ static bool launch(const Slot *slot, const TilePass *pass, const Renderer *rende
     return cl_succeeded(status, "run the kernel", error);
 }
 
-// Starts the kernel for the slot's tile and the copying of its outputs. The first output is copied
-// last, and slot->done signals the end of this copy.
+// Starts the kernel for the slot's tile, and then the copies of its outputs. The first output is
+// copied last, so slot->done signals the end of this copy.
 static bool start_tile(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
     const size_t count = (size_t)slot->tile.width * slot->tile.height;
@@ -133,7 +139,7 @@ bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderO
     return ok;
 }
 
-// Room for the largest output of a pixel.
+// Bytes that suffice for every kernel's output of one pixel.
 #define LARGEST_OUTPUT 256
 
 static bool run_once(Renderer *renderer, const TilePass *pass, Error *error)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Renderer and camera -> a picture or other values of pixels, tile by tile.
+// Renderer and camera -> a picture, or other values for each pixel.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -8,13 +8,14 @@
 // The kernel render_tile.
 extern const KernelEntry draw_entry;
 
-// Draws the camera's picture into framebuffer. Fails unless it has the size of tile_frame_size. If
-// the observer stops the picture, the call returns true with fewer tiles_done than tiles.
+// Draws the camera's picture into framebuffer. Fails if the framebuffer's size differs from
+// tile_frame_size. If the observer stops the picture, the call returns true, and renderer->progress
+// has fewer tiles_done than tiles.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);
 
-// The outputs of a kernel that computes values for each pixel of a tile. Its arguments are the
-// frame, the scene's arrays and the outputs.
+// A pass over all tiles by a kernel that computes values for each pixel. The kernel's arguments are
+// the frame, the scene's arrays and the outputs.
 typedef struct {
     FrameData frame; // without a tile
     int outputs;     // 1 or 2

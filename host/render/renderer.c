@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Uploads scenes, and passes them to kernels.
+// Uploads a FlatScene into device buffers, and sets them as the arguments of kernels. A device that
+// shares the host's memory reads the FlatScene in place.
 #include "render/renderer.h"
 
 #include "base/clock.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture's kernel, scene buffers and settings. The kernel belongs to the device.
+// FlatScene -> SceneBuffers on a device. A Renderer combines these buffers with a kernel and a
+// picture's settings.
 #pragma once
 
 #include "device/kernel.h"
@@ -29,10 +30,10 @@ static inline bool render_observer_continues(const RenderObserver *observer,
 typedef struct {
     const Device *device;       // borrowed; NULL if the scene is not uploaded
     cl_mem arrays[FLAT_ARRAYS]; // in the order of the kernels' arguments
-    FrameData frame;            // only the scene's members
+    FrameData frame;            // members that depend on the scene alone
     SceneTraits traits;         // without statistics
     size_t size;                // bytes
-    double seconds;             // of uploading
+    double seconds;             // time of the upload
 } SceneBuffers;
 
 // Uploads the scene, or shares its memory with the device. flat must outlive the buffers.
@@ -49,13 +50,13 @@ typedef struct {
     bool is_special;         // the kernel is specialized for the scene
 } Renderer;
 
-// Returns the kernel's view of a picture, without a tile.
+// Returns the kernel's parameters for a picture. Callers set the tile (tile_aim).
 FrameData renderer_frame(const Renderer *renderer, const CameraData *camera);
 
 // Sets the first arguments of the renderer's kernel: the frame and the scene's arrays.
 bool renderer_set_scene(const Renderer *renderer, const FrameData *frame, Error *error);
 
-// Calls run with a renderer for kernel that has no scene and 1 x 1 pixels. Implements
-// KernelEntry::first_run.
+// Calls run with a renderer of this kernel for an empty scene and a picture of one pixel. For
+// functions of KernelEntry::first_run.
 bool renderer_run_first(const Kernel *kernel, bool run(Renderer *renderer, Error *error),
                         Error *error);

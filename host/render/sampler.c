@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Splits a list of requests into launches and keeps two launches in the queue, so that the device
-// need not wait. PoCL compiles a second version of a kernel for grids of 65535 work-items or more.
-// LAUNCH_ITEMS keeps all grids smaller.
+// never waits for the host. PoCL compiles a second version of a kernel for grids of 65535
+// work-items or more. LAUNCH_ITEMS keeps all grids smaller.
 #include "render/sampler.h"
 
 #include "device/buffer.h"
@@ -41,7 +41,7 @@ static size_t result_size(const Renderer *renderer)
     return is_ladder(renderer) ? sizeof(PixelSums) : sizeof(SampleData);
 }
 
-// Returns the number of requests per work-item, as the kernels compute it.
+// Returns the number of requests per work-item. The kernels compute the same number.
 static uint32_t item_requests(const Renderer *renderer, const SampleList *list)
 {
     const PixelRequest *requests = list->requests;
@@ -84,8 +84,7 @@ static bool open_buffers(Sampling *sampling, Error *error)
            share(sampling, &counts, &sampling->tallies, error);
 }
 
-// Waits for the queue first, because after a fault a running launch may still write to the host
-// memory.
+// First waits for the queue. After a fault, a running launch may still write to the host memory.
 static void close_buffers(Sampling *sampling)
 {
     clFinish(sampling->renderer->kernel->device->queue);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Sample positions in a picture -> colors and signatures, or sums of colors (ladder_entry).
-// Signatures differ if rays hit different surfaces, or if different lights reach the hit points.
+// A list of requests -> their samples. With sample_entry, a request is a sample's position, and the
+// result is its color and signature. With ladder_entry, a request is a set of a pixel's samples,
+// and the result is the sum of their colors.
+//
+// Two samples have different signatures if their rays hit different surfaces, or if different
+// lights reach their hit points.
 #pragma once
 
 #include "render/renderer.h"
@@ -22,7 +26,7 @@ typedef struct {
 } SampleList;
 
 // Traces the requests in list. The renderer's kernel must have sample_entry or ladder_entry.
-// renderer->progress counts launches as tiles and adds to its previous counts. If the observer
-// stops the trace, tiles_done stays below tiles and some results are missing.
+// renderer->progress counts each launch as a tile, in addition to its previous counts. If the
+// observer stops the trace, tiles_done stays below tiles, and some results are undefined.
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
                    const RenderObserver *observer, Error *error);

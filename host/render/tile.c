@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Tiles at the right and bottom edges are clipped.
+// A part of a picture takes every parts-th tile of each row of tiles. The first column differs from
+// row to row, so that the tiles of each part are spread over the picture and all parts take about
+// equally long.
+//
+// Invariants: every tile belongs to exactly one part. A pixel's bits depend on its position in the
+// whole picture, and not on its tile or part. Tiles at the right and bottom edges are clipped.
 #include "render/tile.h"
 
 static uint32_t smaller(uint32_t a, uint32_t b)
@@ -22,8 +27,9 @@ static uint64_t columns_of(const RenderSettings *settings)
     return parts(settings->width, settings->tile_width);
 }
 
-// Returns the column of the part's first tile in a row. The golden ratio spreads these columns
-// evenly. With the same column in all rows, a part would consist of whole columns of tiles.
+// Returns the column of the part's first tile in a row. Multiples of the golden ratio spread these
+// columns evenly (Knuth, "The Art of Computer Programming", volume 3, section 6.4). With one column
+// for all rows, a part would consist of whole columns of tiles.
 static uint64_t first_column(const RenderSettings *settings, uint64_t row)
 {
     const uint32_t golden = 2654435769U; // 2^32 / 1.618...
@@ -58,7 +64,7 @@ uint64_t tile_count(const RenderSettings *settings)
 Tile tile_at(const RenderSettings *settings, uint64_t number)
 {
     const uint32_t stride = stride_of(settings);
-    // Without parts, a division replaces the search.
+    // If there is only one part, a division finds the row. Otherwise, the loop searches for it.
     uint64_t row = stride == 1 ? number / columns_of(settings) : 0;
     uint64_t place = stride == 1 ? number % columns_of(settings) : number;
     for (uint64_t count; place >= (count = row_count(settings, row)); row++)

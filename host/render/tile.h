@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture's settings -> its tiles.
+// A picture's settings -> the tiles to draw, and the size of their framebuffer.
 #pragma once
 
 #include "scene/scene.h"
@@ -15,7 +15,7 @@ typedef struct {
     uint32_t part, parts; // draws one of `parts` parts (see Tile); 0, 0 draws all tiles
 } RenderSettings;
 
-// Return the size of the whole picture.
+// These two functions return the size of the whole picture.
 static inline uint32_t render_whole_width(const RenderSettings *settings)
 {
     return settings->whole_width > 0 ? settings->whole_width : settings->width;
@@ -45,11 +45,11 @@ typedef struct {
     uint32_t left, top;           // position in the framebuffer
 } Tile;
 
-// Stores the size of the framebuffer in which the tiles are drawn. A part's framebuffer contains
-// only the part's tiles, below each other.
+// Stores the size of the framebuffer for the tiles. A part's framebuffer contains only the part's
+// tiles, in a single column.
 void tile_frame_size(const RenderSettings *settings, uint32_t *width, uint32_t *height);
 
-// Return the number of tiles to draw, and the position and size of one of them.
+// Return the number of tiles to draw, and the tile with this number.
 uint64_t tile_count(const RenderSettings *settings);
 Tile tile_at(const RenderSettings *settings, uint64_t number);
 
