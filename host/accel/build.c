@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: MIT
-// A split partitions a node's triangles from one array into the same range of a second array. The
-// splits of the children write the triangles back into the first array. An explicit stack holds the
-// pending nodes, so that no recursion overflows.
+// Divides the nodes of a tree. split_midpoint or split_sah chooses a node's split, and build_divide
+// carries it out.
+//
+// A split copies a node's triangles from one array to the same range of a second array, left side
+// first. The splits of the children copy them back to the first array. So two arrays suffice, and
+// the ranges of different nodes never overlap. An explicit stack holds the pending nodes, so no
+// recursion overflows.
+//
+// Invariant: a split depends only on the node's triangles, their order and the node's depth. Each
+// side keeps the order of its triangles. The tree is therefore the same for every number of
+// threads.
 #include "accel/build.h"
 
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
-// The midpoint split of the course that docs/scenes.md names: a plane through the middle of the
-// box, across its longest axis. If a side is empty, or a child is hardly shorter than its parent
-// along this axis, the next axis is tried.
+// The midpoint split of the course (docs/scenes.md): a plane through the middle of the box,
+// perpendicular to its longest axis. If a side is empty, or if a child is hardly shorter than its
+// parent along this axis, the next longest axis is tried.
 
 #define LEAF_TRIANGLES 4
 #define LARGEST_CHILD  0.9f // limit of a child's extent along the axis, divided by its parent's
 
-// Returns the most levels: 10 more than a balanced tree with four triangles per leaf has.
+// Returns the largest number of levels: 10 more than in a balanced tree with four triangles per
+// leaf.
 static uint32_t deepest_level(uint32_t triangle_count)
 {
     const uint32_t leaves = (uint32_t)(triangle_count / 4.0 + 0.5);
@@ -69,8 +78,9 @@ Split split_midpoint(const BuildRange *range)
 }
 
 // The binned surface area heuristic (Wald, "On fast construction of SAH-based bounding volume
-// hierarchies", 2007). It takes the plane with the lowest expected cost per ray, out of up to 15
-// per axis. A small node becomes a leaf if no plane is cheaper than testing its triangles.
+// hierarchies", 2007). It compares up to 15 planes per axis and takes the plane with the lowest
+// expected cost per ray. A small node becomes a leaf if no plane is cheaper than testing all its
+// triangles.
 
 #define BINS 16
 
@@ -86,7 +96,7 @@ Split split_midpoint(const BuildRange *range)
 
 // Costs are relative to one test of a leaf, which covers one triangle or one block.
 typedef struct {
-    uint32_t unit, unit_bits; // triangles per test, and the binary logarithm
+    uint32_t unit, unit_bits; // triangles per test, and their binary logarithm
     float node;               // cost of reading a node and testing its two boxes
 } Costs;
 
@@ -105,13 +115,13 @@ typedef struct {
 } Binning;
 
 typedef struct {
-    int axis; // -1 without a plane
+    int axis; // -1 if there is no plane
     int bin;  // the first bin of the right side
     uint32_t left;
     float price;
 } Plane;
 
-// Returns the number of leaf tests for each number of triangles in `counts`.
+// Returns the number of tests for a leaf of each size in `counts`.
 static Float4 units_of(const Costs *costs, Uint4 counts)
 {
     const Uint4 units = (counts + (costs->unit - 1)) >> costs->unit_bits;
@@ -255,7 +265,8 @@ static BuildRange range_of(const Build *build, const BuildTask *task)
     return range;
 }
 
-// Copies the left items to `other`, followed by the right items. Each side keeps its order.
+// Copies the items of the left side to `other`, followed by the items of the right side. Each side
+// keeps its order.
 static void move_sides(const BuildRange *range, const Split *split, BuildItem *other)
 {
     BuildItem *left = other, *right = other + split->left;
@@ -287,7 +298,7 @@ static int compare_centers(const void *first, const void *second, void *axis)
 }
 
 // Copies the items to `other`, sorted by center along the axis on which the centers extend most.
-// The caller halves the result. This works even if all centers are equal.
+// The caller gives each child half of the items, which is possible even if all centers are equal.
 static void move_halves(const BuildRange *range, BuildItem *other)
 {
     int axis = longest_axis(&range->centers);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Divides the nodes of a tree with one of two functions that choose splits.
+// Triangles with their boxes -> the nodes of a Bvh. One of two functions chooses how to split a
+// node.
 #pragma once
 
 #include "accel/bvh_tree.h"
@@ -106,7 +107,7 @@ static inline Bounds bounds_of_triangle(const Triangles *triangles, uint32_t tri
                     float4_minimum(float4_minimum(-a, -b), -c) + zero};
 }
 
-// Returns the bounds of a single point: the doubled center (low + high) of the given bounds.
+// Returns a single point as bounds: the doubled center (low + high) of the given bounds.
 static inline Bounds bounds_of_center(const Bounds *bounds)
 {
     return (Bounds){bounds->low - bounds->negated_high, bounds->negated_high - bounds->low};

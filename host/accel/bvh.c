@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Builds the tree top down. Threads divide the large nodes, level by level. Afterwards, each thread
-// builds one remaining subtree at a time. Every subtree has its own node indices, so the tree does
-// not depend on the schedule.
+// Builds the tree top down. The threads first divide the large nodes, level by level. They then
+// build the remaining subtrees, one per thread at a time.
+//
+// Invariant: a subtree's range of triangles determines the indices of its nodes. The tree therefore
+// does not depend on the schedule.
 #include "accel/bvh.h"
 
 #include "accel/build.h"
@@ -18,7 +20,7 @@ typedef struct {
     ThreadPool *pool;
     ARRAY(BuildTask) subtrees;
     ARRAY(BuildTask) large; // nodes above the subtrees, level by level
-    size_t level;           // where the level to divide begins in large
+    size_t level;           // index in large of the first node of the level to divide
 } Whole;
 
 static void make_items(void *context, uint32_t first, uint32_t end)
@@ -50,8 +52,8 @@ static bool add_task(Whole *whole, const BuildTask *task, Error *error)
                                            : array_push(&whole->subtrees, *task, error);
 }
 
-// Divides a level of large nodes. The indices of a node's two children follow those of all nodes
-// below the left child, and precede those of all nodes below the right child.
+// Divides a level of large nodes. A node's two children get the indices after all nodes below the
+// left child and before all nodes below the right child.
 static bool divide_level(Whole *whole, Error *error)
 {
     const size_t end = whole->large.count;
@@ -68,7 +70,8 @@ static bool divide_level(Whole *whole, Error *error)
     return ok;
 }
 
-// Puts the largest subtrees first. The small ones at the end balance the load of the threads.
+// Orders subtrees from the largest to the smallest. The small subtrees at the end balance the load
+// of the threads.
 static int compare_subtrees(const void *first, const void *second)
 {
     const BuildTask *a = first, *b = second;

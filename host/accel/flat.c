@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Flattens lights, materials, spheres and the looks of triangles, and derives traits. flat_nodes.c
-// flattens the triangles and their tree.
+// Converts lights, materials, spheres and the looks of triangles to the device's layout, and
+// derives the scene's traits. flat_nodes.c converts the triangles and their tree. scene_compile
+// runs all stages of this folder.
 #include "accel/flat.h"
 
 #include "accel/flat_nodes.h"
@@ -33,13 +34,14 @@ static Vec3 corner_normal(const Mesh *mesh, const uint32_t *triangle, int corner
     return vec3_dot(normal, normal) > 0 ? normal : face_normal(mesh, triangle);
 }
 
-// fmax would be a function call.
+// Replaces fmax, which would be a function call.
 static double larger(double a, double b)
 {
     return a > b ? a : b;
 }
 
-// Returns 2^-floor(log2(value)) for values in [2^-1022, 2^1023), faster than ilogb and scalbn.
+// Returns 2^-floor(log2(value)) for values in [2^-1022, 2^1023). This is faster than ilogb and
+// scalbn.
 static double inverse_power(double value)
 {
     uint64_t bits;
@@ -51,7 +53,8 @@ static double inverse_power(double value)
 }
 
 // Stores a triangle's normals, negated if the stored corners are reversed. A common power of two
-// brings their squares into range, without changing their relative weights in the interpolation.
+// scales them, so that their squares neither overflow nor underflow. Their relative weights in the
+// interpolation stay the same.
 static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {

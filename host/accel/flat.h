@@ -5,13 +5,13 @@
 
 #include "accel/flat_scene.h"
 
-// Returns the unit in which leaves of this layout are tested.
+// Returns how the kernels for this layout test a leaf: triangle by triangle, or in blocks.
 BvhLeaves flat_leaves(NodeLayout layout);
 
 bool flat_make(FlatScene *flat, const FlatSource *source, Error *error);
 void flat_free(FlatScene *flat);
 
-// An array as the kernels read it.
+// An array that the kernels read.
 typedef struct {
     const char *name; // for users
     const void *data;

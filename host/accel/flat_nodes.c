@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The pair layout has the inner nodes depth first. The depth of the tree bounds the recursion.
+// The pair layout stores the inner nodes of the binary tree in depth-first order.
 //
-// The wide layout collapses the binary tree into nodes of up to eight children. A wide node starts
-// with a binary node's two children or a large leaf's two halves. While the node has fewer than
-// eight children, its divisible child of largest surface area, which rays hit most often, is
-// replaced by the child's two parts. A child with at most eight leaves is divided only if all its
-// leaves fit. This rule avoids nodes of only two or three blocks. One thread walks the tree, and
-// then all threads fill the blocks. Nodes and blocks are in depth-first order.
+// The wide layout collapses the binary tree into nodes of up to eight children (compare Wald,
+// Benthin and Boulos, "Getting rid of packets", 2008). A wide node starts with the two children of
+// a binary node, or with the two halves of a large leaf. While it has fewer than eight children,
+// its largest divisible child is replaced by this child's two parts. The largest child is the one
+// with the largest surface area, which rays hit most often. A child with at most eight leaves is
+// divided only if all its leaves fit. This rule avoids nodes of only two or three blocks. Nodes and
+// blocks are in depth-first order.
+//
+// One thread collapses the tree, and then all threads fill the blocks.
+//
+// Invariant: a stored box contains all triangles below it, grown by BVH_SLACK. The kernels
+// therefore never cull a triangle that their triangle test would accept (kernels/search.cl).
 #include "accel/flat_nodes.h"
 
 #include <stdlib.h>
@@ -31,9 +37,9 @@ static float rounded_up(double value)
     return -rounded_down(-value);
 }
 
-// Moves each plane outward by BVH_SLACK times the box's largest coordinate. The sum is nearly exact
-// in fp64 and rounded outward to float. The slack makes the device's culling conservative
-// (kernels/search.cl).
+// Moves each plane of a box outward by BVH_SLACK times the box's largest coordinate. The sum is
+// nearly exact in fp64, and is then rounded outward to float. The slack makes the kernels' culling
+// conservative (kernels/search.cl).
 static Box box_grow(const Box *box)
 {
     const double slack = (double)BVH_SLACK * (double)largest_coordinate(box);
@@ -146,7 +152,8 @@ typedef struct {
     uint32_t leaf_count;
 } Part;
 
-// The triangles [first, first + count) of Bvh::order or, without a tree, of the file.
+// The triangles [first, first + count) of Bvh::order. Without a tree, the range counts triangles in
+// file order.
 typedef struct {
     uint32_t first, count;
 } TriangleRange;
@@ -195,8 +202,8 @@ static void open_part(const Bvh *bvh, Part *part, Part *second)
     second->count -= part->count;
 }
 
-// Returns whether to open a part of a node that has room for `room` more parts. A node's only part
-// is always opened, unless the part is a block.
+// Returns whether to open a part of a node that has room for `room` more parts. If the node has no
+// other part, the part is always opened, unless it is a block.
 static bool can_open(const Part *part, uint32_t room)
 {
     return !is_block(part) &&
@@ -263,8 +270,8 @@ static uint32_t add_block(const Collapse *collapse, uint32_t first, uint32_t cou
     return WIDE_LEAF | number;
 }
 
-// Writes the wide node of a part and all nodes below. Returns the index of the part's node. The
-// depth of the binary tree and the halving of large leaves bound the recursion.
+// Writes the wide node of a part and all nodes below it. Returns the index of the part's node. The
+// recursion is bounded, because the binary tree has a largest depth and large leaves are halved.
 static uint32_t write_node(const Collapse *collapse, const Part *part)
 {
     Part parts[WIDE] = {*part};
@@ -321,8 +328,8 @@ static void unmark_chunk(void *context, uint32_t first, uint32_t end)
         flat->looks[i].material &= ~TRIANGLE_MARKS;
 }
 
-// A leaf of n triangles makes at most n / WIDE + 1 blocks. Each wide node replaces an inner node or
-// covers blocks of one leaf.
+// Reserves enough memory for all nodes and blocks. A leaf of n triangles makes at most n / WIDE + 1
+// blocks. Each wide node replaces an inner node or covers blocks of one leaf.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
 {
     const size_t leaves = source->bvh->leaf_count, inner = source->bvh->node_count - leaves;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Normalizes every vertex in fp64 and rounds it once. Triangles keep sharing vertices.
+// Normalizes every vertex in fp64 and rounds it once to float. Triangles that share a vertex in the
+// file share the rounded point, so neighbors stay neighbors.
 //
-// Three comparisons, mostly of x alone, form an index into a table of corner orders. A branch on
-// each comparison would be mispredicted half the time.
+// The corners of each triangle are sorted by their coordinates. The device then computes the same
+// bits regardless of the order of the corners in the file, and the two neighbors of an edge compute
+// equal values for it. Three comparisons, mostly of x alone, form an index into a table of corner
+// orders. A branch on each comparison would be mispredicted half the time.
 #include "accel/triangles.h"
 
 #include <stdlib.h>

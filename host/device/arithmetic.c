@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Compares a device's results with the host's. The table holds operands for which wrong roundings,
-// contracted products, flushed denormals and conversions that truncate give other bits than IEEE
-// 754. program.c appends the kernel to the first program that a process compiles, because a program
-// of its own would take PoCL 0.5 s. A program in the cache needs no test: the device has passed it
-// with the same driver and options.
+// Runs the operations on which all pictures depend on a device, and compares the results with the
+// host's. The table holds operands for which common faults give other bits than IEEE 754: wrong
+// rounding, contracted products, flushed denormals and conversions that truncate.
+//
+// program.c appends this test's kernel to the first program that a process compiles, because a
+// separate program would take PoCL another 0.5 s. A program from the cache needs no test, because
+// the device has passed the test with the same driver and options.
 #include "device/arithmetic.h"
 
 #include "device/buffer.h"
@@ -22,7 +24,7 @@ enum { QUOTIENT = 5, ROOT = 6 };
 static const float cases[][3] = {
     {1.0f, 3.0f, 0x1.555556p-2f},                        // a repeating quotient
     {0x1.000002p+0f, 0x1.000002p+0f, -0x1.000004p+0f},   // the product's error, 2^-46
-    {0x1.fffffep+0f, 0x1.fffffep+0f, -0x1.fffffcp+1f},   // its largest error
+    {0x1.fffffep+0f, 0x1.fffffep+0f, -0x1.fffffcp+1f},   // a product's largest error
     {0x1.000002p+0f, 0x1.fffffcp-1f, -1.0f},             // a product next to 1
     {0x1.000002p+0f, 0x1.fffffep-1f, 0x1p-60f},          // a sum far below the product
     {0x1p+0f, 0x1p-24f, 0x1p-50f},                       // halfway to the next float: to even
@@ -41,15 +43,15 @@ static const float cases[][3] = {
     {0x1.6a09e8p+0f, 0x1.6a09e6p+0f, -2.0f},             // near the root of 2
     {0x1.8p+127f, 0x1.8p+0f, -0x1p+127f},                // overflow before the sum
     {0x1.fffffep+127f, 0x1p-126f, 0x1p-24f},             // the largest and smallest normals
-    {0x1p-100f, 0x1p-26f, 0x1.8p-126f},                  // a product of the least normal
-    {0x1.234568p-64f, 0x1.fedcbap-61f, -0x1.2p-125f},    // a product near it
+    {0x1p-100f, 0x1p-26f, 0x1.8p-126f},                  // a product: the smallest normal
+    {0x1.234568p-64f, 0x1.fedcbap-61f, -0x1.2p-125f},    // a product near the smallest normal
     {0x1.8p-126f, 0x1p-126f, -0x1p-126f},                // a denormal difference
     {0x1.00001p-130f, 3.0f, 0x1p-149f},                  // a denormal operand
-    {0x1p-149f, 0x1p-149f, 0x1p-149f},                   // the smallest
+    {0x1p-149f, 0x1p-149f, 0x1p-149f},                   // the smallest denormal
     {0x1.6p-75f, 0x1.ap-72f, 0x1.4p-140f},               // a denormal product
     {0x1.234p-140f, 0x1p+60f, -0x1.234p-80f},            // from a denormal back to normals
     {INFINITY, 0x1.8p+1f, -INFINITY},                    // infinities
-    {-1.0f, INFINITY, 1.0f},                             // a denominator without end
+    {-1.0f, INFINITY, 1.0f},                             // an infinite denominator
     {0x1.2aaaaap+3f, 0x1.8p+2f, 0x1.8p+2f},              // conversions of long integers
     {-0x1.555556p+30f, 0x1.000002p-30f, 0x1.fffffep+0f}, // a product next to -4/3
 };

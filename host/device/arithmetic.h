@@ -7,8 +7,9 @@
 // kernels/arithmetic.cl, embedded at build time.
 extern const char arithmetic_source[];
 
-// Runs arithmetic_source as a part of a program, which was compiled with these options, and
-// compares the results with the host's. Denormal numbers, divisions and roots only count if the
-// device promises to keep or round them, and denormal numbers only if the options permit them.
+// Runs the kernel of arithmetic_source and compares its results with the host's. The program
+// contains the kernel and was compiled with these options. Divisions and roots are compared only if
+// the device promises to round them correctly. Denormal numbers are compared only if the device
+// promises to keep them and the options permit them.
 bool arithmetic_is_exact(const Device *device, cl_program program, const char *options,
                          Error *error);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenCL has no empty buffers, so an empty array gets a few bytes.
+// Makes, reads and releases device buffers. OpenCL has no empty buffers, so the buffer of an empty
+// array has a few bytes.
 #include "device/buffer.h"
 
 #include "device/device.h"

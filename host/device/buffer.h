@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Buffers and kernels on a device.
+// Arrays on the host -> buffers on a device, and back.
 #pragma once
 
 #include "accel/flat.h"
@@ -15,6 +15,6 @@ bool device_buffer(const Device *device, size_t size, cl_mem *buffer, Error *err
 // Waits for the device's queue and copies `size` bytes of a buffer.
 bool device_read(const Device *device, cl_mem buffer, void *target, size_t size, Error *error);
 
-// Release an object unless it is NULL, and set it to NULL.
+// Both functions release the object, unless it is NULL, and set it to NULL.
 void device_release(cl_mem *buffer);
 void device_release_kernel(cl_kernel *kernel);

@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes the files of compiled programs. The system releases the lock, an flock, when a
-// process dies.
+// A compiled program is a file KEY.bin: a checksum, then the driver's binary. The key is a hash of
+// everything that determines the binary (program.c). The user's folder is searched first, and then
+// a folder that packages fill for all users. A missing, damaged or rejected file only means that
+// clrt builds the program from source.
+//
+// Writing is atomic: a temporary file gets its name KEY.bin by rename. Concurrent processes need no
+// lock, because a reader sees a whole file or none. Two writers of one key store equivalent
+// binaries.
+//
+// The lock protects only PoCL's own files, and only in the library, which has no private folder. It
+// is an flock, which the system releases when the process dies.
 #include "device/cache.h"
 
 #include <errno.h>
@@ -14,7 +23,8 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-// Chooses the folder of the cache, and hashes the environment that its keys depend on.
+// The following functions choose the cache's folder and hash the environment variables on which its
+// keys depend.
 
 // Creates the folder and its parents. Returns whether it exists.
 static bool make_folder(const char *path)
@@ -42,8 +52,8 @@ static bool take_folder(Cache *cache, const char *base, const char *rest)
     return false;
 }
 
-// Combines hashes by addition, because the order of the variables means nothing. Leaves out the
-// folder and the thread limits, which do not change the compiled code.
+// Hashes the variables of PoCL that can change the compiled code. The folder and the limits on
+// threads cannot. The sum of the hashes does not depend on the order of the variables.
 static uint64_t hash_settings(void)
 {
     static const char *const neutral[] = {
@@ -76,7 +86,8 @@ static void binary_path(char path[BINARY_PATH_SIZE], const char *folder, const c
     snprintf(path, BINARY_PATH_SIZE, "%s/%s.bin", folder, key);
 }
 
-// The key is the seed, so a file under another program's name is damaged, too.
+// The key is the seed of the checksum. A file that was renamed to another program's key therefore
+// counts as damaged.
 static uint64_t checksum_of(const char *key, const void *bytes, size_t size)
 {
     return XXH3_64bits_withSeed(bytes, size, XXH3_64bits(key, strlen(key)));
@@ -122,9 +133,9 @@ static bool write_file(int file, const char *key, const void *bytes, size_t size
            write(file, bytes, size) == (ssize_t)size;
 }
 
-// The temporary file lies in the private folder, if there is one: a killed process leaves only this
-// folder. If the private folder is on another disk, the cache's folder has no room, and renaming
-// fails.
+// The temporary file is in the private folder, if there is one, so a killed process leaves nothing
+// but this folder. The private folder is on another disk only if the cache's folder is full or not
+// writable. Renaming then fails, and nothing is stored.
 void cache_write(const Cache *cache, const char *key, const void *bytes, size_t size)
 {
     const bool is_private = cache->private_folder[0] != '\0';

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The cache of compiled kernels: one file for each program, with a checksum, because drivers crash
-// or compute wrong results with damaged binaries. Files appear complete or not at all, so processes
-// need no lock. PoCL also keeps files of its own; PoCL 3.1 loses builds when several processes
-// share them, so the program gives PoCL a private folder that it removes at the end.
+// The cache of compiled kernels has one file for each program. The file has a checksum, because
+// drivers crash or compute wrong results with damaged binaries. Files appear complete or not at
+// all, so processes need no lock to read them.
+//
+// PoCL also keeps files of its own. PoCL 3.1 loses builds if several processes share these files.
+// The executable therefore gives PoCL a private folder, which it removes at the end
+// (cache_private.h).
 #pragma once
 
 #include "base/file.h"
@@ -23,7 +26,7 @@ typedef struct {
 } Cache;
 
 // Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt and ~/.cache/clrt that exists or
-// can be created. PoCL stores its own files in POCL_CACHE_DIR or in its default folder.
+// can be created. PoCL's own files stay in POCL_CACHE_DIR or in PoCL's default folder.
 void cache_open_for_library(Cache *cache);
 
 // A program's binary in memory. `file` owns the bytes.
@@ -34,16 +37,16 @@ typedef struct {
 } CachedBinary;
 
 // Reads the binary with this key from the user's folder or from /var/cache/clrt, which packages
-// fill. Returns false without an intact file. The caller frees binary->file.
+// fill. Returns false if neither has an intact file. The caller frees binary->file.
 bool cache_read(const Cache *cache, const char *key, CachedBinary *binary);
 
-// Writes the binary to the user's folder, as far as possible.
+// Writes the binary to the user's folder. If this fails, nothing is stored.
 void cache_write(const Cache *cache, const char *key, const void *bytes, size_t size);
 
-// Returns whether cache_read would find a file, which may be damaged.
+// Returns whether a folder has a file for this key. The file may be damaged.
 bool cache_has(const Cache *cache, const char *key);
 
-// Waits for the lock that protects PoCL's files while a program is made, and returns its handle for
-// cache_unlock. Returns -1 if these files are private, or if locking fails.
+// Waits for the lock that protects PoCL's files while a program is made. Returns the lock for
+// cache_unlock, or -1 if PoCL's files are private or locking fails.
 int cache_lock(const Cache *cache);
 void cache_unlock(int lock);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Makes PoCL's private folder, clrt-HOST-XXXXXX with a locked file. A folder whose lock is free
-// belongs to a process that was killed. The name contains the host, because locks of other hosts
-// can be invisible on network file systems. The library does not link this file, because it never
+// Makes PoCL's private folder. The folder is named clrt-HOST-XXXXXX and contains a file that the
+// process keeps locked. A folder with an unlocked file belongs to a process that was killed, and
+// the next process removes it. The name contains the host, because locks of other hosts can be
+// invisible on network file systems. The library does not link this file, because the library never
 // changes the environment.
 #include "device/cache_private.h"
 
@@ -17,8 +18,8 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-// The least free space. PoCL unpacks binaries and preprocesses sources there. LLVM ends the process
-// if the disk is full.
+// The least free space of a private folder. PoCL unpacks binaries and preprocesses sources in it,
+// and LLVM ends the process if the disk is full.
 #define ROOM_LEAST ((unsigned long long)16 << 20)
 
 #define LOCK_NAME    "/lock"
@@ -66,8 +67,8 @@ static void write_prefix(char prefix[PREFIX_SIZE])
     snprintf(prefix, PREFIX_SIZE, "clrt-%s-", host);
 }
 
-// Removes the private folder at path if its process was killed. A process that has just created
-// its folder holds no lock yet; it tries again if the empty folder vanishes.
+// Removes the private folder at path if its process was killed. A new folder is not locked yet, so
+// it may be removed too. Its process then makes another (make_private).
 static void remove_abandoned(const char *path)
 {
     struct stat status;
@@ -95,7 +96,8 @@ static void remove_all_abandoned(const char *base)
         closedir(folder);
 }
 
-// Makes a folder and locks it. Another process can remove the folder before it is locked.
+// Makes a folder and locks it. If another process removes the folder before it is locked, makes
+// another.
 static bool make_private(Cache *cache, const char *base)
 {
     char prefix[PREFIX_SIZE];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Queries every device of every platform from the ICD loader and chooses one.
+// Queries the devices of all platforms of the ICD loader, and opens the chosen device.
 #include "device/device.h"
 
 #include "base/processors.h"

@@ -32,8 +32,8 @@ typedef struct {
 
 // Opens the first device that matches spec. Valid forms are "PLATFORM:DEVICE" with numbers from
 // device_list, a type (cpu, gpu, accelerator, all), and a part of a device's or platform's name.
-// Types and names ignore case. NULL selects the first GPU or, without a GPU, the first device. If
-// nothing matches, the error message lists the devices.
+// The case of letters does not matter. NULL selects the first GPU or, without a GPU, the first
+// device. If nothing matches, the error message lists the devices.
 bool device_open(Device *device, const char *spec, Error *error);
 void device_close(Device *device);
 
@@ -45,23 +45,23 @@ typedef struct {
     unsigned count;
 } DeviceList;
 
-// Lists all devices, but at most DEVICES_MOST. Fails if there are none.
+// Lists the first DEVICES_MOST devices. Fails if there are none.
 bool device_list(DeviceList *list, Error *error);
 
 #define DEVICE_TEXT_SIZE 4096
 
-// Lists the devices that fit into the text, as `clinfo -l` prints them.
+// Writes as many devices as fit into the text, in the format of `clinfo -l`.
 void device_list_text(const DeviceList *list, char text[DEVICE_TEXT_SIZE]);
 
 // Returns cpu, gpu, accelerator or other.
 const char *device_type_name(const Device *device);
 
-// Starts a thread that may build programs. OpenCL compilers recurse deeply, and the default stack
-// of a thread may be too small. Returns false if the system grants no thread.
+// Starts a thread that may build programs. Its stack is larger than usual, because OpenCL compilers
+// recurse deeply. Returns false if the system cannot start a thread.
 bool device_thread_start(pthread_t *thread, void *(*work)(void *context), void *context);
 
-// Returns the number of threads for the program itself: count or, if count is 0, the process's
-// usable processors.
+// Returns the number of threads for the host's own work. This is count or, if count is 0, the
+// number of processors that the process may use.
 uint32_t threads_allowed(uint32_t count);
 
 // Returns true for CL_SUCCESS. Otherwise records "cannot ATTEMPT: CL_..." and returns false.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// PoCL compiles a kernel when it runs for the first time, so every first run holds the cache's
-// lock.
+// A set makes each program and each kernel at most once. Few different kernels exist in a process,
+// so lookups compare all of them. PoCL compiles a kernel when it first runs, so every first run
+// holds the cache's lock.
 #include "device/kernel.h"
 
 #include "base/clock.h"

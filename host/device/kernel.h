@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernels of a device, each made once. Kernels of one source share a program. Making a kernel
-// needs no scene.
+// The kernels of a device, each made once. Kernels with the same entry->source share a program. A
+// kernel is made without a scene.
 #pragma once
 
 #include "device/program.h"
@@ -23,7 +23,8 @@ typedef struct {
     ARRAY(Kernel *) kernels;
 } KernelSet;
 
-// A kernel to make. For the group {0, 0}, the code that launches the kernel chooses the group.
+// A kernel to make. If group is {0, 0}, the code that launches the kernel chooses the size of
+// work-groups.
 typedef struct {
     const KernelEntry *entry;
     KernelChoice choice;

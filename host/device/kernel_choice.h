@@ -38,8 +38,8 @@ typedef struct {
     Precision precision;
 } KernelRequest;
 
-// Returns whether the number of lanes is possible, only wide nodes have lanes, and fp64 has none of
-// them.
+// Returns whether the request's members fit together. The number of lanes must be possible, only
+// wide nodes have lanes, and fp64 excludes wide nodes.
 bool kernel_is_valid(const KernelRequest *request);
 
 KernelChoice kernel_choose(const KernelRequest *request, const Device *device);

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Builds programs from source, or from binaries in the cache. docs/devices.md lists the times.
+// Builds a program from a binary in the cache or, if the cache has none, from source.
+// docs/devices.md lists the times.
+//
+// Invariant: the key contains every input of the compiler. These are the source, the options, the
+// device, the versions of its driver and platform, and PoCL's environment variables. Equal keys
+// therefore stand for equal programs.
 #include "device/program.h"
 
 #include "base/array.h"
@@ -96,8 +101,9 @@ bool program_build(Program *program, const ProgramSource *source, Error *error)
     return false;
 }
 
-// Loads the program from the cache. Returns false if the cache has none, if the driver rejects it,
-// or if the kernels are under development: their key would have to contain every edit.
+// Loads the program from the cache. Returns false if the cache has no binary or the driver rejects
+// it. Programs from a kernel_folder are never loaded, because their key does not contain the files
+// of the folder.
 static bool load(Program *program, const ProgramSource *source)
 {
     char options[OPTIONS_SIZE];

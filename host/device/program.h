@@ -43,18 +43,18 @@ typedef struct {
 // compiler's log.
 bool program_build(Program *program, const ProgramSource *source, Error *error);
 
-// Runs a program's kernels for the first time.
+// A function that runs a program's kernels for the first time.
 typedef struct {
     bool (*run)(void *context, Error *error);
     void *context;
 } FirstRun;
 
 // Loads the program from the cache, or builds it from source, and calls first->run. program_free
-// saves a new program. On failure, the caller frees the program.
+// saves a new program. The caller frees the program even after a failure.
 bool program_make(Program *program, const ProgramSource *source, const FirstRun *first,
                   Error *error);
 
-// Returns whether the cache says that an earlier process compiled the program.
+// Returns whether the cache has a file for the program, which an earlier process compiled.
 bool program_is_compiled(const ProgramSource *source);
 
 // Writes the binary of an unsaved program to its cache. PoCL takes 0.4 to 0.8 s to make it, because
