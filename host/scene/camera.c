@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes the camera's axes in fp64 and rounds each component to float once.
+// Computes the camera's axes in fp64 and rounds each component to float once. All rays then follow
+// from these floats, so the kernels compute the same directions on every device.
 #include "scene/camera.h"
 
 static void store(float out[4], Vec3 v)
@@ -21,8 +22,8 @@ CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normaliz
     const Vec3 down = vec3_cross(forward, right);
     const double half_height = fmax(tangent_of_half(viewpoint->fov_degrees),
                                     tangent_of_half(viewpoint->width_degrees) * height / width);
-    // Sample coordinates count half steps from the picture's center. Both axes have the same step,
-    // because pixels are square.
+    // The kernels count samples in half steps from the picture's center. Pixels are square, so both
+    // axes have the same step.
     const double half_step = half_height / ((double)height * samples);
     CameraData camera;
     store(camera.eye, normalize_point(normalization, viewpoint->eye));
@@ -41,7 +42,7 @@ void camera_shift(CameraData *camera, double right, double down)
     }
 }
 
-// Sine and cosine are clrt's own, so the eye has the same bits on every machine.
+// Uses clrt's own sine and cosine, so the eye has the same bits on every machine.
 Viewpoint turn_viewpoint(const Viewpoint *viewpoint, bool is_course, double degrees)
 {
     Viewpoint turned = *viewpoint;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Converts a Viewpoint to CameraData: the origin of a picture's rays and the steps between their
-// directions, in normalized coordinates. Also turns viewpoints, as on a turntable.
+// Viewpoint -> CameraData: the origin of a picture's rays and the steps between their directions,
+// in normalized coordinates. The file also turns viewpoints as on a turntable.
 #pragma once
 
 #include "scene/normalize.h"
@@ -12,7 +12,7 @@
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
                        uint32_t width, uint32_t height, uint32_t samples);
 
-// Moves all samples right and down, in units of the distance between adjacent samples.
+// Moves all samples to the right and down, in units of the distance between neighboring samples.
 void camera_shift(CameraData *camera, double right, double down);
 
 // Returns the viewpoint with its eye rotated about an axis parallel to up. The axis passes through

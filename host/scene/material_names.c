@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A hash table with linear probing. At most half of its slots are in use.
+// Finds names by a hash table with linear probing. At most half of the slots are in use, so a
+// search tests few slots.
 #include "scene/material_names.h"
 
 #include <stdlib.h>
@@ -22,7 +23,7 @@ static uint32_t *find_slot(const MaterialNames *names, const char *name, size_t 
     }
 }
 
-// The first entry with a name keeps its slot.
+// Stores the entry in the table, unless an earlier entry has the same name.
 static void enter(MaterialNames *names, size_t index)
 {
     const char *name = names->list.data[index].name;

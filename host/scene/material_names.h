@@ -14,13 +14,13 @@ typedef struct {
 // {0} has no names.
 typedef struct {
     ARRAY(MaterialName) list;
-    ARRAY(uint32_t) slots; // of the hash table: 1 + an index in list, or 0; a power of two
+    ARRAY(uint32_t) slots; // a power of two of them; each is 1 + an index in list, or 0 if empty
 } MaterialNames;
 
 // Appends a name. Returns false if memory runs out.
 bool material_names_add(MaterialNames *names, const MaterialName *name, Error *error);
 
-// Returns the first entry with this name, or NULL without one.
+// Returns the first entry with this name, or NULL if there is none.
 const MaterialName *material_names_find(const MaterialNames *names, const char *name,
                                         size_t length);
 

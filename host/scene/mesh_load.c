@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Moves meshes into the scene's objects. Materials are named FILE:NAME, so that two files'
-// materials rarely have the same name.
+// Reads a mesh file and moves its meshes into the scene's objects. PLY is read here, and
+// clrt-foreign reads all other formats. A material of a file is named FILE:NAME, so that materials
+// of two files rarely have the same name.
 #include "scene/mesh_load.h"
 
 #include "mesh/foreign_stream.h"
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Materials without highlights become matte.
+// Converts a file's material to Blinn-Phong or, if it has no highlights, to matte.
 static Material material_of(const ForeignMaterial *given)
 {
     const bool shines = given->shininess > 0 && (given->specular[0] > 0 || given->specular[1] > 0 ||
@@ -46,8 +47,8 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
     return true;
 }
 
-// Adds the model's files to the inputs and hashes. File 0 is the model, which keeps the caller's
-// path.
+// Adds the model's files to the scene's inputs and hashes. The first file is the model itself,
+// which is listed by the caller's path.
 static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
 {
     if (!scene_add_input(scene, path, error))
@@ -111,7 +112,8 @@ static const File *kept_stream(const ForeignFiles *kept, const char *path)
     return NULL;
 }
 
-// Keeps the stream, or frees it.
+// Keeps clrt-foreign's output for later statements with the same path. Frees it if kept is NULL or
+// full.
 static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
 {
     Error unused = {0};
@@ -127,8 +129,8 @@ static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
 
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error)
 {
-    // The time exceeds clrt-foreign's own limit, so that clrt-foreign's alarm normally ends it
-    // first.
+    // This limit exceeds clrt-foreign's own limit of time, so clrt-foreign normally ends by itself
+    // and reports the reason.
     static const ForeignReader assimp = {.library = "Assimp",
                                          .limits = {.seconds = 125, .bytes = (size_t)8 << 30}};
     const char *const words[FOREIGN_WORDS] = {path};
@@ -161,7 +163,8 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
     return ok;
 }
 
-// Stores the crease angle that fits the objects that lack normals, from index `first` on.
+// Computes the crease angle that suits the shape of the objects without normals, from index `first`
+// on.
 static bool choose_crease(const Scene *scene, size_t first, double *degrees, Error *error)
 {
     EdgeAngles angles = {0};
@@ -188,7 +191,8 @@ bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *
     Error cause = {0};
     double crease = options->crease_degrees;
     const size_t end = options->parse == ply_parse ? scene->objects.count : first;
-    // A single mesh chooses its crease angle without a second pass over its edges.
+    // For a single mesh, mesh_compute_normals chooses the angle and saves a second pass over the
+    // edges.
     if (crease == CREASE_BY_SHAPE && end > first + 1 &&
         !choose_crease(scene, first, &crease, &cause))
         return error_set(error, "%s: %s", scene->inputs.data[scene->objects.data[first].input],

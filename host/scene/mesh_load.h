@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loads mesh files as objects of a scene, or a lone mesh file as a whole scene.
+// A mesh file -> objects of a scene. A lone mesh file -> a whole scene (mesh_scene.c).
 #pragma once
 
 #include "base/file.h"
@@ -13,19 +13,19 @@ typedef enum {
     NORMALS_SMOOTH // compute the normals that the file lacks
 } Normals;
 
-// The choices of scn_load. {0} suits most callers. Scene text chooses up and normals itself, so
-// scn_load rejects other values than zero for scene text.
+// The options of scn_load. {0} suits most callers. Scene text sets up axes and normals by
+// statements. For scene text, scn_load therefore fails unless `up` and `normals` are 0.
 typedef struct {
     bool is_tolerant;      // reads PLY meshes with ply_parse_tolerantly
     UpAxis up;             // of a lone mesh file
     Normals normals;       // of a lone mesh file
-    double crease_degrees; // of NORMALS_SMOOTH, or CREASE_BY_SHAPE
+    double crease_degrees; // for NORMALS_SMOOTH, or CREASE_BY_SHAPE
 } SceneLoadOptions;
 
 #define NO_CREASE (-2)
 
-// Keeps the output of clrt-foreign for the files of a scene, to read each file once. A file whose
-// output would take more than FOREIGN_KEPT_MOST bytes together with the others is read each time.
+// The outputs of clrt-foreign for the files of a scene, kept so that each file is read once. If all
+// outputs together would exceed FOREIGN_KEPT_MOST bytes, the file is read again by each statement.
 #define FOREIGN_KEPT_MOST ((size_t)256 << 20)
 typedef struct {
     char *path;
@@ -44,7 +44,7 @@ typedef struct {
     bool is_flat;             // ignores the file's normals
     double crease_degrees;    // for computing missing normals, or CREASE_BY_SHAPE; NO_CREASE leaves
                               // them missing
-    bool takes_own_materials; // the file's materials, if it has any, replace the object's
+    bool takes_own_materials; // the file's materials replace the object's, if the file has any
     bool is_plain_ply;        // PLY only, without transforms
     PlyParse *parse;          // the reader of PLY files
     ForeignFiles *kept;       // files in other formats; borrowed; NULL keeps none
@@ -58,20 +58,20 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
 // files read to the inputs. On failure, returns false with a message that names the file.
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
 
-// Drops or computes normals of the scene's objects from index `first` on. Meshes read by
-// ply_parse_tolerantly stay unchanged, because reports count their file's own vertices. On failure,
-// returns false with a message that names the file.
+// Drops or computes the normals of the scene's objects from index `first` on. Meshes read by
+// ply_parse_tolerantly keep their vertices, because clrt check reports the vertices of the file. On
+// failure, returns false with a message that names the file.
 bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
                        Error *error);
 
-// The scene of a lone mesh file: the mesh is turned upright and visible from both sides. The scene
-// has lights, a floor, and cameras that frame the mesh.
+// The scene of a lone mesh file has lights, a floor, and cameras that frame the mesh. The mesh is
+// turned upright and is visible from both sides.
 
-// Returns whether a file's bytes are a PLY mesh and not scene text.
+// Returns whether the bytes are a PLY file. All other bytes are read as scene text.
 bool mesh_scene_is_mesh(const char *bytes, size_t size);
 
-// Fills scene from a PLY file in memory. If ply is NULL, reads the file at path, in another format,
-// with the file's own materials. The viewpoints are three-quarter, front, right, back, left and
+// Fills scene from a PLY file in memory. If ply is NULL, reads the file at path in another format,
+// with the file's own materials. Adds the viewpoints three-quarter, front, right, back, left and
 // top. z is up.
 bool mesh_scene_load(Scene *scene, const File *ply, const char *path,
                      const SceneLoadOptions *options, Error *error);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Builds a small studio around the meshes: cameras, three lights and a floor.
+// Builds a small studio around the meshes of a lone mesh file: six cameras that frame the meshes
+// tightly, three lights and a floor. Most mesh formats do not define which axis points up. The
+// file's format or the mesh's shape then decides.
 #include "scene/mesh_load.h"
 
 #include "base/clock.h"
@@ -9,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A mesh would stand on a table if the points that touch the table lie on all four sides of the
-// mesh's center.
+// The following functions find the axis that points up. A mesh stands on a table, instead of
+// falling over, if the points that touch the table lie on all four sides of the mesh's center.
 
 // Fractions of the bounding box's longest side.
 #define TOUCH  0.01 // points touch the table up to this height
@@ -64,10 +66,9 @@ static bool stands(const Scene *scene, const MeshBox *body, int up, int least)
     return true;
 }
 
-// With a wrong axis up, most meshes fall over. For y instead of z, the base must also be flat,
-// because meshes with z up may touch a table with y up by chance.
-// Returns UP_Y or UP_Z. Returns the usual axis unless the meshes would fall over with it up, and
-// stand with the other axis up. With y up instead of z, they must stand on a flat base.
+// Returns UP_Y or UP_Z. Returns the usual axis, unless the meshes stand only with the other axis
+// up. To replace z by y, the meshes must also have a flat base, because meshes with z up may stand
+// on a few points by chance if y is up.
 static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 {
     const MeshBox body = box_below(scene, 0, INFINITY, 0);
@@ -78,8 +79,9 @@ static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
     return stands_on_y && !stands_on_z ? UP_Y : UP_Z;
 }
 
-// The eye is at a fixed distance. The edges of the picture are planes through the eye. For each
-// axis of the picture, touch() finds two planes of equal slope that touch the meshes.
+// The following functions frame the meshes. The eye has a fixed distance, and the edges of the
+// picture are planes through the eye. For each axis of the picture, touch() finds two planes of
+// equal slope that touch the meshes.
 
 #define VIEWS         6
 #define DISTANCE      4.0 // of the eye from the look-at point, in radii
@@ -89,8 +91,8 @@ static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// A short run of a mesh's triangles. Its bounding box lets farthest() skip most runs. Neighbors in
-// a file are usually neighbors in space.
+// A short run of a mesh's triangles. Neighbors in a file are usually neighbors in space, so a run's
+// bounding box lets farthest() skip most runs.
 typedef struct {
     Mesh mesh; // borrowed
     Vec3 low, high;
@@ -158,8 +160,9 @@ static double touch(const Framing *framing, Vec3 axis, Vec3 back, double *middle
     return next;
 }
 
-// Returns the field of view in degrees. Planes of the given slope span the fraction FILLED of the
-// picture. Newton's method starts above the result and stays above, because tan is convex there.
+// Returns the field of view in degrees in which planes of the given slope span the fraction FILLED
+// of the picture. Newton's method starts above the result and stays above it, because tan is convex
+// there.
 static double field_of_view(double slope)
 {
     double half = 45;
@@ -170,7 +173,7 @@ static double field_of_view(double slope)
     return fmax(2 * half, FOV_LEAST);
 }
 
-// back points from the meshes to the eye.
+// Returns the viewpoint whose eye is in direction `back`, seen from the meshes.
 static Viewpoint view_from(const Framing *framing, Vec3 back, Vec3 up)
 {
     double right, top;
@@ -185,8 +188,8 @@ static Viewpoint view_from(const Framing *framing, Vec3 back, Vec3 up)
                        .width_degrees = field_of_view(width)};
 }
 
-// Adds six viewpoints: three-quarter, front, right, back, left and top. In each, the meshes span at
-// most 80 % of the picture's width and height, and 80 % of one of them. The sphere of center and
+// Adds the viewpoints three-quarter, front, right, back, left and top. In each, the meshes span 80
+// % of the picture's width or height, and at most 80 % of the other. The sphere of center and
 // radius must contain all meshes.
 static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
 {
@@ -217,8 +220,9 @@ static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}},
                                 {{26, -14, 18}, 0.20, {0.9, 0.95, 1}},
                                 {{-8, 26, 16}, 0.30, {1, 1, 1}}};
 
-// In radii of the meshes. The floor is the top of a sphere that is too large to look curved. The
-// distant lights give the floor the even color of the background, so no horizon is visible.
+// Sizes in radii of the meshes. The floor is the top of a sphere that is too large to look curved.
+// The lights are so distant that the floor has the even color of the background, and no horizon is
+// visible.
 #define FLOOR_RADIUS   1e4
 #define LIGHT_DISTANCE 1e4
 
@@ -250,8 +254,8 @@ static bool add_studio(Scene *scene, Error *error)
     return ok;
 }
 
-// The hash records the axis and the choice of normals, because they must be the same for all parts
-// of a picture.
+// Adds the up axis and the choice of normals to the hash, because all parts of a picture must agree
+// on them.
 static void hash_choices(Scene *scene, const SceneLoadOptions *options)
 {
     const char *up = up_axis_names[scene->mesh_up];
@@ -270,7 +274,8 @@ static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
     return add_studio(scene, error);
 }
 
-// Returns the up axis that the file names. clrt-foreign keeps Assimp from turning Collada files.
+// Returns the up axis that a Collada file names. Assimp would turn such files, but clrt-foreign
+// prevents this.
 static UpAxis up_axis_of_collada(const char *path)
 {
     File file;
@@ -283,10 +288,11 @@ static UpAxis up_axis_of_collada(const char *path)
     return is_z ? UP_Z : is_x ? UP_X : UP_Y;
 }
 
-// Returns the up axis by the file, by its format or by the mesh's shape. PLY, STL and OFF define no
-// axis, and z is the usual one. 3MF and AMF define z as up, and glTF defines y. Most modeling
-// programs write OBJ with y up, and Assimp turns several other formats to y up. The rest counts as
-// y up.
+// Returns the up axis of a mesh file.
+// - PLY, STL and OFF define no axis, and z is usual. OBJ defines none either, and y is usual. The
+// mesh's shape decides.
+// - A Collada file names its axis.
+// - 3MF and AMF define z. glTF defines y, and Assimp turns several other formats to y.
 static UpAxis up_axis_of_file(const Scene *scene, const char *path, bool is_ply)
 {
     if (is_ply || file_has_ending(path, ".stl") || file_has_ending(path, ".off"))

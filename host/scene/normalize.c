@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes center and scale from the scene's bounds, and rejects scenes whose objects differ too
-// much in size or distance.
+// Computes center and scale from the scene's bounds, and rejects scenes with objects that are too
+// far away, too large or too small for float.
 #include "scene/normalize.h"
 
 #define LARGEST_RATIO 0x1p40
@@ -31,7 +31,7 @@ static SceneBox bounds_of(const Scene *scene)
     return bounds;
 }
 
-// Returns a negative number for a scene without objects.
+// Returns the longest side; a negative number if the scene has no objects.
 static double extent_of(const SceneBox *bounds)
 {
     return bounds->low.x <= bounds->high.x ? vec3_extent(vec3_sub(bounds->high, bounds->low)) : -1;

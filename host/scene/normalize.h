@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// clrt traces scenes in normalized coordinates: moved to the origin in fp64 and scaled by a power
-// of two. Float then uses all its bits for the geometry.
+// clrt traces scenes in normalized coordinates. The scene is moved to the origin in fp64 and scaled
+// by a power of two. Float coordinates then have all their bits for the geometry.
 //
-// Floats are dense near the origin only. At a distance of 1e6 from it, they are 1/16 apart, and the
-// details of a mesh of size 1 would be rounded away. The center is therefore subtracted in fp64,
-// before coordinates become floats. A power of two changes only exponents, so scaling does not
-// round.
+// Floats are dense only near the origin. At a distance of 1e6, neighboring floats differ by 1/16,
+// which would destroy the details of a mesh of size 1. The center is therefore subtracted in fp64,
+// before coordinates are rounded to float. Scaling by a power of two changes only exponents, so it
+// rounds nothing.
 //
-// Invariant: moving a scene, or scaling it by a power of two, keeps its normalized coordinates,
-// apart from rounding in fp64, and therefore its picture.
+// Invariant: a scene that is moved, or scaled by a power of two, keeps its normalized coordinates
+// except for rounding in fp64. It therefore keeps its picture.
 #pragma once
 
 #include "scene/scene.h"
@@ -20,11 +20,12 @@ typedef struct {
 } Normalization;
 
 // Returns the normalization that centers the triangles' bounding box and scales its longest side
-// into [1, 2). Only scenes without triangles use the spheres' box, because a ground sphere of
-// radius 1e9 would leave a mesh too few bits.
+// into [1, 2). Spheres count only in scenes without triangles, because a ground sphere of radius
+// 1e9 would leave too few bits for a mesh.
 Normalization normalization_of(const Scene *scene);
 
-// Returns the longest side of the box that normalization_of scales; negative without such a box.
+// Returns the longest side of the box that normalization_of scales; negative if the scene has no
+// objects.
 double scene_extent(const Scene *scene);
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point);
@@ -32,6 +33,7 @@ Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 // Returns the scene coordinates of a normalized point.
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 
-// Fails if a normalized coordinate of a light, eye or sphere center is outside [-2^40, 2^40], or a
-// normalized radius is outside [2^-40, 2^40]. Beyond that, float could overflow or underflow.
+// Fails if a normalized coordinate of a light, eye or sphere center is outside [-2^40, 2^40], or if
+// a normalized radius is outside [2^-40, 2^40]. Outside these ranges, the kernels' floats could
+// overflow or underflow.
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);

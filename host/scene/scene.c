@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The constants of the UvA course "Graphics and Game Technology", and a scene's memory.
+// Creates scenes with the constants of the UvA course "Graphics and Game Technology", and frees
+// them. Computes a scene's hash, its missing parts and the error of a maximum level.
 #include "scene/scene.h"
 
 #include <inttypes.h>
@@ -175,7 +176,8 @@ void material_set_shininess(Material *material, float shininess)
     material->exponent = by_squaring ? (uint32_t)shininess : UINT32_MAX;
 }
 
-// Returns the next material in use, or NULL after the last. *place is 0 for the first.
+// Returns the next material in use, or NULL after the last one. The caller sets *place to 0 before
+// the first call.
 static const Material *next_used(const Scene *scene, size_t *place)
 {
     const size_t spheres = scene->spheres.count;
@@ -190,7 +192,7 @@ static const Material *next_used(const Scene *scene, size_t *place)
     return NULL;
 }
 
-// Silhouettes and perfect mirrors need no light.
+// Returns whether a surface needs light. Silhouettes and perfect mirrors need none.
 static bool has_shaded(const Scene *scene)
 {
     size_t place = 0;
@@ -232,7 +234,8 @@ static double largest_reflectivity(const Scene *scene)
     return largest;
 }
 
-// A ray's weight is at most a power of the largest reflectivity in use.
+// The bound is the largest reflectivity in use to the power of max_level, because a ray's weight is
+// a product of that many reflectivities.
 double truncation_bound(const Scene *scene, uint32_t max_level)
 {
     const double reflectivity = largest_reflectivity(scene);

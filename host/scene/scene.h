@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene as its file describes it, in fp64 and in the file's coordinates. Elements refer to each
-// other by index, because arrays may move when they grow.
+// other by index, because arrays may move when they grow. Every later stage borrows the scene and
+// leaves it unchanged.
 #pragma once
 
 #include "../kernels/shared.h"
@@ -15,8 +16,8 @@
 
 #define COURSE_MATERIALS 4 // every scene begins with the course's materials (docs/scenes.md)
 
-// If the scene's file is a mesh, these materials follow: for meshes without materials, and for the
-// floor. The file's own materials come last.
+// If the scene's file is a lone mesh, two more materials follow, for meshes without materials and
+// for the floor. The file's own materials come last.
 enum { MESH_CLAY = COURSE_MATERIALS, MESH_FLOOR, MESH_OWN_MATERIALS };
 
 typedef struct {
@@ -48,7 +49,7 @@ typedef struct {
 typedef struct {
     Vec3 eye, look_at, up;
     double fov_degrees;   // vertical, between 0 and 180
-    double width_degrees; // the least horizontal field of view, for narrow pictures; 0 without one
+    double width_degrees; // narrow pictures show at least this horizontal angle; 0 for no minimum
 } Viewpoint;
 
 typedef struct {
@@ -78,7 +79,8 @@ bool scene_init(Scene *scene, Error *error);
 // Adds the course's six viewpoints if the scene has no viewpoint.
 bool scene_complete(Scene *scene, Error *error);
 
-// Mix a hash of the bytes into scene->hash. scene_hash_mesh also mixes it into scene->mesh_hash.
+// Combine a hash of the bytes with scene->hash. scene_hash_mesh also combines it with
+// scene->mesh_hash.
 void scene_hash_input(Scene *scene, const void *bytes, size_t size);
 void scene_hash_mesh(Scene *scene, const void *bytes, size_t size);
 
@@ -95,7 +97,7 @@ bool scene_add_note(Scene *scene, const char *path, const char *text, Error *err
 size_t scene_triangle_count(const Scene *scene);
 size_t scene_dropped_count(const Scene *scene); // triangles that were removed from meshes
 
-// Returns a triangle's number in its file, where dropped triangles count too.
+// Returns a triangle's number in its file. Dropped triangles are counted too.
 uint64_t number_in_file(const MeshObject *object, size_t triangle);
 
 void scene_free(Scene *scene);

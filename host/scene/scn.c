@@ -237,8 +237,8 @@ static bool read_statements(Parser *parser)
            tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
 }
 
-// Parses text. The caller has set the parser's scene, mesh reader and error. Frees the scene on
-// failure.
+// Parses the text of a scene file. The caller has set the parser's scene, mesh reader and error.
+// Frees the scene on failure.
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
@@ -273,7 +273,7 @@ static bool load_text(Parser *parser, const File *file, const char *path)
     return false;
 }
 
-// Rejects the choices that only lone mesh files leave open.
+// Fails if the options contain choices that are only for lone mesh files.
 static bool check_for_text(const SceneLoadOptions *options, const char *name, Error *error)
 {
     if (options->up != UP_AUTO)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a scene as scene text. A statement that sets a property of objects precedes the first
-// object with the new value.
+// Writes a scene as scene text. Scene text sets properties by statements that apply to all
+// following objects. The writer keeps the current value of each property, and writes a statement
+// only before an object with another value.
 #include "scene/scn_write.h"
 
 #include "base/array.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Joins meshes with one allocation per array.
+// The following functions join meshes with one allocation per array.
 
 static bool allocate(Mesh *mesh, const Scene *scene, Error *error)
 {
@@ -73,7 +74,8 @@ typedef struct {
     MeshObject current;  // the properties that statements have set so far
 } Writer;
 
-// Writes value with the lowest precision, from `digits` up, that reads back as the same number.
+// Writes value with `digits` digits, or with as many more as are necessary to read back the same
+// number.
 static void write_digits(FILE *stream, double value, int digits, bool is_float)
 {
     char text[32];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a Scene as scene text that reads back as the same bits, or as one mesh.
+// Scene -> scene text that reads back as the same bits, or one mesh with all triangles.
 #pragma once
 
 #include "scene/scene.h"

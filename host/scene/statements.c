@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Materials first, then meshes.
+// Reads the statements `define`, `material`, `mesh` and `ply_file`, whose grammar is too long for
+// the table in scn.c.
 #include "scene/statements.h"
 
 #include "base/clock.h"
@@ -13,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Reads material definitions. Missing properties get the course's values for the material's shader.
+// The following functions read material definitions. Missing properties get the course's values for
+// the material's shader.
 
 static const struct {
     const char *name;
@@ -151,7 +153,8 @@ bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material)
     return true;
 }
 
-// Adds a file's meshes and applies the transforms in the written order, in fp64.
+// The following functions add a file's meshes and apply the statement's transforms in the written
+// order, in fp64.
 
 static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
 {
@@ -160,8 +163,8 @@ static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
     return vec3_add(vec3_add(vec3_scale(v, cosine), across), along);
 }
 
-// Returns a factor for a mesh's normals that prevents overflow: a rotation can make a component up
-// to sqrt(3) times as large. One factor for all normals keeps the ratios of their lengths.
+// Returns a factor for all normals of a mesh. It prevents overflow, because a rotation can make a
+// component sqrt(3) times as large. One common factor keeps the ratios of the normals' lengths.
 static double normal_scale(const Mesh *mesh)
 {
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++)
@@ -304,8 +307,8 @@ static bool add_ply(Scene *scene, const char *path, const MeshLoadOptions *optio
     return ok;
 }
 
-// Loads the mesh file. Messages without a position in the mesh file get the position of its path in
-// the scene file.
+// Loads the mesh file. Messages that have no position in the mesh file begin with the position of
+// the path in the scene file.
 static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
                         const MeshLoadOptions *options)
 {
@@ -326,11 +329,11 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
     return ok;
 }
 
-// Meshes with fewer triangles have flat faces more often than round ones.
+// Meshes with fewer triangles usually show flat faces on purpose.
 #define ROUND_TRIANGLES 100
 
-// Notes meshes whose faces are flat only because neither the file nor the scene gives normals, if a
-// mirror shows this.
+// Adds a note for each mirroring mesh whose reflections show flat triangles, because neither its
+// file nor the scene gives normals.
 static bool note_flat_mirrors(Scene *scene, Objects added, const MeshLoadOptions *options,
                               Error *error)
 {

@@ -57,8 +57,8 @@ static bool ends_token(char c, bool quoted)
     return quoted ? c == '"' || is_line_end(c) : c == ' ' || c == '\t' || is_line_end(c);
 }
 
-// Returns whether the line has a closing quote. Otherwise the opening quote is part of the token,
-// so that messages show it.
+// Returns whether the line has a closing quote. If not, the caller makes the opening quote a part
+// of the token, so that messages show it.
 static bool has_closing_quote(const Tokens *tokens)
 {
     const char *c = tokens->next + 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Splits scene text into tokens and records their positions for messages. Blanks separate tokens. A
-// token that begins with // or # comments out the rest of its line.
+// Scene text -> tokens with their positions, which messages quote. Blanks separate tokens. A token
+// that begins with // or # makes the rest of its line a comment.
 #pragma once
 
 #include "base/error.h"
@@ -37,8 +37,9 @@ Token tokens_next(Tokens *tokens);
 // Returns whether token is exactly this word.
 bool token_is(Token token, const char *word);
 
-// Read numbers. tokens_numbers reads `count` numbers from -COORDINATE_MOST to COORDINATE_MOST;
-// tokens_number_within reads one number from low to high.
+// tokens_numbers reads `count` numbers from -COORDINATE_MOST to COORDINATE_MOST.
+// tokens_number_within reads one number from low to high. Both set the error and return false on
+// other tokens.
 bool tokens_numbers(Tokens *tokens, int count, double *values);
 bool tokens_number_within(Tokens *tokens, double *value, double low, double high);
 
