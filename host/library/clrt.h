@@ -3,15 +3,19 @@
 //
 // A picture equals, bit for bit, the picture that `clrt SCENE -o picture.pfm` writes with the same
 // settings. The library prints nothing, never ends the program, installs no signal handlers and
-// sets no environment variables. OpenCL drivers may do so. A failed call returns false or NULL and
-// stores the reason in *error, unless error is NULL. A failed call changes nothing else unless its
-// comment says so. Calls copy arrays and structs, so the caller may free or reuse them afterwards.
+// sets no environment variables. The OpenCL drivers that it loads may do all this.
+//
+// A failed call returns false or NULL and stores the reason in *error, unless error is NULL. It
+// changes nothing else, unless its comment says so. Calls copy arrays and structs, so the caller
+// may free or reuse them afterwards.
 //
 // Threads may call functions concurrently for different scenes and renderers. Several renderers may
 // draw one scene while no thread changes it. A renderer draws one picture at a time.
 //
 // Structs that callers pass begin with their size, `.size = sizeof(...)`. Later versions of the
-// library may add members to structs. A missing member counts as zero, which selects its default.
+// library may add members at the end. In structs of older programs, these members count as zero,
+// which selects their defaults. Functions that fill a struct write its first `size` bytes, so the
+// caller sets `size` before the call.
 #pragma once
 
 #include <stdbool.h>
@@ -44,7 +48,7 @@ typedef struct {
 
 typedef struct ClrtScene ClrtScene;
 
-// The axis of a mesh file that points up in the scene, as --up.
+// The axis of a mesh file that points up in the scene, as for the option --up.
 typedef enum {
     CLRT_UP_AUTO, // by the file's format and the mesh's shape
     CLRT_UP_X,
@@ -55,12 +59,12 @@ typedef enum {
     CLRT_UP_MINUS_Z
 } ClrtUp;
 
-// How to read a mesh file. Scene files choose these settings themselves and accept only defaults.
+// Settings for mesh files. Scene files contain these settings, so for them all members must be 0.
 typedef struct {
     size_t size;
     ClrtUp up;
     bool flat;             // ignores the file's normals; otherwise, missing normals are computed
-    double crease_degrees; // larger angles stay sharp; in [0, 180]; 0: 33 or 70, by the shape
+    double crease_degrees; // larger angles stay sharp; at most 180; 0 chooses 33 or 70 by the shape
 } ClrtLoad;
 
 // Reads a scene file (man 5 clrt-scene) or a mesh file, as `clrt` does. For mesh files other than
@@ -73,7 +77,7 @@ CLRT_API ClrtScene *clrt_scene_create(ClrtError *error);
 // Frees the scene. Accepts NULL.
 CLRT_API void clrt_scene_free(ClrtScene *scene);
 
-// The numbers of the materials that every scene has. Added materials have higher numbers.
+// The materials that every scene has. Added materials have higher numbers.
 enum {
     CLRT_MATERIAL_SILHOUETTE,
     CLRT_MATERIAL_MATTE,
@@ -109,14 +113,14 @@ CLRT_API bool clrt_scene_add_sphere(ClrtScene *scene, const double center[3], do
 typedef struct {
     size_t size;
     const double *positions;   // X Y Z per vertex, each below 1e30 in magnitude
-    const float *normals;      // X Y Z per vertex, of any length; 0 0 0 for none; may be NULL
+    const float *normals;      // X Y Z per vertex, of any length; 0 0 0: missing; may be NULL
     const uint32_t *triangles; // three vertex indices per triangle, from 0
     size_t vertex_count, triangle_count; // each at most 2147483647
     uint32_t material;
-    bool two_sided; // also visible from behind
-    bool flat;      // ignores the normals
-    bool smooth;    // computes the normals that are missing, as `normals smooth` in scene files
-    double crease_degrees; // of smooth: larger angles stay sharp; in [0, 180]; 0 means 33
+    bool two_sided;        // also visible from behind
+    bool flat;             // ignores the normals
+    bool smooth;           // computes missing normals, like `normals smooth` in scene files
+    double crease_degrees; // for smooth: larger angles stay sharp; in [0, 180]; 0 means 33
 } ClrtMesh;
 
 CLRT_API bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtError *error);
@@ -135,14 +139,13 @@ typedef struct {
     double eye[3], look_at[3];
     double up[3];         // 0 0 0 selects 0 0 1
     double fov_degrees;   // vertical, in [1e-6, 179.9999]
-    double width_degrees; // at least this wide in narrow pictures, in [0, 179.9999]
+    double width_degrees; // least horizontal angle of narrow pictures, in [0, 179.9999]
 } ClrtCamera;
 
 // Appends a view to the scene.
 CLRT_API bool clrt_scene_add_camera(ClrtScene *scene, const ClrtCamera *camera, ClrtError *error);
 
-// Describes a view of the scene, from 1, in the first camera->size bytes of *camera. The caller
-// sets camera->size.
+// Stores a view of the scene in *camera. Views are numbered from 1.
 CLRT_API bool clrt_scene_get_camera(const ClrtScene *scene, uint32_t view, ClrtCamera *camera,
                                     ClrtError *error);
 
@@ -162,7 +165,7 @@ typedef struct {
     uint64_t dropped_triangle_count; // triangles dropped for two corners at one position
 } ClrtSceneInfo;
 
-// Describes the scene in the first info->size bytes of *info. The caller sets info->size.
+// Stores facts about the scene in *info.
 CLRT_API bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError *error);
 
 // Devices
@@ -176,7 +179,7 @@ typedef struct {
     uint32_t compute_units;
     uint64_t largest_allocation; // bytes
     bool fp64;                   // has double arithmetic
-    bool correctly_rounded;      // offers division and square roots with the same bits as others
+    bool correctly_rounded;      // can round division and square root correctly
     bool denormals;              // keeps floats below 2^-126
     bool fma;                    // calculates fma in hardware
 } ClrtDevice;
@@ -184,8 +187,7 @@ typedef struct {
 // Stores the number of OpenCL devices, at most 64. Fails if there are none.
 CLRT_API bool clrt_device_count(uint32_t *count, ClrtError *error);
 
-// Describes a device, from 0, in the first device->size bytes of *device. The caller sets
-// device->size.
+// Stores facts about a device in *device. Devices are numbered from 0.
 CLRT_API bool clrt_device_get(uint32_t number, ClrtDevice *device, ClrtError *error);
 
 // Renderers
@@ -196,11 +198,11 @@ typedef enum { CLRT_FP32, CLRT_FP64 } ClrtPrecision;
 typedef enum {
     CLRT_KERNEL_AUTO,
     CLRT_KERNEL_PAIR,  // single rays through nodes of two children
-    CLRT_KERNEL_WIDE,  // single rays through nodes of eight
-    CLRT_KERNEL_PACKET // packets of rays through nodes of eight
+    CLRT_KERNEL_WIDE,  // single rays through nodes of eight children
+    CLRT_KERNEL_PACKET // packets of rays through nodes of eight children
 } ClrtKernel;
 typedef enum {
-    CLRT_SPECIALIZE_AUTO, // if compiled already, or if it saves more time than compiling takes
+    CLRT_SPECIALIZE_AUTO, // specialized if compiled already, or if that saves time in total
     CLRT_SPECIALIZE_ALWAYS,
     CLRT_SPECIALIZE_NEVER
 } ClrtSpecialize;
@@ -213,35 +215,35 @@ typedef enum {
 
 typedef struct {
     size_t size;
-    // As `clrt --device`: PLATFORM:DEVICE, a type (cpu, gpu, accelerator, all) or part of a name.
-    // NULL selects the first GPU or, without a GPU, the first device.
+    // PLATFORM:DEVICE, a type (cpu, gpu, accelerator, all) or part of a name, as for `clrt
+    // --device`. NULL selects the first GPU or, without a GPU, the first device.
     const char *device;
-    uint32_t threads; // that build trees and refine pictures; 0: as many as the process may use
-    ClrtPrecision precision; // of the arithmetic; error goals below 1.6e-4 need fp64
+    uint32_t threads; // for building trees and refining pictures; 0: all that the process may use
+    ClrtPrecision precision; // error goals below 1.6e-4 need CLRT_FP64
 
     // For experiments. These settings change no bit of a picture.
     ClrtKernel kernel;
-    uint32_t lanes; // width of vectors for CLRT_KERNEL_WIDE or _PACKET: 4, 8 or 16; 0: the device's
+    uint32_t lanes; // vector width of CLRT_KERNEL_WIDE or _PACKET: 4, 8 or 16; 0: the device's
     ClrtSpecialize specialize;
     ClrtTree tree;
-    uint32_t group_width, group_height; // of work-groups, each at most 1024; 0: 8 x 8, wide 2 x 2
+    uint32_t group_width, group_height; // of work-groups, at most 1024; 0: 8 (pair) or 2 (others)
 } ClrtSettings;
 
 // Opens an OpenCL device and compiles the kernels, which takes seconds unless they are cached.
 // settings may be NULL.
 //
-// The driver sets the number of threads that draw on a CPU device. To limit PoCL's threads, the
-// program sets POCL_MAX_PTHREAD_COUNT (later versions: POCL_CPU_MAX_CU_COUNT) before PoCL's first
-// call.
+// On a CPU device, the driver chooses the number of threads that draw. To limit PoCL's threads, a
+// program sets the environment variable POCL_MAX_PTHREAD_COUNT (in later versions
+// POCL_CPU_MAX_CU_COUNT) before the first OpenCL call.
 //
-// This call and the functions above for devices read environment variables, and PoCL sets some in
-// its first call. Other threads of the program must not use the environment meanwhile, because most
-// versions of getenv and setenv do not allow it. No other function uses the environment.
+// This call, clrt_device_count and clrt_device_get read environment variables, and PoCL sets some
+// in its first call. During these calls, other threads must not use the environment, because most
+// versions of getenv and setenv are not thread-safe. No other function uses the environment.
 //
-// The library stores compiled kernels with checksums in clrt, a subfolder of $POCL_CACHE_DIR,
-// $XDG_CACHE_HOME or ~/.cache, and compiles damaged ones again. A lock there keeps processes that
-// compile concurrently from losing PoCL's own files. PoCL finds no device unless it can write these
-// files, in $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl.
+// The library stores compiled kernels with checksums in the subfolder clrt of $POCL_CACHE_DIR,
+// $XDG_CACHE_HOME or ~/.cache. It compiles damaged kernels again. PoCL stores files of its own in
+// $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl. If it cannot write them, it finds no
+// device. A lock protects these files while several processes compile.
 CLRT_API ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *error);
 
 // Frees the renderer. Stores its kernels if they are new, which takes up to a second. Accepts NULL.
@@ -249,15 +251,15 @@ CLRT_API void clrt_renderer_free(ClrtRenderer *renderer);
 
 // Pictures
 
-// A function that the calls below call in the caller's thread after every finished tile. It returns
+// The type of a callback that runs in the caller's thread after every finished tile. It returns
 // whether to continue. It must not free the renderer or use it for another call. Channels, and each
-// pass of a goal or reference, may count tiles of their own, so tiles_done may start again.
+// pass of a goal or reference, may count their own tiles, so tiles_done may start again from 1.
 typedef bool ClrtProgress(void *user, uint64_t tiles_done, uint64_t tiles);
 
-// A channel of pixels beside their colors. This struct never grows.
+// A channel: values for each pixel besides its color. Later versions will not extend this struct.
 typedef struct {
     const char *name; // see clrt_channel_get
-    void *values;     // receives components * width * height floats or uint32_t, by pixels
+    void *values;     // receives components * width * height floats or uint32_t, pixel by pixel
 } ClrtChannel;
 
 typedef struct {
@@ -268,22 +270,21 @@ typedef struct {
     char help[192];      // the meaning of the values
 } ClrtChannelInfo;
 
-// Describes a kind of channel, from 0, in the first info->size bytes of *info. The caller sets
-// info->size. The number of kinds is clrt_channel_count().
+// Return the number of kinds of channels, and store facts about one. Kinds are numbered from 0.
 CLRT_API uint32_t clrt_channel_count(void);
 CLRT_API bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError *error);
 
-// The results of a call besides its pixels. Costs cover the colors, not the channels.
+// The results of a call besides its pixels. All counts are those of the colors, not of channels.
 typedef struct {
     size_t size;
     uint32_t width, height; // of the drawn pixels
     uint32_t samples;       // per pixel and axis; 1 with a goal
-    uint32_t max_level;     // at which rays end
-    double truncation;      // bound on the error of every color because rays end there
-    bool goal_missed; // the goal is missed: the error, or the time of the first pass, is larger
-    double error, error_bound; // RMSE of goals: estimated, and with 95 % confidence
+    uint32_t max_level;     // rays of this level see only the background
+    double truncation;      // bound on the error of every color that max_level causes
+    bool goal_missed; // the error is above its goal, or the first pass took longer than `seconds`
+    double error, error_bound; // with a goal: estimate of the RMSE, and its 95 % upper bound
     uint64_t sample_count;     // samples taken
-    uint64_t pixels_open, pixels_repaired, pixels_certified; // of the channel certainty
+    uint64_t pixels_open, pixels_repaired, pixels_certified; // with the channel certainty
     double seconds;                                          // for colors and channels
     bool cached; // an earlier process compiled the kernels
 
@@ -292,30 +293,31 @@ typedef struct {
     uint64_t triangle_tests, box_tests, sphere_tests;
 } ClrtResult;
 
-// The rays of this max_level see only the background.
+// With this max_level, even camera rays see only the background.
 enum { CLRT_LEVEL_NONE = -1 };
 
 // A request for a picture. The zero value draws the scene's first view as `clrt SCENE -o FILE`.
-// At most one of contrast, error and seconds is above 0. They choose the samples, so they exclude
-// samples, a crop, a tile size and the channels boxtests, tritests and certainty.
+// At most one of contrast, error and seconds is above 0: the picture's goal. A goal decides where
+// to take samples, so it excludes `samples`, a crop, a tile size and the channels boxtests,
+// tritests and certainty.
 typedef struct {
     size_t size;
     uint32_t width, height;                      // in pixels, each at most 131072; 0: the scene's
     uint32_t left, top, crop_width, crop_height; // draws only this rectangle; 0, 0, 0, 0: all
     uint32_t view;                               // number of the scene's view, from 1; 0 means 1
     const ClrtCamera *camera;                    // used instead of view; may be NULL
-    double turn_degrees; // turns the eye about the point looked at, as --turntable
+    double turn_degrees;                         // turns the eye as --turntable does
 
-    uint32_t samples; // N for N x N samples per pixel, at most 64; 0: 3 for mesh files, otherwise 1
-    double contrast;  // adds samples until neighbors differ by at most this; at most 1
-    double error;     // adds samples until the RMSE is at most this; at most 1
-    double seconds;   // adds samples for this time; at most 1e6
+    uint32_t samples;  // N: N x N samples per pixel; at most 64; 0: 3 for mesh files, otherwise 1
+    double contrast;   // adds samples until neighbors differ by at most this; at most 1
+    double error;      // adds samples until the RMSE is at most this; at most 1
+    double seconds;    // adds samples for this time; at most 1e6
     int32_t max_level; // rays of this level see the background; at most 1000; 0: the scene's, or
                        // chosen by error; CLRT_LEVEL_NONE: camera rays see the background
     double truncation; // if above 0: the smallest max_level whose error is at most this
-    uint32_t reference_samples; // of clrt_reference, per pixel: even, at most 65536; 0: 256
+    uint32_t reference_samples; // per pixel of clrt_reference; even, at most 65536; 0 means 256
 
-    uint32_t tile_width, tile_height; // the steps of progress, which change no bit; 0: 128
+    uint32_t tile_width, tile_height; // the unit of progress; changes no bit; 0 means 128
     bool statistics;                  // counts rays and tests
     ClrtProgress *progress;           // may be NULL
     void *user;                       // passed to progress
@@ -323,40 +325,43 @@ typedef struct {
     // Outputs besides the colors.
     const ClrtChannel *channels; // channel_count elements with different names
     uint32_t channel_count;
-    ClrtResult *result; // may be NULL; the caller sets result->size
+    ClrtResult *result; // filled if not NULL
 } ClrtPicture;
 
 // Draws the scene into rgb, an array of 3 * width * height floats: R G B in [0, 1], top row first.
-// With a crop, width and height are the crop's. Unless the renderer's previous picture shows the
-// same unchanged scene, the call also builds a tree. A new size or camera needs none. Returns false
-// with CLRT_STOPPED if progress stops the picture before its last tile. Then, or if the device
-// fails, rgb contains complete tiles, and its other values are unchanged; pictures with a goal
-// leave rgb undefined. The channel certainty replaces the colors of pixels repaired in fp64.
+// With a crop, width and height are the crop's. The channel certainty replaces the colors of pixels
+// repaired in fp64. The first picture of a new or changed scene also builds a tree. Later pictures
+// reuse the tree, even with another size or camera.
+//
+// Returns false with CLRT_STOPPED if progress stops the picture before its last tile. If the
+// picture is stopped or the device fails, rgb contains complete tiles, and its other values are
+// unchanged. With a goal, rgb is then undefined.
 CLRT_API bool clrt_render(ClrtRenderer *renderer, const ClrtScene *scene,
                           const ClrtPicture *picture, float *rgb, ClrtError *error);
 
-// Draws the reference of the picture: the same picture with picture->reference_samples samples per
-// pixel and the accuracy of fp64. result->error is the reference's own RMSE. Takes no channels.
+// Draws the reference of a picture: the same picture with picture->reference_samples samples per
+// pixel and the accuracy of fp64. Stores the reference's own estimated RMSE in result->error. The
+// request must have no channels.
 CLRT_API bool clrt_reference(ClrtRenderer *renderer, const ClrtScene *scene,
                              const ClrtPicture *picture, float *rgb, ClrtError *error);
 
-// Writes 32 hexadecimal digits and a zero, which identify a picture's size and exact bits, as
-// `clrt --hash`.
+// Writes the hash that `clrt --hash` prints: 32 hexadecimal digits and a zero. It identifies the
+// picture's size and exact bits.
 CLRT_API void clrt_hash(const float *rgb, uint32_t width, uint32_t height, char hash[33]);
 
 // Rays
 
-// The number of no primitive, mesh or triangle.
+// This value stands for no primitive, mesh or triangle.
 #define CLRT_NOTHING 0xffffffffu
 
-// Rays origin + t * direction. A ray hits primitives at t in [near, far], from both sides unless
-// one_sided is set. Rays whose numbers are not finite, or whose direction is shorter than 1e-300 or
-// longer than 1e300, hit nothing.
+// Rays origin + t * direction. A ray hits primitives at t in [near, far]. It hits triangles from
+// both sides, unless one_sided is set. Rays whose numbers are not finite, or whose direction is
+// shorter than 1e-300 or longer than 1e300, hit nothing.
 //
-// A ray that starts on a primitive does not hit it again, except a sphere from inside. It passes
-// neighbors from which its start differs only by rounding. Its near must be 0 (or nears NULL) for
-// that; with another, it only skips the primitive. clrt moves the start onto the triangle's plane.
-// The call fails if the start is farther than 2^-15 from the plane, in the units of clrt_trace.
+// `starts` names the primitive on which each ray starts. The ray does not hit this primitive again,
+// except a sphere from inside. If the ray's near is 0, clrt also moves its origin onto the plane of
+// the triangle, and the ray passes neighbors that touch its origin within rounding. The call then
+// fails if the origin is farther than 2^-15 from the plane, in the units of clrt_trace.
 typedef struct {
     size_t size;
     size_t count;
@@ -364,8 +369,8 @@ typedef struct {
     const double *directions;               // X Y Z per ray; NULL means 0 0 1 for all
     size_t origin_stride, direction_stride; // bytes from one ray to the next; 0 means 24
     const double *nears, *fars;             // one per ray; NULL means 0 and INFINITY
-    const uint32_t *starts; // the primitive each ray starts on, or CLRT_NOTHING; may be NULL
-    bool one_sided;         // rays pass through the backs of triangles that are not two-sided
+    const uint32_t *starts; // ids as in ClrtHits::primitives, or CLRT_NOTHING; may be NULL
+    bool one_sided;         // rays pass through the backs of triangles that are not two_sided
     ClrtProgress *progress; // counts parts of up to 16384 rays; may be NULL
     void *user;             // passed to progress
 } ClrtRays;
@@ -374,42 +379,42 @@ typedef struct {
 typedef struct {
     size_t size;
     double *distances;    // t of the hit, INFINITY without one
-    uint32_t *primitives; // id: spheres in order, then triangles in order; or CLRT_NOTHING
-    uint32_t *meshes;     // number of the mesh, in order from 0; CLRT_NOTHING for spheres
+    uint32_t *primitives; // ids: first all spheres, then all triangles; CLRT_NOTHING: no hit
+    uint32_t *meshes;     // number of the mesh, from 0; CLRT_NOTHING for spheres
     uint32_t *triangles;  // number of the triangle in its mesh, from 0; CLRT_NOTHING for spheres
     double *weights;      // two per ray: of the triangle's second and third corner; 0 0 for spheres
-    double *normals;      // three per ray: the unit normal of the face's front; 0 0 0 without a hit
+    double *normals;      // of the face's front, with length 1: three per ray; 0 0 0: no hit
     uint8_t *fronts;      // 1 if the ray comes from the front
 
     // Only for clrt_trace_all.
-    uint32_t *counts; // number of triangles that the ray crosses; may be above room
-    size_t room;      // entries for each ray in the other arrays, at most 1048576
+    uint32_t *counts; // number of triangles that the ray crosses, which may exceed room
+    size_t room;      // entries per ray in the other arrays, at most 1048576
 } ClrtHits;
 
-// Finds each ray's nearest hit. Equal distances go to the lowest id. The results depend only on the
-// ray and on the scene, not on the batch, the threads or the device. A ray through an edge or
-// vertex of a closed mesh hits it.
+// Finds each ray's nearest hit. At equal distances, the lowest id counts. A ray's results depend
+// only on the ray and the scene, and not on the batch, the threads or the device. A ray through an
+// edge or vertex of a closed mesh hits the mesh.
 //
-// This is exact for the scene as it is traced. clrt centers the scene in double precision, scales
-// it by a power of two so that the longest side of the box around all triangles is in [1, 2), and
-// rounds coordinates to float. Origins more than 4 from the box's center first move along the ray
-// to within 4, unless the scene has spheres. In these units, a distance is off by at most 18 *
-// 2^-24 times the distance of the triangle's farthest corner from the origin, along the longest
-// axis of the direction.
+// These statements are exact for the scene in the units in which clrt traces it. clrt centers the
+// scene in double precision, scales it by a power of two so that the longest side of the box around
+// all triangles is in [1, 2), and rounds coordinates to float. If an origin has a coordinate above
+// 4 and the scene has no spheres, the origin first moves along the ray toward the box. In these
+// units, the error of a distance is at most 18 * 2^-24 times the distance of the triangle's
+// farthest corner from the origin, measured along the longest axis of the direction.
 CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                          const ClrtHits *hits, ClrtError *error);
 
-// Finds all triangles that each ray crosses, and stores the nearest hits->room of them, by distance
-// and then by id. Results of ray i start at entry i * room; CLRT_NOTHING fills unused entries. A
-// ray through an edge or vertex of a closed mesh crosses it in one triangle, or in none or two
-// where it only touches a ridge. A ray that starts in a triangle crosses it unless `starts` names
-// the triangle. Spheres are not crossed.
+// Finds all triangles that each ray crosses, and stores the nearest hits->room of them, ordered by
+// distance and then by id. The results of ray i start at entry i * room. CLRT_NOTHING fills unused
+// entries. A ray that enters or leaves a closed mesh through an edge or vertex crosses one triangle
+// there. A ray that only touches a ridge crosses none or two. A ray whose origin is in a triangle
+// crosses the triangle, unless `starts` names it. Spheres are ignored.
 CLRT_API bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                              const ClrtHits *hits, ClrtError *error);
 
-// Stores in inside[i] whether the ray's origin is inside of the meshes: the ray crosses an odd
-// number of triangles. The meshes must be closed. Any direction gives the same result, but for
-// origins within rounding of a surface. NULL for directions is fastest.
+// Stores in inside[i] whether the ray's origin is inside the meshes, which must be closed. An
+// origin is inside if its ray crosses an odd number of triangles. The result does not depend on the
+// direction, except for origins within rounding of a surface. Directions of NULL are fastest.
 CLRT_API bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                             uint8_t *inside, ClrtError *error);
 
@@ -419,11 +424,11 @@ CLRT_API bool clrt_occluded(ClrtRenderer *renderer, const ClrtScene *scene, cons
 
 // Explanations
 
-// How clrt computes a pixel's color: its samples, their rays, and the lights at the hit points.
+// The computation of a pixel's color: its samples, their rays, and the lights at the hit points.
 typedef struct ClrtExplanation ClrtExplanation;
 
-// Traces the pixel in column pixel[0] and row pixel[1], from 0, as clrt_render does. The picture
-// has no goal and no crop. Its channels are ignored.
+// Explains the pixel in column pixel[0] and row pixel[1], from 0, of the picture that clrt_render
+// draws. The request must have no goal and no crop. Its channels are ignored.
 CLRT_API ClrtExplanation *clrt_explain(ClrtRenderer *renderer, const ClrtScene *scene,
                                        const ClrtPicture *picture, const uint32_t pixel[2],
                                        ClrtError *error);
@@ -448,7 +453,7 @@ typedef struct {
     size_t size;
     double origin[3], direction[3]; // direction has length 1
     double weight;                  // in the sample's color
-    uint32_t primitive;             // as the channel of this name; CLRT_NOTHING: all below is zero
+    uint32_t primitive;             // id of the hit; CLRT_NOTHING: all members below are 0
     uint32_t material;
     double distance, distance_error; // distance_error bounds the error of distance
     double point[3], normal[3];
@@ -475,8 +480,8 @@ typedef struct {
     double specular; // intensity * (normal . half vector) ^ shininess
 } ClrtExplainedLight;
 
-// Describe a part of the explanation in the first `size` bytes of the struct, which the caller
-// sets. place contains the numbers, from 0, of the sample, the ray and the light.
+// These functions fill a struct with a part of the explanation. place contains the numbers of the
+// sample, the ray and the light, from 0.
 CLRT_API bool clrt_explanation_get_pixel(const ClrtExplanation *explanation,
                                          ClrtExplainedPixel *pixel, ClrtError *error);
 CLRT_API bool clrt_explanation_get_sample(const ClrtExplanation *explanation, uint32_t place,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words the faults of requests, which the session finds.
+// Checks a request for a picture by the session's rules, and words the messages about faults.
 #include "library/drawing.h"
 
 #include <stdio.h>
@@ -124,8 +124,8 @@ void drawing_end(Drawing *drawing)
     atomic_store(&drawing->renderer->is_busy, false);
 }
 
-// Fails if the caller's camera is too far from the scene. The scene's own cameras have been
-// checked.
+// Fails if the caller's camera is too far from the scene. session_take has checked the scene's own
+// cameras.
 static bool check_distance(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};
@@ -140,12 +140,12 @@ bool drawing_take_scene(Drawing *drawing, ClrtError *error)
            check_distance(drawing, error);
 }
 
-// After the last tile of a pass, only pictures with a goal can still be stopped.
+// A picture without a goal is complete after its last tile, and can then no longer be stopped.
 bool drawing_continues(void *context, const RenderProgress *progress)
 {
     Drawing *drawing = context;
     const ClrtPicture *wanted = &drawing->wanted;
-    if (drawing->is_stopped) // tiles that were under way
+    if (drawing->is_stopped) // this tile was in flight when progress stopped the picture
         return false;
     const bool continues = wanted->progress == NULL ||
                            wanted->progress(wanted->user, progress->tiles_done, progress->tiles);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A call that traces: the caller's request, checked and completed with the scene's defaults.
+// ClrtPicture -> a checked request that the session can draw, with the state of the drawing.
 #pragma once
 
 #include "library/handles.h"
@@ -10,9 +10,9 @@ typedef struct {
     ClrtRenderer *renderer; // the caller's
     const ClrtScene *handle;
     const Scene *scene;
-    ClrtPicture wanted;      // a copy of the caller's
-    AovSet channels;         // of wanted
-    SessionPicture request;  // made from wanted
+    ClrtPicture wanted;      // a copy of the caller's request
+    AovSet channels;         // the channels of wanted
+    SessionPicture request;  // wanted, completed with the scene's defaults
     Framebuffer framebuffer; // borrows the caller's memory
     CertaintyMap certainty;
     PictureResult drawn;
@@ -26,10 +26,11 @@ typedef struct {
 bool drawing_begin(Drawing *drawing, const ClrtPicture *picture, ClrtError *error);
 void drawing_end(Drawing *drawing);
 
-// Compiles the scene if necessary. Fails if it cannot be drawn, or if the camera is too far away.
+// Gives the session the scene. Fails if its coordinates differ too much in size, or if the camera
+// is too far away.
 bool drawing_take_scene(Drawing *drawing, ClrtError *error);
 
-// Calls the caller's progress function. The observer of all passes.
+// The observer of all passes. It calls the caller's progress function.
 bool drawing_continues(void *context, const RenderProgress *progress);
 
 // Returns the number of components of the channel in this row of aov_table.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A pixel of a request -> copies of its samples, rays and lights.
+// A request and a pixel -> the explanation of the pixel. It owns copies of all samples, rays and
+// lights, so callers may read them in any order.
 #include "library/drawing.h"
 
 #include "session/explainer.h"
@@ -8,7 +9,7 @@
 #include <string.h>
 
 struct ClrtExplanation {
-    ARRAY(ExplainedSample) samples; // with rays and lights of their own
+    ARRAY(ExplainedSample) samples; // each owns its rays and lights
     float color[3];
     uint32_t light_count;
 };
@@ -30,7 +31,7 @@ void clrt_explanation_free(ClrtExplanation *explanation)
     free(explanation);
 }
 
-// Copies the lights of a ray, which the explainer overwrites in the next sample.
+// Copies the lights of a ray, because the explainer overwrites them in the next sample.
 static bool keep_lights(ExplainedRay *ray, const ExplainedRay *traced, uint32_t count, Error *cause)
 {
     *ray = *traced;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The inside of a ClrtScene and of a ClrtRenderer.
+// The definitions of ClrtScene and ClrtRenderer, and the checks of callers' arguments.
 #pragma once
 
 #include "base/error.h"
@@ -10,7 +10,8 @@
 
 #include <stdatomic.h>
 
-// The check functions validate the callers' arguments. Other code only asserts its requirements.
+// The check functions validate the callers' arguments. All code below the library only asserts its
+// requirements.
 
 // Fills error unless it is NULL, and returns false.
 __attribute__((format(printf, 3, 4))) bool check_fail(ClrtError *error, ClrtFault fault,
@@ -26,12 +27,12 @@ bool check_number(ClrtError *error, const char *what, double number, double low,
 bool check_vector(ClrtError *error, const char *what, const double vector[3], double most);
 bool check_color(ClrtError *error, const char *what, const double color[3]);
 
-// Copies a struct of clrt.h into copy, which has size bytes. Members that the given struct lacks
-// become zero. Additional members of the given struct must be zero.
+// Copies a struct of clrt.h into copy, which has `size` bytes. If the given struct is shorter, the
+// missing members become zero. If it is longer, its additional members must be zero.
 bool check_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size);
 
-// Copies the members that the given struct has from a filled struct of `size` bytes. check_struct
-// has accepted the given struct.
+// Copies a filled struct of `size` bytes into the given struct, as far as the given struct has its
+// members. check_struct has accepted the given struct.
 void fill_struct(void *given, const void *filled, size_t size);
 
 static inline void copy_vector(double copy[3], Vec3 vector)
@@ -67,6 +68,6 @@ struct ClrtRenderer {
     uint64_t state;      // ClrtScene::state of the session's scene; 0 without a scene
 };
 
-// Gives the session the scene, unless it already has the scene in this state. The scene is
+// Gives the session the scene, unless the session already has it in this state. The scene is
 // compiled when a picture is drawn or rays are cast.
 bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Renderer, scene and the caller's request -> the caller's pixels, channels and results.
+// Implements clrt_render and clrt_reference. The session draws into the caller's pixels, and this
+// file copies channels and results to the caller.
 #include "library/drawing.h"
 
 #include "base/clock.h"
@@ -19,7 +20,7 @@ static bool draw_colors(Drawing *drawing, ClrtError *error)
            check_fail_for(error, CLRT_DEVICE, &cause);
 }
 
-// Certifies the picture if a channel needs it.
+// Computes the certainty of the pixels if a channel needs it.
 static bool certify(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};

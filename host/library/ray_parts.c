@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Coordinates are normalized. Directions have a largest component in [1, 2).
+// Callers pass rays and read hits in fp64 and in scene coordinates. The device searches in float
+// and in normalized coordinates. A ray's direction is scaled by a power of two until its largest
+// component is in [1, 2), so the device's t stays in float's range. A far origin first advances to
+// a cube around the scene, because rounding it to float would move the ray too far.
+//
+// Invariant: each conversion depends only on the ray and the scene, so a ray has the same hit in
+// every batch.
 #include "library/ray_parts.h"
 
 #include <math.h>
 #include <string.h>
 
-// Half the side of the cube to which far rays advance before they are rounded to float. Rays are
-// far if a coordinate exceeds 2 * CUBE. The scene's triangles are within 1.
+// Half the side of the cube to which far origins advance. An origin is far if a coordinate exceeds
+// 2 * CUBE. The coordinates of all triangles are within 1.
 #define CUBE 2.0
 
-// How far a ray's start may be off the plane of its triangle.
+// The largest distance of a ray's start from the plane of its triangle.
 #define OFF_PLANE 0x1p-15
 
 // Beyond this distance from the frame's origin, rays hit nothing (is_searchable in intersect.cl).
@@ -60,14 +66,14 @@ static double entry_of_axis(double origin, double direction)
     return direction == 0 ? -INFINITY : (-copysign(CUBE, direction) - origin) / direction;
 }
 
-// Returns the t at which the ray enters the cube; below 0 if it starts there or moves away.
+// Returns the t at which the ray enters the cube; below 0 if the ray starts inside or moves away.
 static double cube_entry(Vec3 origin, Vec3 direction)
 {
     return fmax(fmax(entry_of_axis(origin.x, direction.x), entry_of_axis(origin.y, direction.y)),
                 entry_of_axis(origin.z, direction.z));
 }
 
-// An entry of a part, with the frame of its scene.
+// An entry of a part, with the scene's normalization.
 typedef struct {
     RayPart *part;
     const RayScene *scene;
@@ -88,8 +94,8 @@ static double sum_of(Vec3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-// Returns the power of two that scales a size into [1, 2). The sizes are at least 1e-300 and at
-// most 1e300. For a camera's rays, ilogb, scalbn and fmax took 15 % of the call's processor time.
+// Returns the power of two that scales a size from [1e-300, 1e300] into [1, 2). This replaces ilogb
+// and scalbn, which with fmax took 15 % of a call's processor time.
 static double power_to_one(double size)
 {
     uint64_t bits;
@@ -100,7 +106,8 @@ static double power_to_one(double size)
     return power;
 }
 
-// Moves the origin to where the ray enters the cube. Returns the t of this point.
+// Moves the origin to the point where the ray enters the cube. Returns the t of this point, or 0 if
+// the origin stays.
 static double move_to_cube(Vec3 *origin, Vec3 direction)
 {
     const double ahead = cube_entry(*origin, direction);
@@ -110,7 +117,8 @@ static double move_to_cube(Vec3 *origin, Vec3 direction)
     return ahead;
 }
 
-// Converts a ray and returns its origin. A ray that can hit nothing gets a limit below 0.
+// Stores a ray's direction and limit, and returns its normalized origin. A ray that can hit nothing
+// gets a limit below 0.
 static Vec3 convert(const Entry *entry, const GivenRay *given)
 {
     const double largest = largest_of(given->direction);
@@ -134,8 +142,8 @@ static Vec3 convert(const Entry *entry, const GivenRay *given)
     return origin;
 }
 
-// Moves the start of a ray onto the plane of its triangle, by *off along the normal. Returns false
-// if the start is too far away.
+// Moves the start of a ray onto the plane of its triangle. Stores its distance from the plane in
+// *off. Returns false if the distance is too large.
 static bool move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle, double *off)
 {
     const FaceCorners corners = corners_of(&scene->triangles, triangle);
@@ -145,7 +153,8 @@ static bool move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle
     return fabs(*off) <= OFF_PLANE;
 }
 
-// Returns whether the ray starts on the primitive that it names.
+// Returns whether the ray starts on a primitive. If near is not 0, the ray only skips the
+// primitive.
 static bool is_on_surface(const GivenRay *given)
 {
     return given->own != NOTHING && given->near == 0;
@@ -206,8 +215,9 @@ static void store3(double out[3], Vec3 v)
     out[2] = v.z;
 }
 
-// Returns the weights of the second and third corner at the point where the ray's line is in the
-// triangle's plane (Moeller and Trumbore, JGT 2(1) 1997), limited to the triangle.
+// Returns the weights of the second and third corner at the point where the ray's line crosses the
+// triangle's plane (Moeller and Trumbore, JGT 2(1) 1997). If the point is outside the triangle, the
+// weights are moved into it.
 static void weights_at(double weights[2], const FaceCorners *corners, Vec3 origin, Vec3 direction)
 {
     const Vec3 ab = vec3_sub(corners->at[1], corners->at[0]);
@@ -223,7 +233,7 @@ static void weights_at(double weights[2], const FaceCorners *corners, Vec3 origi
     weights[1] = fmin(fmax(third, 0), 1 - weights[0]);
 }
 
-// The surface of a hit, as callers may request it.
+// The properties of a hit's surface that callers may request.
 typedef struct {
     double weights[2];
     Vec3 normal;
@@ -260,7 +270,7 @@ static void store_surface(const ClrtHits *hits, size_t ray, const HitSurface *su
         hits->fronts[ray] = surface->front;
 }
 
-// Stores the mesh of a triangle and the triangle's number in it.
+// Stores the number of a triangle's mesh and the triangle's number in that mesh.
 static void store_place(const ClrtRenderer *renderer, const ClrtHits *hits, size_t ray, uint32_t id)
 {
     const RayScene *rays = &renderer->rays;

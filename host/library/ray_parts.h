@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Converts the rays of clrt.h to the device's, and hits back.
+// ClrtRays -> the device's rays, and the device's hits -> ClrtHits, one part of a batch at a time.
 #pragma once
 
 #include "library/handles.h"
 
-// Rays in one part of a batch.
+// The largest number of rays in a part.
 #define PART_RAYS 16384
 
 // A part of a batch, on its way to the device and back.
 typedef struct {
     RayData rays[PART_RAYS];
-    double starts[PART_RAYS], units[PART_RAYS]; // a hit at t is at starts + t * units of the caller
-    uint32_t order[PART_RAYS];                  // the ray of the part that each entry is for
+    double starts[PART_RAYS], units[PART_RAYS]; // the caller's t = starts + units * the device's t
+    uint32_t order[PART_RAYS];                  // by entry: the ray's number in the part
     size_t first, count;                        // of the batch's rays
 } RayPart;
 
-// Fills part->rays with the rays [first, first + count). The last rays are those that start on
-// primitives; *on_surface receives their number. Fails if a ray cannot start where it says.
+// Fills part->rays with the batch's rays [first, first + count). Rays that start on primitives come
+// last, and *on_surface receives their number. Fails if such a ray's primitive does not exist or is
+// too far from its origin.
 bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *rays,
                    size_t *on_surface, ClrtError *error);
 
-// A hit of an entry of the part, and the place of its results in the caller's arrays.
+// A hit of an entry, and the index of its results in the caller's arrays.
 typedef struct {
     size_t entry, place;
     HitData hit;

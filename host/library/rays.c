@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Batches of rays -> hits, part by part, so that batches of any size need little memory.
+// Implements clrt_trace, clrt_trace_all, clrt_contains and clrt_occluded. A batch of rays is traced
+// part by part, so that batches of any size need little memory.
 #include "library/ray_parts.h"
 
 #include <stdlib.h>
@@ -7,8 +8,8 @@
 // The caller's arrays for results.
 typedef struct {
     ClrtHits hits;
-    uint8_t *occluded, *inside; // NULL for none
-    bool finds_all;             // crossings, not the nearest hits
+    uint8_t *occluded, *inside; // NULL if not requested
+    bool finds_all;             // finds all crossings instead of the nearest hits
 } RayResults;
 
 // A batch that is being traced.

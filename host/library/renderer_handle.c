@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens the device and its kernels for the caller's settings. Later takes the scene to draw.
+// Makes and frees a ClrtRenderer: a session for the caller's settings. A scene is passed to the
+// session when it is first drawn.
 #include "library/handles.h"
 #include "session/request.h"
 
@@ -8,8 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Held by the calls that open drivers. PoCL 3.1 crashes if two threads make the first OpenCL calls
-// concurrently. These calls may change the environment, which cache_open_for_library reads.
+// Locked during calls that open drivers. PoCL 3.1 crashes if two threads make the first OpenCL
+// calls concurrently. These calls may also change the environment while cache_open_for_library
+// reads it.
 static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
 
 static bool make_kernel(Session *session, Error *cause)

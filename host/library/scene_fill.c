@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The caller's numbers -> the materials, spheres, lights and cameras of a scene.
+// The caller's structs and numbers -> the materials, spheres, lights and cameras of a scene.
 #include "base/limits.h"
 #include "library/handles.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ClrtScene is a Scene with a state number. Every change gives the scene a new, higher number.
+// A ClrtScene is a Scene with a state number. Every change gives the scene a higher number, which
+// no other scene has had. Renderers compare the numbers to notice changes.
 #include "base/limits.h"
 #include "library/handles.h"
 
@@ -11,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// No version of the library has a larger struct. Larger sizes come from uninitialized memory.
+// No version of the library has a larger struct. A larger size is therefore an uninitialized
+// member.
 #define LARGEST_STRUCT 4096
 
 bool check_fail(ClrtError *error, ClrtFault fault, const char *format, ...)
@@ -36,7 +38,7 @@ bool check_given(ClrtError *error, const char *what, const void *pointer)
     return pointer != NULL || check_fail(error, CLRT_ARGUMENT, "%s is NULL", what);
 }
 
-// A NaN fails the check.
+// The check also fails for NaN.
 bool check_number(ClrtError *error, const char *what, double number, double low, double high)
 {
     return (number >= low && number <= high) ||
@@ -63,8 +65,8 @@ bool check_color(ClrtError *error, const char *what, const double color[3])
     return check_given(error, what, color) && check_three(error, what, color, 0, 1);
 }
 
-// Returns whether all bytes are zero. Members that this version does not know must be zero, which
-// selects their default.
+// Returns whether all bytes are zero. Members of later versions must be zero, because this version
+// can only apply their defaults.
 static bool is_zero(const unsigned char *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i++)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The caller's arrays -> a mesh of a scene.
+// The caller's arrays -> a mesh of a scene. All arrays are checked and copied.
 #include "base/limits.h"
 #include "library/handles.h"
 #include "mesh/normals.h"
@@ -75,7 +75,7 @@ static bool check_mesh(const ClrtScene *scene, const ClrtMesh *mesh, ClrtError *
            scene_handle_check_material(scene, mesh->material, error);
 }
 
-// Checks the copy, because other threads may change the original.
+// Copies the arrays before it checks them, because other threads may change the originals.
 static bool take_mesh(MeshObject *object, const ClrtMesh *given, ClrtError *error)
 {
     Error cause = {0};
