@@ -7,12 +7,12 @@
 #include <string.h>
 #include <sys/mman.h>
 
-// Devices that read host arrays in place need this alignment for their widest vectors.
+// Devices that read host arrays in place need this alignment for their longest vectors.
 #define ALIGNMENT ((size_t)64)
 
 // Large arrays request huge pages. Rays read a tree's nodes in random order, so with small pages
-// every second read misses the TLB. While a file is loaded, the page faults of small pages also
-// take longer than filling the memory.
+// every second read misses the TLB. In new arrays, the page faults of small pages would also take
+// longer than filling the memory.
 #define HUGE_PAGE ((size_t)1 << 21)
 
 static void *allocate(size_t bytes)

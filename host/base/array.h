@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Growable arrays of any type, such as ARRAY(Light) lights = {0}; array_push(&lights, light,
-// error). The anonymous union lets one growth function serve every type without breaking aliasing
-// rules.
+// Growable arrays of any type. Example: ARRAY(Light) lights = {0}; array_push(&lights, light,
+// error). The anonymous union lets one function grow arrays of every type without breaking C's
+// aliasing rules.
 #pragma once
 
 #include "base/error.h"
@@ -27,13 +27,14 @@ bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, E
                    sizeof *(array)->data, error) &&                                                \
      ((array)->data[(array)->count++] = (item), true))
 
-// Allocate count elements, aligned to 64 bytes. Return NULL and fill Error if memory runs out. The
-// caller frees the result, also for zero elements.
+// Both functions allocate count elements, aligned to 64 bytes. They return NULL and fill Error if
+// memory runs out. The caller frees the result, even if count is 0.
 void *memory_zeroed(size_t count, size_t size, Error *error);
 void *memory_raw(size_t count, size_t size, Error *error);
 
 // Returns a copy of text, which the caller frees, or NULL if memory runs out.
 char *text_copy(const char *text, Error *error);
 
-// Like memory_raw, but for arrays that stay partly unused: no 64-byte alignment, no huge pages.
+// Allocates an array of which parts may stay unused. Unlike memory_raw, this function neither
+// aligns it to 64 bytes nor requests huge pages, so unused parts take no memory.
 void *memory_sparse(size_t count, size_t size, Error *error);

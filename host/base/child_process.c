@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+// Starts a child by posix_spawn, collects its output through a socket, and kills it at a limit.
+//
+// Invariant: a child never outlives child_end. All faults of a child, such as crashes, endless
+// loops or endless output, become a ChildFate in the parent.
 #include "base/child_process.h"
 
 #include "base/array.h"
@@ -17,9 +21,9 @@
 
 #define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
 
-// Returns the environment with which this process was started, or none without /proc. Reading
-// environ would be unsafe, because OpenCL drivers call setenv in other threads. The strings are in
-// bytes. The caller frees both.
+// Returns the environment with which this process was started; an empty one if /proc is missing.
+// Reading environ would be unsafe, because OpenCL drivers call setenv in other threads. The result
+// points into bytes. The caller frees both.
 static char **environment_at_start(File *bytes, Error *cause)
 {
     Error unused = {0};
@@ -60,7 +64,7 @@ static int spawn(pid_t *id, char *const words[], char *const environment[], int 
 
 bool child_spawn(ChildProcess *child, const char *const words[], Error *cause)
 {
-    int ends[2]; // the parent's and the child's
+    int ends[2]; // the parent's end of the socket, and the child's
     pid_t id = 0;
     File bytes;
     *child = (ChildProcess){0};

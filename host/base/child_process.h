@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Child processes run programs that may crash or hang. The parent reads a child's output from a
-// socket, and survives every fault of the child.
+// Runs a program that may crash or hang as a child process. The parent reads the child's output
+// from a socket, and survives every fault of the child.
 #pragma once
 
 #include "base/file.h"
@@ -13,10 +13,10 @@ typedef struct {
     int socket; // to the child
 } ChildProcess;
 
-// Starts the program words[0] with the words before NULL. Its standard output is the socket, and
-// its standard input and error are /dev/null. Its environment is the one with which this process
-// was started. Any thread may call child_spawn, also while others change the environment. On
-// failure, returns false, and *cause receives the reason without a file name.
+// Starts the program words[0] with the words before NULL as arguments. Its standard output is the
+// socket, and its standard input and error are /dev/null. Its environment is the one with which
+// this process was started. Any thread may call child_spawn, even while another thread changes the
+// environment. On failure, returns false and stores the reason without a file name in *cause.
 bool child_spawn(ChildProcess *child, const char *const words[], Error *cause);
 
 // Kills the child and closes the socket. A child that has ended by itself keeps its status.
@@ -30,7 +30,7 @@ typedef struct {
 
 typedef enum {
     CHILD_DONE,
-    CHILD_LATE,    // reached a time limit, its own or the parent's
+    CHILD_LATE,    // reached its own time limit or the parent's
     CHILD_LONG,    // wrote more than ChildLimits allows
     CHILD_LOST,    // the output could not be read
     CHILD_CRASHED, // ended by a signal

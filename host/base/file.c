@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads whole files, because parsers need contiguous bytes.
+// Reads whole files, because parsers need contiguous bytes. Finds companion files of the program.
 #include "base/file.h"
 
 #include "base/array.h"
@@ -12,7 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Pipes report no size, so the buffer grows as bytes arrive. Reads at most one byte more than most.
+// Reads a stream to its end, but at most one byte more than `most`. Pipes report no size, so the
+// buffer grows while bytes arrive.
 static bool read_all(File *file, FILE *stream, size_t expected, size_t most, Error *error)
 {
     void *memory = NULL;
@@ -31,8 +32,8 @@ static bool read_all(File *file, FILE *stream, size_t expected, size_t most, Err
     return ok;
 }
 
-// Fails if a large file has holes. Incomplete downloads have holes, and so have hostile files that
-// claim more bytes than their disk.
+// Fails if a large file has holes. Incomplete downloads have holes. So do hostile files that claim
+// more bytes than their disk has.
 static bool check_holes(int file, off_t size, const char *name, Error *error)
 {
     const off_t start = lseek(file, 0, SEEK_CUR);
@@ -65,7 +66,8 @@ static bool cannot_open(const char *path, Error *error)
     return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
 }
 
-// Rejects devices, which may never end, and folders, whose read errors are less clear.
+// Rejects devices, which may never end. Also rejects folders, because reading one would fail with a
+// less clear message.
 static bool check_kind(const char *path, struct stat *status, Error *error)
 {
     if (stat(path, status) != 0)
@@ -125,7 +127,7 @@ char *file_path_beside(const char *beside, const char *path, Error *error)
     return joined;
 }
 
-// Returns false without /proc. The system resolves links, so the folder is that of the real file.
+// Stores the folder of the running program. Links are resolved. Returns false if /proc is missing.
 static bool own_folder(char folder[PATH_MAX])
 {
     const ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);

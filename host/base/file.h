@@ -13,11 +13,11 @@ typedef struct {
     size_t size;
 } File;
 
-// A pipe or a device may never end, so the functions below read at most this many bytes from it.
+// A pipe may never end, so the functions below read at most this many bytes from it.
 #define FILE_PIPE_MOST ((size_t)512 << 20)
 
-// Reads the regular file or pipe at path. Larger files than FILE_PIPE_MOST must have no holes.
-// Unless memory runs out, the error message names path.
+// Reads the regular file or pipe at path. Fails if a file above FILE_PIPE_MOST bytes has holes. The
+// error message names path, unless memory runs out.
 bool file_read(File *file, const char *path, Error *error);
 
 // Returns whether file_read can open path. If not, the error message is the same as file_read's.
@@ -35,9 +35,9 @@ bool file_has_ending(const char *path, const char *ending);
 // frees the result. Returns NULL if memory runs out.
 char *file_path_beside(const char *beside, const char *path, Error *error);
 
-// Fills path with the path of a companion file of the running program. The file is in the program's
-// own folder, as in a build tree, or else in `folder`, which is relative to the program's folder.
-// Returns false if the system does not report the program's folder, as without /proc. The current
-// folder is no fallback, because it may hold anybody's files.
+// Stores the path of a companion file of the running program. The file is in the program's own
+// folder, as in a build tree, or else in `folder`, which is relative to the program's folder.
+// Returns false if the system does not report the program's folder, because /proc is missing. The
+// current folder would be no safe fallback, because it may contain anybody's files.
 #define COMPANION_PATH_SIZE (2 * PATH_MAX)
 bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *folder);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Identifies an existing file by its device and inode. Identifies a new file by its name and by its
-// folder's device and inode. Sorting makes equal files adjacent, so a million frames are fast.
+// An existing file is identified by its device and inode, and a new file by its name and its
+// folder's device and inode. Links are followed first. Sorting makes equal files adjacent, so a
+// plan of a million frames is checked fast.
 #include "base/file_plan.h"
 
 #include "base/file.h"
@@ -10,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define LINKS_MOST 40 // links in a chain; the system follows no more
+#define LINKS_MOST 40 // links that follow each other; the system follows no more
 
 static void take_identity(PlannedFile *file, const struct stat *status)
 {
@@ -30,8 +31,8 @@ static char *read_link(const char *path, Error *error)
     return file_path_beside(path, target, error);
 }
 
-// Returns the path of the file that writing to path would create: path itself, or the last target
-// of its links. The caller frees the result.
+// Returns the path of the file that a program creates if it writes to path. This is path itself or,
+// if path is a link, the last target of the links. The caller frees the result.
 static char *follow_links(const char *path, Error *error)
 {
     char *end = text_copy(path, error);
@@ -45,7 +46,8 @@ static char *follow_links(const char *path, Error *error)
     return end;
 }
 
-// Identifies a file that does not exist. If its folder is missing, inode stays 0, an unused number.
+// Identifies a file that does not exist. If its folder is missing, inode stays 0, which no file
+// has.
 static bool identify_new(PlannedFile *file, Error *error)
 {
     struct stat status;
@@ -85,7 +87,7 @@ bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *pa
     if (exists)
         take_identity(&file, &status);
     const bool ok = file.path != NULL && (exists || identify_new(&file, error));
-    // A file in a missing folder cannot be written. A later check reports this.
+    // Ignores a file in a missing folder. It cannot be written, which a later check reports.
     if (ok && file.inode != 0 && array_push(&plan->list, file, error))
         return true;
     free_file(&file);
@@ -97,7 +99,7 @@ static int compare_numbers(uint64_t a, uint64_t b)
     return (a > b) - (a < b);
 }
 
-// Returns zero if both are the same file, otherwise a negative or positive order.
+// Compares files for sorting. Returns 0 only if both are the same file.
 static int compare_identity(const PlannedFile *a, const PlannedFile *b)
 {
     const int device = compare_numbers(a->device, b->device);
@@ -107,7 +109,8 @@ static int compare_identity(const PlannedFile *a, const PlannedFile *b)
     return strcmp(a->name != NULL ? a->name : "", b->name != NULL ? b->name : "");
 }
 
-// Orders files by identity, then inputs before outputs, then in the order of addition.
+// Orders files by identity. Of one file's entries, inputs come before outputs. Otherwise, entries
+// stay in the order in which they were added.
 static int compare_files(const void *one, const void *other)
 {
     const PlannedFile *a = *(const PlannedFile *const *)one,

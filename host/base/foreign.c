@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds and runs clrt-foreign, and limits its time and the size of its output. clrt-foreign itself
-// limits its other resources.
+// Finds and runs clrt-foreign, and limits its time and the size of its output. clrt-foreign limits
+// its memory by itself (host/foreign/limits.c).
 #include "base/foreign.h"
 
 #include <dlfcn.h>
@@ -13,7 +13,7 @@ static const char library_place[] = "";
 static bool name_beside_library(char path[COMPANION_PATH_SIZE])
 {
     Dl_info own;
-    // The path of a program may be relative, and the current folder may hold anybody's files.
+    // Rejects a relative path, because the current folder may contain anybody's files.
     if (dladdr(library_place, &own) == 0 || own.dli_fname[0] != '/')
         return false;
     const int length = (int)(strrchr(own.dli_fname, '/') - own.dli_fname);
@@ -21,8 +21,9 @@ static bool name_beside_library(char path[COMPANION_PATH_SIZE])
     return true;
 }
 
-// Other programs that use clrt's library find clrt-foreign beside the library, as in a Python
-// package, or in the configured installation folder.
+// Searches the folder of the running program first. Other programs that use clrt's library find
+// clrt-foreign beside the library, as in a Python package, or in the configured installation
+// folder.
 static bool find_program(char path[COMPANION_PATH_SIZE], Error *cause)
 {
     if ((file_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER) && access(path, X_OK) == 0) ||

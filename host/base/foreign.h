@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Runs clrt-foreign, the program that reads files with Assimp and OpenImageIO. Hostile files can
-// crash these libraries, so clrt-foreign has limited time, memory and file size, and clrt checks
-// every byte of its output. These limits do not confine a library that a file has taken over. The
-// output is a sequence of records, each a head and data. If clrt-foreign crashes, hangs or exhausts
-// memory, clrt prints one error message.
+// crash these libraries. A separate process with limits on time and memory keeps such crashes out
+// of clrt: if clrt-foreign crashes, hangs or exhausts its memory, the read fails with one error
+// message. The limits do not confine a library that a file has taken over.
+//
+// The output of clrt-foreign is a sequence of records. Each consists of a ForeignHead and data.
+//
+// Invariant: clrt trusts no byte of the output. Readers check every size, index and number in it
+// before they use it.
 #pragma once
 
 #include "base/child_process.h"
@@ -17,7 +21,7 @@ typedef enum {
     FOREIGN_NOTE,     // a message about omitted parts
     FOREIGN_PICTURE,  // a StoredImage and its values
     FOREIGN_FAILURE,  // the reason why there is no model or picture; the last record
-    FOREIGN_END       // no bytes; the last record of a complete stream
+    FOREIGN_END       // no data; the last record of a complete stream
 } ForeignKind;
 
 typedef struct {
@@ -31,11 +35,12 @@ typedef struct {
     ChildLimits limits;
 } ForeignReader;
 
-// Replaces all but printable ASCII, because a terminal could interpret other characters.
+// Replaces all characters that are not printable ASCII, because a terminal could interpret them.
 void foreign_make_printable(char *text, size_t size, char substitute);
 
-// Runs clrt-foreign with up to FOREIGN_WORDS words, the rest being NULL, and collects its output.
-// On failure returns false and the reason without the name of the file. The caller frees stream.
+// Runs clrt-foreign with the arguments in words, of which the last ones may be NULL, and collects
+// its output. On failure, returns false and stores the reason in *cause, without the name of the
+// file. The caller frees stream.
 #define FOREIGN_WORDS 3
 bool foreign_run(File *stream, const ForeignReader *reader, const char *const words[FOREIGN_WORDS],
                  Error *cause);

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Converts decimal text to int64_t or to a correctly rounded double, in every locale. Up to 19
-// digits fit in a 64-bit integer. If that integer and the power of ten are exact doubles, one
-// multiplication or division rounds once and is correct (William D. Clinger, "How to Read Floating
-// Point Numbers Accurately", PLDI 1990). For powers from 10^-27 to 10^27, 128-bit integers hold
-// enough of the result, and only the conversion to double rounds. All other numbers are rewritten
-// as DIGITSeEXPONENT for strtod. No locale misreads this form, because it has no decimal point.
+// Converts decimal text to int64_t or to a correctly rounded double, in every locale. The digits
+// are gathered in a 64-bit integer, which holds any 19 digits. One of three ways then applies the
+// power of ten:
+// 1. If the integer and the power are exact doubles, one multiplication or division rounds once and
+// is correct (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990).
+// 2. For powers from 10^-27 to 10^27, 128-bit integers hold enough of the result. Only their
+// conversion to double rounds.
+// 3. All other numbers are rewritten as DIGITSeEXPONENT for strtod. This form has no decimal point,
+// so no locale misreads it.
+//
+// Invariant: the result is the double nearest to the decimal number, and the even one of two
+// equally near doubles. This also holds for numbers of any length.
 #include "base/number.h"
 
 #include <float.h>
@@ -19,7 +25,7 @@ _Static_assert(FLT_EVAL_METHOD == 0, "wider intermediate results would be rounde
 
 #define EXACT_MANTISSA    ((uint64_t)1 << 53)
 #define MANTISSA_DIGITS   19    // any 19 digits fit in 64 bits
-#define SUFFICIENT_DIGITS 800   // 768 digits decide every tie between two doubles
+#define SUFFICIENT_DIGITS 800   // 768 digits suffice to decide every tie between two doubles
 #define EXPONENT_BOUND    10000 // beyond this, the result is infinity or zero
 
 static const double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
@@ -50,7 +56,7 @@ static const char *gather_digits(const char *text, const char *end, uint64_t *ma
     return text;
 }
 
-// Adds the exponent at text, if there is one, to *exponent. Returns where the exponent ends. An "e"
+// Adds the exponent at text, if there is one, to *exponent. Returns the end of the exponent. An "e"
 // without digits is not an exponent.
 static const char *scan_exponent(const char *text, const char *end, int64_t *exponent)
 {
@@ -70,8 +76,9 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
     return stop;
 }
 
-// Returns the integer with the digits from text to end, times ten to the exponent. A single 1
-// replaces all digits after the first SUFFICIENT_DIGITS, unless all of them are zero.
+// Returns the integer with the digits from text to end, times ten to the power of exponent. A
+// single digit 1 replaces all digits after the first SUFFICIENT_DIGITS, unless these digits are all
+// zero.
 static double round_slowly(const char *text, const char *end, int64_t exponent)
 {
     char spelled[SUFFICIENT_DIGITS + 32];
@@ -96,8 +103,8 @@ static double round_slowly(const char *text, const char *end, int64_t exponent)
     return strtod(spelled, NULL);
 }
 
-// Returns mantissa times ten to the exponent, whose absolute value is at most WIDE_POWER. Integer
-// arithmetic applies the power of five. ldexp then applies the power of two without error.
+// Returns mantissa times ten to the power of exponent, which is from -WIDE_POWER to WIDE_POWER.
+// Integer arithmetic applies the power of five. ldexp then applies the power of two without error.
 static double round_widely(uint64_t mantissa, int64_t exponent)
 {
     uint64_t power = 1;
@@ -152,7 +159,7 @@ const char *integer_parse(const char *text, const char *end, int64_t *value)
     bool negative;
     const char *first = skip_sign(text, end, &negative);
     const char *stop = first;
-    int64_t sum = 0; // minus the value, so that INT64_MIN fits
+    int64_t sum = 0; // the negated value, because -INT64_MIN would overflow
     for (; stop < end && is_digit(*stop); stop++) {
         const int digit = *stop - '0';
         if (sum < (INT64_MIN + digit) / 10)

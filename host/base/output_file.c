@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Renaming replaces a file atomically for all readers, even if the process is killed. A temporary
-// file's name contains the start of the system's boot id, because locks on a shared disk may not be
-// visible to other machines.
+// Writes a temporary file beside the final name and renames it at the end. Renaming replaces a file
+// atomically for all readers, even if the process is killed.
+//
+// Killed runs leave temporary files, which later runs remove. A living run keeps its file locked,
+// so a run removes only files that it can lock itself. Other machines may not see these locks on a
+// shared disk. A temporary file's name therefore contains the start of the system's boot id, and on
+// a shared disk a run removes only files with its own id.
 #include "base/output_file.h"
 
 #include "base/array.h"
@@ -32,7 +36,8 @@ static bool is_replaceable(const char *path)
     return strcmp(path, "-") != 0 && (lstat(path, &status) != 0 || S_ISREG(status.st_mode));
 }
 
-// Stores the first digits of the number that the running system got at its start, or zeros.
+// Stores the first digits of the boot id, which the system chooses at random when it starts. Stores
+// zeros if /proc is missing.
 static void read_boot(char digits[BOOT_DIGITS + 1])
 {
     FILE *stream = fopen("/proc/sys/kernel/random/boot_id", "re");
@@ -43,8 +48,9 @@ static void read_boot(char digits[BOOT_DIGITS + 1])
         fclose(stream);
 }
 
-// Locks an open file. Returns false if another process has locked or removed it. On file systems
-// without locks, other runs cannot lock the file either, so they do not remove it.
+// Locks an open file. Returns false if another process has locked or removed it. Returns true on
+// file systems without locks, where other runs cannot lock the file either, and therefore do not
+// remove it.
 static bool take_file(int file)
 {
     struct stat status;
@@ -52,9 +58,9 @@ static bool take_file(int file)
            fstat(file, &status) == 0 && status.st_nlink > 0;
 }
 
-// Creates and locks an empty file with an unused name. suffix points into name and receives the
-// name's end. open gives the file the permissions of other new files; mkstemp would make it
-// private. Returns -1 on failure.
+// Creates and locks an empty file with an unused name. suffix points into name and receives the end
+// of the name. Returns the open file, or -1 on failure. open gives the file the usual permissions,
+// while mkstemp would make it private.
 static int make_file(char *suffix, const char *name)
 {
     char boot[BOOT_DIGITS + 1];
@@ -75,8 +81,8 @@ static int make_file(char *suffix, const char *name)
     return -1;
 }
 
-// Creates a temporary file: if it replaces the file, in the folder of the path, so that it can be
-// renamed, otherwise in the system's temporary folder.
+// Creates the temporary file. A file that will be renamed is in the folder of the final path. A
+// file that will be copied is in the system's temporary folder.
 static bool make_temporary(OutputFile *file, Error *error)
 {
     const char *slash = strrchr(file->path, '/');
@@ -100,8 +106,9 @@ static bool is_temporary(const char *name)
            strspn(name + sizeof PREFIX, "0123456789abcdef") == SUFFIX_SIZE - sizeof PREFIX;
 }
 
-// Removes a temporary file unless a process has locked it. The file stays locked until its name is
-// gone, so that no process that has just created it uses it.
+// Removes a temporary file unless a process has locked it. This process locks the file until its
+// name is gone. A process that has just created the file, but not locked it yet, then notices the
+// removal and creates another.
 static void remove_unlocked(int folder, const char *name)
 {
     const int file = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -179,7 +186,7 @@ static bool copy_file(const char *from, const char *path, Error *cause)
     const bool standard = strcmp(path, "-") == 0;
     FILE *source = fopen(from, "rb");
     FILE *target = standard ? stdout : fopen(path, "wb");
-    // Removes the name before copying, so that nothing remains if the process ends here.
+    // Removes the name before copying, so that no temporary file remains if the process is killed.
     unlink(from);
     const bool ok = source != NULL && target != NULL && stream_copy(source, target);
     if (!ok)
@@ -205,7 +212,7 @@ bool output_file_end(OutputFile *file, bool ok, Error *cause)
     return ok;
 }
 
-// The stream is buffered, so fclose may report the failure.
+// The stream is buffered, so a failure to write may be reported only by fclose.
 bool output_file_write(const char *path, WriteStream *write, void *context, Error *error)
 {
     OutputFile file;

@@ -18,19 +18,19 @@ typedef struct {
 // Creates an empty temporary file. The error message names the path.
 bool output_file_begin(OutputFile *file, const char *path, Error *error);
 
-// If ok, renames or copies the temporary file to its final name; otherwise removes it. Returns
-// false if ok is false or the move fails. If the move fails, cause has the reason without the path.
+// If ok, renames or copies the temporary file to its final name. Otherwise, removes it. Returns
+// false if ok is false, or if renaming or copying fails. In the second case, cause receives the
+// reason without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
 // Creates the file from the bytes that `write` writes to its stream. If `write` fails, it returns
-// false, and cause or errno has the reason. The error message names the path.
+// false with the reason in cause or errno. The error message names the path.
 typedef bool WriteStream(void *context, FILE *stream, Error *cause);
 bool output_file_write(const char *path, WriteStream *write, void *context, Error *error);
 
 // Returns whether path seems writable. Callers check this before long work. Also removes the
-// temporary files that killed runs left in path's folder, and never those of a living run: on a
-// local disk, files that no process has locked; on a disk that machines share, only such files of
-// this machine.
+// temporary files that killed runs left in path's folder. On a disk that machines share, only files
+// of this machine are removed.
 bool output_file_check(const char *path, Error *error);
 
 // Copies the rest of a stream. On failure, errno has the reason.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Queries the system at every call, because affinity and quotas can change while a process runs.
+// Finds the number of processors that the process may use: the affinity mask, limited by the quotas
+// of control groups. Containers use such quotas. Every call queries the system, because affinity
+// and quotas can change while a process runs.
 #include "base/processors.h"
 
 #include <math.h>
@@ -30,8 +32,8 @@ static bool read_numbers(const char *folder, const char *name, int count, double
     return found == count;
 }
 
-// Returns the group's quota in processors, rounded up. A quota of "max" or -1 means no limit and
-// gives UINT32_MAX.
+// Returns the group's quota in processors, rounded up. If the quota is "max" or -1, the group has
+// no limit, and the result is UINT32_MAX.
 static uint32_t group_grant(const char *folder)
 {
     double time[2]; // quota and period
@@ -68,8 +70,8 @@ static bool names_cpu(char *controllers)
     return false;
 }
 
-// Returns the least quota of a version 1 group and its ancestors. The controller is mounted alone,
-// as "cpu", or together with others, as "cpu,cpuacct".
+// Returns the least quota of a version 1 group and its ancestors. The folder of the controller is
+// named "cpu" or, with other controllers, for example "cpu,cpuacct".
 static uint32_t controller_grant(const char *mount, char *controllers, const char *group)
 {
     char folder[PATH_SIZE];
@@ -116,8 +118,8 @@ uint32_t processors_present(void)
     return count > 0 ? (uint32_t)count : 1;
 }
 
-// Returns the number of processors in the affinity mask. sched_getaffinity fails if cpu_set_t is
-// too small for the machine; then all processors count.
+// Returns the number of processors in the affinity mask. If cpu_set_t is too small for the machine,
+// sched_getaffinity fails, and all processors count.
 static uint32_t allowed_processors(void)
 {
     cpu_set_t set;

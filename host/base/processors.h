@@ -6,10 +6,10 @@
 
 uint32_t processors_present(void);
 
-// Returns the number allowed by the calling thread's affinity and by its control groups' quotas.
+// Returns the number of processors that the calling thread's affinity and its control groups allow.
 uint32_t processors_usable(void);
 
-// Returns the least quota of a control group and its ancestors, in processors, rounded up, or
-// UINT32_MAX without a quota. Handles cgroup versions 1 and 2. membership is /proc/self/cgroup and
-// mount is /sys/fs/cgroup, except in tests.
+// Returns the least quota of a control group and its ancestors, in processors, rounded up. Returns
+// UINT32_MAX if there is no quota. Supports cgroup versions 1 and 2. membership is
+// /proc/self/cgroup and mount is /sys/fs/cgroup, except in tests.
 uint32_t cgroup_processors(const char *membership, const char *mount);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Compares the type of a file system with a list of network and cluster file systems.
 #include "base/shared_disk.h"
 
 #include <stddef.h>

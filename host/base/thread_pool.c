@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A thread pool. Each thread_pool_run of several tasks is a generation. Calls often follow each
-// other closely, so idle threads first poll for the next generation and then sleep.
+// Each thread_pool_run of several tasks is a generation. Its workers and the caller's thread take
+// task numbers from a common counter until none is left. The call returns when no worker is busy.
+//
+// Generations often follow each other closely, and waking a thread takes long. Idle workers
+// therefore first poll for the next generation, and then sleep.
 #include "base/thread_pool.h"
 
 #include <pthread.h>
@@ -36,7 +39,7 @@ static void take_tasks(ThreadPool *pool)
     }
 }
 
-// Waits for the generation after `known` and returns its number.
+// Waits until the generation is not `known` any more, and returns its number.
 static uint32_t await_generation(ThreadPool *pool, uint32_t known)
 {
     for (int look = 0; look < LOOKS_FOR_WORK; look++) {

@@ -10,8 +10,9 @@ typedef struct ThreadPool ThreadPool;
 // Runs one task.
 typedef void ThreadPoolWork(void *context, uint32_t task);
 
-// Opens a pool of up to `threads` threads, including the caller's. The system may grant fewer. NULL
-// is a valid pool that consists of the caller's thread alone.
+// Opens a pool of up to `threads` threads, including the caller's thread. The pool has fewer
+// threads if the system cannot start them. NULL is a valid pool that consists of the caller's
+// thread alone.
 ThreadPool *thread_pool_open(uint32_t threads);
 void thread_pool_close(ThreadPool *pool);
 
@@ -22,8 +23,8 @@ void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, voi
 // Processes elements first to end - 1.
 typedef void ThreadPoolPart(void *context, uint32_t first, uint32_t end);
 
-// Calls `work` for ranges of `part` elements, as thread_pool_run does for tasks. The ranges cover
-// elements 0 to count - 1. The last range may be shorter.
+// Divides elements 0 to count - 1 into ranges of `part` elements, of which the last may be shorter.
+// Calls `work` for each range, as thread_pool_run does for tasks.
 void thread_pool_share(ThreadPool *pool, uint32_t count, uint32_t part, ThreadPoolPart *work,
                        void *context);
 

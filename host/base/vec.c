@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sine and cosine reduce the angle to at most 45 degrees, without error. The arctangent halves its
-// angle twice, to at most 11.25 degrees. All omitted Taylor terms are below 2^-55.
+// Sine, cosine and arctangent by Taylor polynomials. Sine and cosine first reduce the angle to at
+// most 45 degrees, without error. The arctangent halves its angle twice, to at most 11.25 degrees.
+// All omitted Taylor terms are below 2^-55.
 #include "base/vec.h"
 
 #include <math.h>
@@ -36,7 +37,8 @@ static double cosine_series(double x)
     return 1.0 + s * sum;
 }
 
-// Returns the sine of degrees + 90 * quarters. The quarter turns add no error.
+// Returns the sine of degrees + 90 * quarters. The sum is never rounded, because it only selects a
+// polynomial and a sign.
 static double sine_ahead(double degrees, int quarters)
 {
     const double turns = rint(degrees / 90.0);
@@ -63,7 +65,7 @@ double cosine_of_degrees(double degrees)
     return sine_ahead(degrees, 1);
 }
 
-// tan(angle / 2) = |a - b| / |a + b|.
+// Uses tan(angle / 2) = |a - b| / |a + b|, which is accurate for all angles.
 double angle_between(Vec3 a, Vec3 b)
 {
     const Vec3 difference = vec3_sub(a, b), sum = vec3_add(a, b);

@@ -56,8 +56,8 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Return the minimum or maximum per component of vectors without NaN. fmin and fmax would be
-// function calls.
+// Return the minimum or maximum of each component. The vectors must not contain NaN. fmin and fmax
+// would be function calls.
 static inline Vec3 vec3_lower(Vec3 a, Vec3 b)
 {
     return (Vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
@@ -89,12 +89,11 @@ static inline Vec3 vec3_normalize(Vec3 a)
     return vec3_scale(unit, 1 / sqrt(vec3_dot(unit, unit)));
 }
 
-// Return the sine and cosine of degrees, which must be below 1e9 in magnitude. Accurate within 2
-// ulp; exact at multiples of 90. The polynomials are fixed, because the last bits of the C
-// library's sine differ between processors with and without fma, and would change the camera.
+// Return the sine and cosine of degrees, which must be below 1e9 in magnitude. The error is at most
+// 2 ulp, and results at multiples of 90 are exact. They replace the C library's functions, whose
+// last bits differ between processors with and without fma and would change the camera.
 double sine_of_degrees(double degrees);
 double cosine_of_degrees(double degrees);
 
-// Returns the angle between vectors of length 1, in radians, by a fixed series. Accurate within
-// 2^-48.
+// Returns the angle between vectors of length 1, in radians. The error is at most 2^-48.
 double angle_between(Vec3 a, Vec3 b);

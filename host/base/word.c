@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes edit distances with one row of the classic table (Wagner and Fischer 1974).
+// Computes edit distances row by row (Wagner and Fischer, "The string-to-string correction
+// problem", 1974). Only one row of the table is kept.
 #include "base/word.h"
 
 #include <string.h>
