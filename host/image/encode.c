@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rounds to the nearest byte. Truncation would double the largest error.
+// Colors as floats -> bytes. Rounds to the nearest byte, because truncation would double the
+// largest error.
 #include "image/image_file.h"
 
 #include <math.h>

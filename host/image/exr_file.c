@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// OpenEXRCore parses the file. A tile with ZIP compression ends with the Adler-32 checksum of its
-// uncompressed bytes, which libdeflate verifies in half the time of zlib.
+// Reads and checks the tiles of an EXR file. OpenEXRCore parses the file and decodes tiles. A tile
+// with ZIP compression ends with the Adler-32 checksum of its uncompressed bytes. libdeflate
+// verifies it in half the time of zlib.
 #include "image/exr_file.h"
 
 #include <errno.h>
@@ -87,7 +88,8 @@ static int64_t query_size(exr_const_context_t context, void *user)
     return fstat(fileno(file->stream), &status) == 0 ? (int64_t)status.st_size : -1;
 }
 
-// clrt writes at most 10 KB, and OpenEXRCore takes quadratic time for many attributes.
+// The largest header that is read. clrt writes headers of at most 10 KB. OpenEXRCore would take
+// quadratic time for many attributes.
 #define HEADER_MOST 65536
 
 static exr_result_t start(ExrFile *file, const char *path)

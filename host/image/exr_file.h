@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads tiled OpenEXR files that clrt wrote: their texts, and each tile, compressed or as values.
-// Also writes the header of such files. Tiles may be missing. A file may be larger than the memory.
-// Threads may share an open file.
+// Reads tiled OpenEXR files that clrt wrote: their texts, and each tile as compressed bytes or as
+// values. Tiles may be missing, and a file may be larger than the memory. Threads may share an open
+// file. The file also writes the header of such files.
 #pragma once
 
 #include "image/image_file.h"
@@ -22,7 +22,7 @@ typedef struct {
     uint32_t tile_width, tile_height, tile_count;
 } ExrFile;
 
-// Opens a tiled EXR file. If this fails, returns false with a message that names path. The caller
+// Opens a tiled EXR file. On failure, returns false with a message that names path. The caller
 // closes the file in both cases.
 bool exr_file_open(ExrFile *file, const char *path, Error *error);
 void exr_file_close(ExrFile *file);
@@ -31,19 +31,21 @@ void exr_file_close(ExrFile *file);
 // the end of the file, or has fewer bytes than its pixels need.
 bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk_info_t *tile);
 
-// Reads tile->packed_size compressed bytes and checks them. scratch needs tile->unpacked_size
-// bytes. Returns false if the tile is damaged. Tiles stored without compression have no checksum.
+// Reads tile->packed_size compressed bytes and verifies their checksum. Tiles stored without
+// compression have none. scratch has room for tile->unpacked_size bytes. Returns false if the tile
+// is damaged.
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
                    unsigned char *scratch);
 
-// Copies the values of a tile into framebuffer and layers, where the tile's upper left pixel is at
-// position. Skips channels that both lack. Returns false if the tile is damaged.
+// Copies the values of a tile into framebuffer and layers. position is the place of the tile's
+// upper left pixel in both. Skips channels that neither has. Returns false if the tile is damaged.
 bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const Framebuffer *framebuffer, const Layers *layers,
                      const size_t position[2]);
 
-// Points the channels of a tile to their values in framebuffer and layers, where the tile's upper
-// left pixel is at position. layers may be NULL. Channels that both lack keep their pointers.
+// Sets the pointers of a tile's channels to their values in framebuffer and layers. position is the
+// place of the tile's upper left pixel in both. layers may be NULL. Channels that neither has keep
+// their pointers.
 void exr_place_channels(exr_coding_channel_info_t *channels, int count,
                         const Framebuffer *framebuffer, const Layers *layers,
                         const size_t position[2]);
@@ -55,9 +57,9 @@ typedef struct {
 
 ExrTileHead exr_tile_head(const exr_chunk_info_t *tile, uint64_t size);
 
-// Writes the header of a picture of this size, also if the file gets only the tiles of a part. The
-// caller then writes the table of the tiles' positions and the tiles. Returns false if writing
-// fails. The caller ends the context with exr_finish in both cases.
+// Writes the header of a whole picture of this size, even if the file will contain only the tiles
+// of a part. The caller then writes the table of the tiles' positions and the tiles. Returns false
+// if writing fails. The caller ends the context with exr_finish in both cases.
 bool exr_file_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
                     uint32_t height, FILE *stream);
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
-// OpenEXRCore writes the header and compresses the tiles. It cannot omit the tiles that a part
-// lacks, so the code here writes the table of tiles and the tiles.
+// Writes a picture as a tiled EXR file. A part of a picture has the header and the table of the
+// whole picture, but only its own tiles. clrt merge can then copy tiles without decoding them.
+//
+// OpenEXRCore writes the header and compresses the tiles, but it cannot omit tiles. The code here
+// therefore writes the table and the tiles itself. Threads compress tiles concurrently and write
+// them one after another, in the order of their numbers, so equal pictures give equal files.
 #include "base/processors.h"
 #include "base/thread_pool.h"
 #include "image/exr_file.h"
@@ -94,7 +98,7 @@ typedef struct {
     atomic_bool has_failed;
 } TileWriter;
 
-// Finds a tile, and the position of its pixels in the framebuffer.
+// Computes the column and row of a tile, and the position of its pixels in the framebuffer.
 static bool find_tile(const TileWriter *writer, uint32_t number, exr_chunk_info_t *tile,
                       size_t position[2])
 {
@@ -123,7 +127,8 @@ static bool encode(const TileWriter *writer, const size_t position[2],
     encoder->yield_until_ready_fn = encoder->write_fn = NULL;
     if (exr_encoding_run(writer->context, 0, encoder) != EXR_ERR_SUCCESS)
         return false;
-    // If both sizes agree, readers expect uncompressed bytes, but OpenEXRCore 3.1 compresses them.
+    // If both sizes are equal, readers expect uncompressed bytes. OpenEXRCore 3.1 compresses them
+    // nevertheless.
     if (encoder->compressed_bytes == encoder->packed_bytes)
         memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
     return true;
@@ -137,7 +142,7 @@ static bool write_tile(const TileWriter *writer, const exr_encode_pipeline_t *en
            fwrite(encoder->compressed_buffer, encoder->compressed_bytes, 1, writer->stream) == 1;
 }
 
-// Compresses a tile while other threads compress others, and writes the tile in its turn.
+// Compresses a tile, waits until all tiles before it are written, and writes it.
 static void run_tile(void *context, uint32_t number)
 {
     TileWriter *writer = context;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory and hash of a picture, and memory of its channels.
+// Allocates and frees pictures and their channels, and computes a picture's hash.
 #include "image/framebuffer.h"
 
 #include <stdio.h>

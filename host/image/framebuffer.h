@@ -28,7 +28,7 @@ typedef struct {
 
 #define LAYERS_MOST 64
 
-// A picture's channels beside its colors.
+// A picture's channels besides its colors.
 typedef struct {
     LayerType list[LAYERS_MOST];
     uint32_t count;

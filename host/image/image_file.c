@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Selects the writer for a format.
+// Selects the writer for a format. The table of formats has their limits.
 #include "image/image_file.h"
 
 #include "base/output_file.h"
@@ -21,7 +21,7 @@ typedef struct {
     const char *name;   // also the usual file extension
     const char *module; // OpenImageIO's name of the format; NULL if clrt writes the format itself
     bool is_float;
-    uint32_t side_max; // of a picture in pixels; 0: PICTURE_SIZE_MAX and more
+    uint32_t side_max; // longest side of a picture, in pixels; 0 if PICTURE_SIZE_MAX is possible
 } Format;
 
 static const Format formats[] = {
@@ -92,7 +92,7 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
                      most);
 }
 
-// On failure, the functions below store only the reason in cause. image_write adds the file name.
+// The functions below store the reason for a failure in cause. image_write adds the file name.
 static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
                             const ImageSettings *settings, Error *cause)
 {

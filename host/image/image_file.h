@@ -8,8 +8,8 @@
 
 typedef enum { ENCODE_RAW, ENCODE_SRGB } Encoding;
 
-// A text in the file. PNG stores it under its name. So does EXR, but with another name for the date
-// and without the hash of the pixels. In TIFF and JPEG, clrt:NAME texts are lines of a description.
+// A text in the file. PNG stores it under its name. EXR does too, but it names the date differently
+// and omits the hash of the pixels. TIFF and JPEG store clrt:NAME texts as lines of a description.
 typedef struct {
     const char *name, *value;
 } ImageText;
@@ -50,8 +50,8 @@ bool image_format_takes_layers(const char *name);
 // Returns the names of this build's formats except GIF, for messages.
 const char *image_format_names(void);
 
-// Returns half of the smallest step of 8-bit values, in linear color. For floats, returns half of
-// the step below 1.
+// Returns half of the smallest step between 8-bit values, in linear color. For formats of floats,
+// returns half of the step below 1.
 double image_format_half_step(const char *format, Encoding encoding);
 
 // Returns whether the format can store a picture of this size.

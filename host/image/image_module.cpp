@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All of clrt's C++: two C functions that call OpenImageIO and catch every exception.
+// All of clrt's C++ code: two C functions that call OpenImageIO and catch every exception.
 #include "image/image_module.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -32,7 +32,8 @@ void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
         spec.attribute("ImageDescription", lines);
 }
 
-// OpenImageIO 2.5 applies the rate of the writer's previous file.
+// Sets the frame rate of an animation. OpenImageIO 2.5 applies a rate only to the writer's next
+// file.
 void set_frame_rate(OIIO::ImageOutput &output, OIIO::ImageSpec &spec)
 {
     spec.attribute("FramesPerSecond", 20.0f);
@@ -62,7 +63,7 @@ bool write_frames(OIIO::ImageOutput &output, const OIIO::ImageSpec &whole,
     return ok;
 }
 
-// Closes the writer while its target still exists, even after a failure.
+// Writes the picture and closes the writer, even after a failure, while its target still exists.
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {
@@ -151,8 +152,9 @@ bool holds_ids(const OIIO::ImageSpec &spec, int channel)
            !is_color(spec.channel_name(channel));
 }
 
-// 32-bit integers, except in color channels, are ids, which are stored unchanged instead of floats.
-// Other channels are converted to type. Each read_image call reads adjacent channels of one kind.
+// Reads all channels. A channel of 32-bit integers that is not a color contains ids, which are
+// stored unchanged. Other channels are converted to type. Each call of read_image reads neighboring
+// channels of one kind.
 bool read_channels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
                    void *values)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// clrt-foreign reads the file and sends a picture or a message. The parent validates both.
+// Lets clrt-foreign read a file by OpenImageIO. It sends a picture or a message, and the code here
+// validates both.
 #include "image/image_process.h"
 
 #include "base/foreign.h"
@@ -47,7 +48,7 @@ static bool take_head(StoredImage *image, const File *stream, uint64_t most, Err
     return stored_image_check_size(image, most, cause);
 }
 
-// The stream's memory becomes the values' memory.
+// Moves the values to the start of the stream's memory, which becomes the image's.
 static void take_values(StoredImage *image, File *stream, size_t size)
 {
     memmove(stream->bytes, stream->bytes + stream->size - size, size);

@@ -17,7 +17,7 @@ typedef struct {
     uint64_t bytes;            // size of the file
 } ImageRequest;
 
-// Reads the file in the given OpenImageIO format, and trusts nothing that the child sends. On
-// failure returns false and the reason without the file name. The caller frees the image in both
-// cases.
+// Reads the file in the given OpenImageIO format, and validates everything that the child sends. On
+// failure, returns false and stores the reason without the file name in *cause. The caller frees
+// the image in both cases.
 bool image_process_read(StoredImage *image, const ImageRequest *request, Error *cause);

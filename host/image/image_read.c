@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Selects the reader by the file's first bytes. clrt calls only decoders of formats that it writes,
-// because every further decoder of OpenImageIO would be a target for hostile files.
+// Selects the reader by the file's first bytes. clrt reads only formats that it writes, because
+// every further decoder of OpenImageIO would be a target for hostile files.
 #include "image/stored_image.h"
 
 #include "image/formats.h"

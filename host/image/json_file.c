@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Jansson formats the JSON. Every write is checked.
+// Makes JSON objects by Jansson, writes them, and prints texts that name their fields.
 #include "image/json_file.h"
 
 #include "base/output_file.h"
@@ -62,7 +62,8 @@ json_t *json_of(const JsonField *fields, size_t count)
     return NULL;
 }
 
-// Returns the value whose name is the path from value on. Numbers name the elements of arrays.
+// Returns the value at a path below `value`, for example lights.0.name. Numbers select elements of
+// arrays.
 static const json_t *find_value(const json_t *value, char *path)
 {
     for (const char *name; (name = strsep(&path, ".")) != NULL;)

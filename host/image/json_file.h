@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reports as JSON and text. A report is described once, as a list of fields, and is then a JSON
-// object. Its text is a template that names fields of this object, so both always agree.
+// Reports as JSON and as text. A report is described once, by a list of fields, which becomes a
+// JSON object. The text of the report is a template that names fields of this object, so text and
+// JSON always agree.
 #pragma once
 
 #include "base/error.h"
@@ -9,8 +10,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-// Returns path as a JSON string, or null for NULL. In a path that is not UTF-8, bytes beyond ASCII
-// become '?'.
+// Returns path as a JSON string, or null for NULL. If path is not UTF-8, '?' replaces all bytes
+// beyond ASCII.
 json_t *json_file_path(const char *path);
 
 json_t *json_count(uint64_t count);
@@ -27,7 +28,7 @@ typedef struct {
     json_t *value; // a new reference
 } JsonField;
 
-// A field whose value has any of these types.
+// Makes a field from a value of any of these types.
 #define FIELD(name, value)                                                                         \
     ((JsonField){name, _Generic((value),                                                           \
                      bool: json_flag,                                                              \

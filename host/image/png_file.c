@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libpng writes and reads files row by row, and converts every kind of PNG to red, green and blue.
-// It reports faults by a longjmp to write_picture or read_picture. The jump skips the cleanup of
-// all functions that these two call. Therefore only the callers of these two own memory.
+// Writes and reads PNG by libpng, row by row. libpng converts every kind of PNG to red, green and
+// blue. It reports faults by a longjmp to write_picture or read_picture. The jump skips the rest of
+// every function between. The functions that these two call therefore own no memory.
 #include "image/formats.h"
 
 #include <errno.h>
@@ -11,9 +11,9 @@
 #include <string.h>
 #include <zlib.h>
 
-// This filter and strategy make the smallest files among all settings that take at most about 20 ms
-// per megapixel. Paeth turns rendered surfaces into runs of zeros. Strategies that also search for
-// other matches need more time or make larger files. All compression levels above 0 find the same
+// Of all settings that take at most about 20 ms per megapixel, this filter and strategy make the
+// smallest files. Paeth turns rendered surfaces into runs of zeros. Strategies that also search for
+// other matches take more time or make larger files. All compression levels above 0 find the same
 // runs, so the code sets no level.
 #define FILTER   PNG_FILTER_PAETH
 #define STRATEGY Z_RLE
@@ -110,7 +110,8 @@ bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *setting
     return ok && fflush(stream) == 0 && !ferror(stream);
 }
 
-// The largest text or profile in a PNG file, in bytes after decompression, and their number.
+// The largest size of a text or profile in a PNG file, in bytes after decompression, and the
+// largest number of them.
 #define CHUNK_SIZE_MAX  1000000
 #define CHUNK_COUNT_MAX 64
 

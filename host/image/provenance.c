@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Dates come only from SOURCE_DATE_EPOCH, so that equal runs write equal files.
+// Lists the texts that describe a picture's origin. A file's date comes only from
+// SOURCE_DATE_EPOCH, so that equal runs write equal files.
 #include "image/provenance.h"
 
 #include "base/number.h"
@@ -26,8 +27,8 @@ bool provenance_check_date(Error *error)
            error_set(error, "SOURCE_DATE_EPOCH must be seconds since 1970, not '%s'", text);
 }
 
-// Writes the UTC date in the format of EXIF, TIFF and EXR. Returns false without a valid
-// SOURCE_DATE_EPOCH.
+// Writes the UTC date in the format of EXIF, TIFF and EXR. Returns false if SOURCE_DATE_EPOCH is
+// unset or invalid.
 static bool write_date(char *date, size_t size)
 {
     struct tm parts;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sizes come from files, so they are checked before anything is allocated.
+// Checks, allocates and converts pictures read from files. A file's numbers are checked before any
+// memory is allocated.
 #include "image/stored_image.h"
 
 #include <stdlib.h>

@@ -9,9 +9,9 @@
 #define STORED_NAME_SIZE 32
 #define STORED_TEXT_SIZE 512
 
-// image_read rejects pictures beyond these limits. A picture's values take at most 4 GiB. A file of
-// any size may hold STORED_VALUES_LEAST, and a larger picture needs a byte for every
-// STORED_VALUES_PER_BYTE: files of some kilobytes could claim gigabytes.
+// image_read rejects pictures beyond these limits. A picture's values take at most 4 GiB. Files of
+// some kilobytes could claim gigabytes. A picture of more than STORED_VALUES_LEAST values must
+// therefore have at least one byte in the file for every STORED_VALUES_PER_BYTE values.
 #define STORED_SIDE_MAX        65536
 #define STORED_CHANNELS_MAX    64
 #define STORED_VALUES_MAX      ((uint64_t)1 << 30)
@@ -42,7 +42,7 @@ typedef struct {
 
 void stored_image_free(StoredImage *image);
 
-// Returns how many values a picture in a file of `bytes` bytes may have.
+// Returns the largest number of values in a picture whose file has `bytes` bytes.
 uint64_t stored_values_most(uint64_t bytes);
 
 // Returns whether a picture of this size is within the limits and has at most `most` values.
@@ -51,18 +51,18 @@ bool stored_image_check_size(const StoredImage *image, uint64_t most, Error *cau
 // Allocates the values of an image whose size and channel count are set and checked.
 bool stored_image_allocate(StoredImage *image, Error *cause);
 
-// Returns the index of the channel with this name, or -1 without one.
+// Returns the index of the channel with this name, or -1 if there is none.
 int stored_image_channel(const StoredImage *image, const char *name);
 
-// Stores the channel indices of red, green and blue; Y replaces missing colors. Returns false if a
-// color and Y are missing.
+// Stores the channel indices of red, green and blue. Channel Y replaces missing colors. Returns
+// false if a color and Y are missing.
 bool stored_image_colors(const StoredImage *image, uint32_t places[3]);
 
 // Converts each 8-bit value v to v / 255.
 void stored_image_values(const unsigned char *bytes, size_t count, float *values);
 
-// Reads a picture file. libpng reads PNG, and pfm.c reads PFM. In a child process that may crash
-// without harm, OpenImageIO reads the other formats that clrt writes, except GIF. The first bytes,
-// not the file name, determine the format. On failure returns false with a message that names the
-// file. The caller frees the image.
+// Reads a picture file. The file's first bytes determine the format, not its name. libpng reads
+// PNG, and pfm.c reads PFM. OpenImageIO reads the other formats that clrt writes, except GIF, in a
+// child process that may crash without harm. On failure, returns false with a message that names
+// the file. The caller frees the image.
 bool image_read(StoredImage *image, const char *path, Error *error);
