@@ -77,6 +77,21 @@ class Pictures(unittest.TestCase):
             clrt.load(CREATURE).render(300, 300, progress=lambda done, all_: False)
 
 
+    def test_exceptions_of_progress_functions_arrive(self):
+        with self.assertRaises(ZeroDivisionError):
+            clrt.load(CREATURE).render(300, 300, progress=lambda done, all_: 1 / 0)
+
+    def test_crops_and_references_are_settings(self):
+        renderer, scene = clrt.Renderer(), clrt.load(CREATURE)
+        picture = renderer.render(scene, 32, 32)
+        part = renderer.render(scene, 32, 32, crop=(4, 8, 16, 2))
+        self.assertTrue((part == picture[8:10, 4:20]).all())
+        reference = renderer.render(scene, 32, 32, reference_samples=4)
+        self.assertGreater(reference.result["error"], 0)
+        with self.assertRaisesRegex(TypeError, "'sampels'"):
+            renderer.render(scene, 32, 32, sampels=2)
+
+
 class Rays(unittest.TestCase):
     def test_hits_name_the_face_and_the_place(self):
         hits = clrt.Renderer().trace(cube(), [(0.5, 0.25, 3), (5, 5, 5)], (0, 0, -2))
@@ -120,7 +135,9 @@ class Rays(unittest.TestCase):
         renderer, scene = clrt.Renderer(), cube()
         origins = np.random.default_rng(6).uniform(-3, 3, (100, 3))
         expected = renderer.trace(scene, origins, -origins).distance
-        for other in (np.asfortranarray(origins), np.repeat(origins, 2, 0)[::2], origins.tolist()):
+        wide = np.hstack([origins, -origins])
+        for other in (np.asfortranarray(origins), np.repeat(origins, 2, 0)[::2], wide[:, :3],
+                      wide[::-1, :3][::-1], origins.tolist()):
             self.assertTrue((renderer.trace(scene, other, -origins).distance == expected).all())
 
     def test_threads_get_the_same_hits(self):
@@ -165,7 +182,7 @@ class Errors(unittest.TestCase):
                 action()
 
     def test_examples_in_the_documentation_run(self):
-        for name in ("clrt", "clrt.scene", "clrt.renderer"):
+        for name in ("clrt", "clrt.scene", "clrt.picture", "clrt.rays", "clrt.renderer"):
             self.assertEqual(doctest.testmod(importlib.import_module(name)).failed, 0)
 
 

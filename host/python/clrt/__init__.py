@@ -11,10 +11,12 @@
 
 from . import library
 from .library import NOTHING, ArgumentError, DeviceError, Error, SceneError, Stopped
-from .renderer import Hits, Picture, Renderer, channel_kinds, compare, devices, hash
+from .picture import Picture, channel_kinds, compare, hash
+from .rays import Hits
+from .renderer import Renderer, devices
 from .scene import Camera, Scene, load
 
-__version__ = library.ffi.string(library.plain("version")).decode()
-__all__ = ["NOTHING", "ArgumentError", "Camera", "DeviceError", "Error", "Hits",
+__version__ = library.ffi.string(library.lib.clrt_version()).decode()
+__all__ = ["NOTHING", "ArgumentError", "Camera", "DeviceError", "Error", "Hits", "Picture",
            "Renderer", "Scene", "SceneError", "Stopped", "channel_kinds", "compare", "devices",
            "hash", "load"]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Calls libclrt. cffi reads clrt.h, so every struct is defined once."""
 
+import contextlib
 import os
 import pathlib
 import re
@@ -10,6 +11,11 @@ import cffi
 import numpy as np
 
 _FOLDER = pathlib.Path(__file__).parent
+_ADVICE = (
+    "\nclrt needs an OpenCL driver. PoCL runs on every CPU: apt install pocl-opencl-icd (Debian),"
+    " dnf install pocl (Fedora), conda install pocl-cpu-minimal (conda-forge).")
+
+NOTHING = 0xFFFFFFFF
 
 ffi = cffi.FFI()
 
@@ -35,143 +41,139 @@ class Stopped(Error):
 
 
 _FAULTS = {1: Stopped, 2: ArgumentError, 3: SceneError, 4: DeviceError}
-_ADVICE = (
-    "\nclrt needs an OpenCL driver. PoCL runs on every CPU: apt install pocl-opencl-icd (Debian),"
-    " dnf install pocl (Fedora), conda install pocl-cpu-minimal (conda-forge)."
-)
 
 
-def _header():
-    """The text of clrt.h: in a wheel beside this file, in a checkout in host/library."""
+def _declarations():
+    """clrt.h, which lies beside this file or in host/library, without what cffi cannot read."""
     places = (_FOLDER / "clrt.h", _FOLDER.parents[1] / "library" / "clrt.h")
-    return next(place for place in places if place.exists()).read_text()
-
-
-def _declarations(header):
-    """The header without comments, directives and export marks, which cffi does not read."""
-    text = re.sub(r"//.*", "", header).replace('extern "C" {', "").replace("CLRT_API ", "")
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
-    return "\n".join(lines).rstrip().removesuffix("}")
+    header = next(place for place in places if place.exists()).read_text(encoding="utf-8")
+    return re.sub(r'//.*|^#.*|^extern "C" {|^}$|CLRT_API ', "", header, flags=re.MULTILINE)
 
 
 def _open():
     """Opens $CLRT_LIBRARY, the wheel's library or the system's."""
-    given = os.environ.get("CLRT_LIBRARY")
     own = _FOLDER / "libclrt.so.0"
-    return ffi.dlopen(given or (str(own) if own.exists() else "libclrt.so.0"))
+    try:
+        return ffi.dlopen(os.environ.get("CLRT_LIBRARY", str(own if own.exists() else own.name)))
+    except OSError as error:
+        raise ImportError(f"{error}{_ADVICE if 'OpenCL' in str(error) else ''}") from None
 
 
-ffi.cdef(_declarations(_header()))
-_library = _open()
-
-NOTHING = 0xFFFFFFFF
+ffi.cdef(_declarations())
+lib = _open()
 
 
 def call(name, *arguments):
     """Calls clrt_NAME with a ClrtError at the end. Raises the library's error."""
     error = ffi.new("ClrtError *")
-    result = getattr(_library, "clrt_" + name)(*arguments, error)
+    result = getattr(lib, "clrt_" + name)(*arguments, error)
     if not result:
         text = ffi.string(error.text).decode(errors="replace")
-        kind = _FAULTS[error.fault]
-        raise kind(text + _ADVICE if "no OpenCL" in text else text)
+        raise _FAULTS[error.fault](text + _ADVICE if "no OpenCL" in text else text)
     return result
 
 
-def plain(name, *arguments):
-    """Calls clrt_NAME, which cannot fail."""
-    return getattr(_library, "clrt_" + name)(*arguments)
-
-
-def handle(name, *arguments, free):
-    """Calls clrt_NAME, which returns a handle, and frees the handle with its last reference."""
-    return ffi.gc(call(name, *arguments), getattr(_library, f"clrt_{free}_free"))
-
-
-_kept = weakref.WeakKeyDictionary()
+_kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 
 def struct(kind, **members):
     """Makes a struct of clrt.h. Arrays in it live as long as the struct. None is the default."""
-    given = {name: value for name, value in members.items() if value is not None}
     made = ffi.new(kind + " *", {"size": ffi.sizeof(kind)})
-    kept = [setting for setting in (_set(made, *item) for item in given.items())]
-    _kept[made] = kept
-    return made
-
-
-def _set(made, name, value):
-    if isinstance(value, np.ndarray):
-        value = ffi.from_buffer(value) if value.size else ffi.NULL
-        kind = next(member.type for key, member in ffi.typeof(made[0]).fields if key == name)
-        setattr(made, name, ffi.cast(kind, value))
-    else:
-        if isinstance(value, str):
+    _kept[made] = kept = []
+    for name, value in members.items():
+        if not hasattr(made, name):
+            raise TypeError(f"there is no setting {name!r}")
+        if isinstance(value, np.ndarray):
+            kept.append(value)
+            value = ffi.cast(dict(ffi.typeof(kind).fields)[name].type, value.ctypes.data)
+        elif isinstance(value, str):
             value = ffi.new("char[]", os.fsencode(value))
-        setattr(made, name, value)
-    return value
+        if value is not None:
+            kept.append(value)
+            setattr(made, name, value)
+    return made
 
 
 def values_of(given):
     """A struct as a dict without its size. Texts become str, arrays tuples."""
-    names = [name for name, _ in ffi.typeof(given[0]).fields if name != "size"]
-    return {name: _value_of(getattr(given, name)) for name in names}
+    return {name: _value_of(getattr(given, name)) for name, _ in ffi.typeof(given[0]).fields[1:]}
 
 
 def _value_of(value):
     if not isinstance(value, ffi.CData):
         return value
-    if ffi.typeof(value).item.cname == "char":
-        return ffi.string(value).decode(errors="replace")
-    return tuple(value)
+    is_text = ffi.typeof(value).item.cname == "char"
+    return ffi.string(value).decode(errors="replace") if is_text else tuple(value)
 
 
-def rows(array, dtype, columns, what):
-    """A contiguous array of `columns` values per row. Copies only if it must."""
-    rows_ = np.ascontiguousarray(array, dtype)
-    if rows_.ndim != 2 or rows_.shape[1] != columns:
-        raise ArgumentError(f"{what} have the shape {rows_.shape}, not (n, {columns})")
-    return rows_
+def described(kind, name, *arguments):
+    """Calls clrt_NAME, which fills a struct, and returns the struct as a dict."""
+    part = struct(kind)
+    call(name, *arguments, part)
+    return values_of(part)
 
 
-def check_unsigned(numbers, what):
-    """Raises unless the numbers are integers that uint32 can hold."""
-    if numbers.size and (numbers.dtype.kind not in "iu" or numbers.min() < 0
-                         or numbers.max() > NOTHING):
-        raise ArgumentError(f"a {what} is not an integer from 0 to {NOTHING}")
+def numbers(values, dtype, what):
+    """An array of this dtype. Copies only if it must. Raises if integers change."""
+    values = np.asarray(values)
+    made = values.astype(dtype, copy=False)
+    if dtype == np.uint32 and (made != values).any():
+        raise ArgumentError(f"a number of the {what} is not an integer from 0 to {NOTHING}")
+    return made
+
+
+def rows(values, dtype, what):
+    """An array of the shape (n, 3), each row in one place. Copies only if it must."""
+    made = numbers(values, dtype, what)
+    if made.ndim != 2 or made.shape[1] != 3:
+        raise ArgumentError(f"{what} have the shape {made.shape}, not (n, 3)")
+    size, (row, column) = made.itemsize, made.strides
+    is_in_rows = column == size and row >= 3 * size and made.flags.aligned
+    return made if is_in_rows else np.ascontiguousarray(made)
+
+
+def stride_of(made):
+    """Bytes from one row to the next. numpy does not define the stride of a single row."""
+    return max(made.strides[0], 3 * made.itemsize)
 
 
 def vector(values, what):
-    """Three doubles for the library."""
+    """Three numbers for the library."""
     array = np.asarray(values, np.float64)
     if array.shape != (3,):
         raise ArgumentError(f"{what} is not three numbers")
-    return ffi.new("double[3]", array.tolist())
+    return array.tolist()
 
 
+def choice(names, given, what):
+    """The place of a name among the names of an enumeration of clrt.h."""
+    if given not in names:
+        raise ArgumentError(f"{what} is {given!r}, not one of {', '.join(names)}")
+    return names.index(given)
+
+
+@contextlib.contextmanager
 def progress_of(progress):
-    """A callback for the library from a function, from True (tqdm if installed) or from None."""
+    """Yields a ClrtProgress: a function of (done, all), a bar by tqdm for True, otherwise NULL."""
+    faults, ask = [], _bar() if progress is True else progress
+    callback = ffi.callback("ClrtProgress", lambda _, *parts: ask(*parts) is not False,
+                            error=False, onerror=lambda _, fault, __: faults.append(fault))
+    try:
+        yield callback if ask else ffi.NULL
+    except Stopped as stopped:
+        raise faults[0] if faults else stopped
 
-    def nothing():
-        pass
 
-    def ask(_, done, all_):
-        return progress(done, all_) is not False
-
-    if not progress:
-        return None, nothing
-    if progress is not True:
-        return ffi.callback("ClrtProgress", ask), nothing
+def _bar():
+    """A progress function that shows a bar while it lives, or None without tqdm."""
     try:
         from tqdm.auto import tqdm
     except ImportError:
-        return None, nothing
-    bar = tqdm(unit="tile")
+        return None
+    bar = tqdm(unit="part")
 
-    def advance(_, done, all_):
-        bar.total = all_
-        bar.n = done
+    def advance(done, all_):
+        bar.total, bar.n = all_, done
         bar.refresh()
-        return True
 
-    return ffi.callback("ClrtProgress", advance), bar.close
+    return advance

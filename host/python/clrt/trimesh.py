@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from .renderer import NOTHING, default_renderer
+from .library import NOTHING
+from .renderer import default_renderer
 from .scene import Scene
 
 
@@ -19,39 +20,28 @@ class RayMeshIntersector:
         self._renderer = renderer
         self._scene, self._state = None, None
 
-    def _parts(self):
-        """The renderer, and the scene of the mesh as it is now."""
-        state = hash(self.mesh)
-        if self._state != state:
-            self._scene = Scene()
+    def _cast(self, kind, *arrays, **settings):
+        """The arrays as rows of three, and the result of the renderer's method for them."""
+        if self._state != hash(self.mesh):
+            self._scene, self._state = Scene(), hash(self.mesh)
             self._scene.mesh(self.mesh.vertices, self.mesh.faces)
-            self._state = state
-        return self._renderer or default_renderer(), self._scene
-
-    def _cast(self, kind, origins, directions, **settings):
-        renderer, scene = self._parts()
-        origins = np.asarray(origins, np.float64).reshape(-1, 3)
-        directions = np.asarray(directions, np.float64).reshape(-1, 3)
-        if origins.shape != directions.shape:
-            raise ValueError("Ray origin and direction don't match!")
-        return getattr(renderer, kind)(scene, origins, directions, **settings)
+        given = [np.asarray(array, np.float64).reshape(-1, 3) for array in arrays]
+        method = getattr(self._renderer or default_renderer(), kind)
+        return *given, method(self._scene, *given, **settings)
 
     def intersects_id(self, ray_origins, ray_directions, multiple_hits=True, max_hits=None,
                       return_locations=False, **_):
         """The faces and the rays that hit them: index_tri, index_ray and, if asked, locations."""
-        results = ("primitive", "face", "distance")
-        kind = "trace_all" if multiple_hits else "trace"
-        hits = self._cast(kind, ray_origins, ray_directions, results=results)
-        if multiple_hits:
-            ray, keep = hits.ray, _first_of_each(hits.ray, max_hits)
-        else:
-            ray, keep = np.arange(len(hits.face)), hits.hit
+        origins, directions, hits = self._cast(
+            "trace_all" if multiple_hits else "trace", ray_origins, ray_directions,
+            results=("primitive", "face", "distance"))
+        ray = hits.ray if multiple_hits else np.arange(len(hits.face))
+        limit = np.inf if max_hits is None else max_hits
+        keep = hits.hit & (np.arange(len(ray)) - np.searchsorted(ray, ray) < limit)
         face, ray = hits.face[keep].astype(np.int64), ray[keep]
         if not return_locations:
             return face, ray
-        origins = np.asarray(ray_origins, np.float64).reshape(-1, 3)[ray]
-        directions = np.asarray(ray_directions, np.float64).reshape(-1, 3)[ray]
-        return face, ray, origins + directions * hits.distance[keep, None]
+        return face, ray, origins[ray] + directions[ray] * hits.distance[keep, None]
 
     def intersects_location(self, ray_origins, ray_directions, **settings):
         """The points that rays hit, the rays and the faces: locations, index_ray, index_tri."""
@@ -61,22 +51,13 @@ class RayMeshIntersector:
 
     def intersects_first(self, ray_origins, ray_directions):
         """The first face that each ray hits, or -1."""
-        face = self._cast("trace", ray_origins, ray_directions, results=("primitive", "face")).face
-        return np.where(face == NOTHING, -1, face.astype(np.int64))
+        *_, hits = self._cast("trace", ray_origins, ray_directions, results=("face",))
+        return np.where(hits.face == NOTHING, -1, hits.face.astype(np.int64))
 
     def intersects_any(self, ray_origins, ray_directions):
         """Whether each ray hits the mesh."""
-        return self._cast("occluded", ray_origins, ray_directions)
+        return self._cast("occluded", ray_origins, ray_directions)[-1]
 
     def contains_points(self, points):
         """Whether each point is inside of the mesh, which must be closed."""
-        renderer, scene = self._parts()
-        return renderer.contains(scene, np.asarray(points, np.float64).reshape(-1, 3))
-
-
-def _first_of_each(ray, most):
-    """Which hits, ordered by ray, are among the first `most` of their ray."""
-    if most is None or len(ray) == 0:
-        return np.ones(len(ray), bool)
-    starts = np.searchsorted(ray, ray)
-    return np.arange(len(ray)) - starts < most
+        return self._cast("contains", points)[-1]
