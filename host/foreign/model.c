@@ -3,16 +3,13 @@
 #include "foreign/model.h"
 
 #include "foreign/parts.h"
+#include "foreign/polygons.h"
 #include "foreign/send.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <string.h>
-
-// Assimp triangulates a polygon of n corners in n * n steps or more. The sum of the squares may be
-// at most this. One polygon may have 30,000 corners, which take about five seconds.
-#define TRIANGULATION_MOST 900000000.0
 
 static bool fail(Error *error)
 {
@@ -21,23 +18,6 @@ static bool fail(Error *error)
         return error_set(error, "Assimp needs more memory than the limit for a file of this size");
     return error_set(error, "Assimp cannot read it: %s",
                      reason[0] != '\0' ? reason : "no reason is given");
-}
-
-static bool check_polygons(const struct aiScene *scene, Error *error)
-{
-    double steps = 0;
-    unsigned most = 0;
-    for (unsigned mesh = 0; mesh < scene->mNumMeshes; mesh++)
-        for (unsigned face = 0; face < scene->mMeshes[mesh]->mNumFaces; face++) {
-            const unsigned corners = scene->mMeshes[mesh]->mFaces[face].mNumIndices;
-            steps += corners > 4 ? (double)corners * corners : 0;
-            most = corners > most ? corners : most;
-        }
-    return steps <= TRIANGULATION_MOST ||
-           error_set(error,
-                     "its polygons of up to %u corners take too long to triangulate; PLY files may "
-                     "have such polygons if they are convex",
-                     most);
 }
 
 // Returns the model, or NULL on failure. The settings keep Assimp from turning Collada files to y
@@ -50,7 +30,7 @@ static const struct aiScene *import(Files *files, Error *error)
     const struct aiScene *scene =
         aiImportFileExWithProperties(files->model, 0, &files->interface, settings);
     aiReleasePropertyStore(settings);
-    if (scene != NULL && !check_polygons(scene, error)) {
+    if (scene != NULL && !polygons_check_scene(scene, error)) {
         aiReleaseImport(scene);
         return NULL;
     }
@@ -103,7 +83,9 @@ static void send_files(FILE *stream, const Files *files)
 bool model_send(FILE *stream, Files *files, Error *error)
 {
     PartCounts counts;
-    if (!files_open_model(files, error))
+    if (!files_open_model(files, error) ||
+        (file_has_ending(files->model, ".obj") &&
+         !polygons_check_obj(&files->opened.data[0].file, error)))
         return false;
     const struct aiScene *scene = import(files, error);
     if (scene == NULL)
