@@ -91,7 +91,7 @@ static inline Real stop_distances(const Search *search, const TriangleName *name
                                   const TriangleTest *test, Real reach)
 {
     const Ray *ray = search->ray;
-    const bool from_eye = ray->kind == RAY_CAMERA;
+    const bool from_eye = plain_kind(ray->kind) == RAY_CAMERA;
     const Meeting met = triangle_meeting(test, (UInt)(name->marks), reach, from_eye);
     if (!any_lane(met.near))
         return met.clear;

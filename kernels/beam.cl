@@ -104,7 +104,7 @@ static inline uint packets_entering(Beam *beam, uint child, uint packets, uint b
 static inline void update_packet(Beam *beam, uint number)
 {
     const Hit *hit = &beam->hits[number];
-    if (beam->kind == RAY_SHADOW)
+    if (ends_at_any_hit(beam->kind))
         beam->live[number] &= lane_bits(hit->id == NOTHING);
     const Real reach = search_reach(&beam->packets[number].rays, hit);
     beam->reach[number] = highest(lanes_of(beam->live[number]) ? reach : (Real)(0.0f));

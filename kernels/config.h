@@ -34,6 +34,9 @@
 #ifndef CLRT_SIGNATURES
 #define CLRT_SIGNATURES 0 // samples have signatures (SampleData)
 #endif
+#ifndef CLRT_RAYS
+#define CLRT_RAYS 0 // the program traces arrays of rays (rays.cl)
+#endif
 #ifndef CLRT_FP64
 #define CLRT_FP64 0 // Real is double: one ray per work-item, binary nodes
 #endif

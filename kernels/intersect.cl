@@ -10,7 +10,7 @@
 // Only a reflected ray can hit the sphere on which it starts, and only from inside.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
 {
-    if (ray->kind != RAY_REFLECTED || !any_lane(is_own))
+    if (plain_kind(ray->kind) != RAY_REFLECTED || !any_lane(is_own))
         return INFINITY;
     return sphere_chord(sphere, ray->origin, ray->direction);
 }

@@ -39,7 +39,7 @@ static inline Real3 corner_relative(global const float *corner, const Search *se
                     corner[search->axes.z] + search->backward.z);
 }
 
-// Tests range.y triangles from range.x on. A shadow ray stops at the first one that blocks it.
+// Tests range.y triangles from range.x on. Stops at the first hit if any hit ends the ray.
 static inline void intersect_range(const Search *search, uint2 range, Hit *best)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
@@ -49,7 +49,7 @@ static inline void intersect_range(const Search *search, uint2 range, Hit *best)
                                   corner_relative(triangle->c, search)};
         const TriangleName name = {triangle->id, triangle->material & TRIANGLE_MARKS, index};
         if (intersect_triangle(search, &name, &relative, 1, best) &&
-            search->ray->kind == RAY_SHADOW)
+            ends_at_any_hit(search->ray->kind))
             return;
     }
 }
@@ -107,7 +107,7 @@ static inline void traverse_pairs(const Search *search, Hit *best)
         intersect_range(search, (uint2)(first, count), best);
         if (CLRT_STATISTICS)
             tracer->tally->triangle_tests += count;
-        if (search->ray->kind == RAY_SHADOW && best->id != NOTHING)
+        if (ends_at_any_hit(search->ray->kind) && best->id != NOTHING)
             return;
     }
 }

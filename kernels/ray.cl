@@ -6,6 +6,18 @@
 
 typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 
+// Returns the kind without RAY_ANY_HIT, which only kinds in programs with CLRT_RAYS may have.
+static inline RayKind plain_kind(RayKind kind)
+{
+    return CLRT_RAYS ? (RayKind)(kind & ~RAY_ANY_HIT) : kind;
+}
+
+// Returns whether the ray ends at the first hit that a search finds.
+static inline bool ends_at_any_hit(RayKind kind)
+{
+    return kind == RAY_SHADOW || kind != plain_kind(kind);
+}
+
 // origin + t * direction. A shadow ray runs from the shaded point at t = 0 to the light at t = 1.
 typedef struct {
     Real3 origin, direction;
@@ -18,7 +30,7 @@ typedef struct {
 // Returns the uncertainty of the ray's origin, in units of rounding.
 static inline float blur_of(const Ray *ray)
 {
-    return ray->kind == RAY_CAMERA ? 0.0f : POINT_BLUR;
+    return plain_kind(ray->kind) == RAY_CAMERA ? 0.0f : POINT_BLUR;
 }
 
 static inline float length_of_ray(const Ray *ray)

@@ -255,6 +255,9 @@ typedef struct {
 } RayData;
 CLRT_SAME_SIZE(RayData, 40)
 
+// This bit of a kind of rays lets the rays end at any hit, as shadow rays do.
+#define RAY_ANY_HIT 4
+
 typedef struct {
     float t; // INFINITY without a hit
     uint id; // NOTHING without a hit

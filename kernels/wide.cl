@@ -143,7 +143,7 @@ static inline float8 block_distances(const BlockPlace *start, const Search *sear
 {
     global const TriangleBlock *block = start->block;
     const Ray *ray = search->ray;
-    const bool from_eye = ray->kind == RAY_CAMERA;
+    const bool from_eye = plain_kind(ray->kind) == RAY_CAMERA;
     const WideMeeting met = triangle_meeting(test, vload8(0, block->id), reach, from_eye);
     if (lane_bits(met.near) == 0)
         return met.clear;
@@ -260,11 +260,11 @@ static inline void visit_nodes(LaneSearches *searches)
     }
 }
 
-// Advances each lane that is at a block by one step. A shadow ray stops at its first hit.
+// Advances each lane that is at a block by one step.
 static inline void visit_leaves(LaneSearches *searches)
 {
     const Tracer *tracer = searches->search->tracer;
-    const bool is_shadow = searches->search->ray->kind == RAY_SHADOW;
+    const bool any_hit = ends_at_any_hit(searches->search->ray->kind);
     uint bits = searches->leaves;
     searches->leaves = 0;
     for (; bits != 0; bits &= bits - 1) {
@@ -273,7 +273,7 @@ static inline void visit_leaves(LaneSearches *searches)
         const bool changed = intersect_block(&start, searches->search, lane, searches->hits);
         if (CLRT_STATISTICS)
             tracer->tally->triangle_tests += WIDE;
-        if (!is_shadow || !changed)
+        if (!any_hit || !changed)
             advance_lane(searches, lane);
         else
             searches->ended |= 1u << lane;

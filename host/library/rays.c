@@ -38,10 +38,11 @@ static bool trace_part(Batch *batch, size_t on_surface, Error *error)
 {
     const RayScene *scene = &batch->renderer->rays;
     const size_t free_rays = batch->part.count - on_surface;
+    const bool any = batch->results.occluded != NULL;
     const RayCast casts[2] = {
-        {&scene->buffers, batch->part.rays, free_rays, RAYS_FREE},
-        {&scene->buffers, batch->part.rays + free_rays, on_surface, RAYS_ON_SURFACE}};
-    const RayCast all = {&scene->buffers, batch->part.rays, batch->part.count, RAYS_FREE};
+        {&scene->buffers, batch->part.rays, free_rays, RAYS_FREE, any},
+        {&scene->buffers, batch->part.rays + free_rays, on_surface, RAYS_ON_SURFACE, any}};
+    const RayCast all = {&scene->buffers, batch->part.rays, batch->part.count, RAYS_FREE, false};
     CrossingList found = {batch->counts, batch->hits, (uint32_t)room_of(&batch->results)};
     if (batch->results.finds_all)
         return crossing_finder_find(&scene->finder, &all, &found, error);

@@ -65,7 +65,7 @@ static bool first_run(const Kernel *kernel, Error *error)
     return renderer_run_first(kernel, cast_nothing, error);
 }
 
-static const KernelEntry rays_entry = {"trace_rays", rays_source, NULL, first_run};
+static const KernelEntry rays_entry = {"trace_rays", rays_source, "-DCLRT_RAYS=1", first_run};
 
 bool ray_caster_open(RayCaster *caster, Session *session, Error *error)
 {
@@ -105,8 +105,9 @@ bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits
     const Device *device = caster->kernel->device;
     for (size_t first = 0; first < cast->count; first += LAUNCH_RAYS) {
         const size_t count = smaller(cast->count - first, LAUNCH_RAYS);
+        const cl_uint kind = cast->start | (cast->any ? RAY_ANY_HIT : 0);
         if (!write_rays(device, caster->rays, cast->rays + first, count, error) ||
-            !launch(caster, cast->scene, (cl_uint)count, cast->start, error) ||
+            !launch(caster, cast->scene, (cl_uint)count, kind, error) ||
             !device_read(device, caster->hits, hits + first, count * sizeof *hits, error))
             return false;
     }

@@ -24,9 +24,10 @@ typedef struct {
     const RayData *rays;
     size_t count;
     RayStart start;
+    bool any; // finds whether rays hit anything
 } RayCast;
 
-// Stores the nearest hit of each ray.
+// Stores the nearest hit of each ray, or any hit if this is all that the cast asks for.
 bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, Error *error);
 
 // Finds all triangles that a ray crosses (kernels/crossings.cl).

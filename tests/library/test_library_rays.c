@@ -195,7 +195,7 @@ TEST(batches_and_kernels_change_no_bit)
         {.size = sizeof *settings, .kernel = CLRT_KERNEL_PAIR},
         {.size = sizeof *settings, .kernel = CLRT_KERNEL_WIDE, .lanes = 4},
         {.size = sizeof *settings, .tree = CLRT_TREE_NONE}};
-    static uint8_t inside[RAYS], others_inside[RAYS];
+    static uint8_t inside[RAYS], others_inside[RAYS], occluded[RAYS];
     const ClrtRays all_rays = rays_given(RAYS);
     trace_all_by(renderer, &all);
     assert_true(clrt_contains(renderer, scene, &all_rays, inside, NULL));
@@ -209,6 +209,9 @@ TEST(batches_and_kernels_change_no_bit)
         assert_memory_equal(&others, &inward, sizeof inward);
         assert_true(clrt_contains(other, scene, &all_rays, others_inside, NULL));
         assert_memory_equal(others_inside, inside, sizeof inside);
+        assert_true(clrt_occluded(other, scene, &all_rays, occluded, NULL));
+        for (size_t ray = 0; ray < RAYS; ray++)
+            assert_int_equal(occluded[ray], all.primitives[ray] != CLRT_NOTHING);
         clrt_renderer_free(other);
     }
     memset(&others, 0x55, sizeof others);
