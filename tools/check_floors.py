@@ -60,7 +60,6 @@ SHARED_HEADERS = {
     "cli/commands.h": "one function for each command, in the file of that command",
     "cli/options/option.h": "the table of options, and the files that read and check it",
     "cli/options/options.h": "the result of the whole folder",
-    "cli/picture.h": "the steps of a picture",
     "image/exr_file.h": "EXR files: reading, and the header for writing",
     "image/formats.h": "the readers and writers of single formats",
     "image/image_file.h": "also the encoding, which writers of single formats use",

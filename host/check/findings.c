@@ -195,7 +195,7 @@ const char *fault_name(FaultKind kind)
 
 void check_count_faults(const Check *check, size_t object, MeshFault counts[FAULT_KINDS])
 {
-    const MeshObject *given = &check->scene.objects.data[object];
+    const MeshObject *given = &check->scene->objects.data[object];
     const Mesh *mesh = &given->mesh;
     const MeshCensus *census = &check->census.meshes[object];
     const Closedness *closed = &census->closedness;
@@ -229,7 +229,7 @@ static void add_mesh_faults(Check *check, size_t object)
 
 static void add_shape(Check *check, size_t object)
 {
-    const MeshObject *mesh = &check->scene.objects.data[object];
+    const MeshObject *mesh = &check->scene->objects.data[object];
     const MeshCensus *census = &check->census.meshes[object];
     add(check, note("empty_mesh", object, mesh->mesh.triangle_count == 0),
         "the mesh has no triangles");
@@ -240,7 +240,7 @@ static void add_shape(Check *check, size_t object)
     const bool is_placed = check->scale_fault.text[0] == '\0';
     add(check,
         note("out_of_view", object,
-             is_placed && is_out_of_view(&check->scene, &check->normalization, object)),
+             is_placed && is_out_of_view(check->scene, &check->normalization, object)),
         "it is outside every camera's view, so only reflections and shadows can show it");
 }
 
@@ -274,7 +274,7 @@ static void add_advice(Check *check, size_t object, double scene_size)
 
 static void add_enclosed_eyes(Check *check)
 {
-    const Scene *scene = &check->scene;
+    const Scene *scene = check->scene;
     const EnclosedEyes eyes = enclosed_eyes_find(scene, &check->census);
     const Finding finding = note("eye_inside", FINDING_SCENE, eyes.count);
     if (eyes.sphere > 0)
@@ -307,7 +307,7 @@ static void add_scene(Check *check)
         add(check, finding, "%zu %s", counts[i].count, counts[i].text);
     }
     add_enclosed_eyes(check);
-    const MissingPart missing = scene_missing(&check->scene);
+    const MissingPart missing = scene_missing(check->scene);
     if (missing.kind != NULL)
         add(check, (Finding){missing.kind, FINDING_SCENE, missing.is_fault, 1, ""}, "%s",
             missing.text);
@@ -317,8 +317,8 @@ static void add_scene(Check *check)
 
 bool check_find(Check *check, Error *error)
 {
-    const double scene_size = scene_extent(&check->scene);
-    for (size_t object = 0; object < check->scene.objects.count; object++) {
+    const double scene_size = scene_extent(check->scene);
+    for (size_t object = 0; object < check->scene->objects.count; object++) {
         add_mesh_faults(check, object);
         add_shape(check, object);
         add_advice(check, object, scene_size);

@@ -18,7 +18,7 @@ typedef struct {
 // The measurements and findings of a check.
 typedef struct {
     const char *scene_path;
-    Scene scene;
+    const Scene *scene; // borrowed
     Normalization normalization;
     Census census;
     const char *device;      // its name; NULL if no rays were traced

@@ -8,7 +8,7 @@
 
 static const char *mesh_path(const Check *check, size_t object)
 {
-    const Scene *scene = &check->scene;
+    const Scene *scene = check->scene;
     return scene->inputs.data[scene->objects.data[object].input];
 }
 
@@ -49,7 +49,7 @@ static json_t *faults_json(const Check *check, size_t object)
 
 static json_t *mesh_json(const Check *check, size_t object)
 {
-    const Mesh *mesh = &check->scene.objects.data[object].mesh;
+    const Mesh *mesh = &check->scene->objects.data[object].mesh;
     const MeshCensus *census = &check->census.meshes[object];
     const Features *features = &census->features;
     return JSON(FIELD("path", mesh_path(check, object)), FIELD("triangles", mesh->triangle_count),
@@ -70,7 +70,7 @@ static json_t *mesh_json(const Check *check, size_t object)
 static json_t *meshes_json(const Check *check)
 {
     json_t *list = json_array();
-    for (size_t object = 0; object < check->scene.objects.count; object++)
+    for (size_t object = 0; object < check->scene->objects.count; object++)
         json_array_append_new(list, mesh_json(check, object));
     return list;
 }
@@ -91,7 +91,7 @@ static json_t *findings_json(const Check *check)
 
 static json_t *scene_json(const Check *check)
 {
-    const Scene *scene = &check->scene;
+    const Scene *scene = check->scene;
     const Census *census = &check->census;
     return JSON(FIELD("path", check->scene_path), FIELD("lights", scene->lights.count),
                 FIELD("spheres", scene->spheres.count), FIELD("empty_meshes", census->empty_meshes),
@@ -131,7 +131,7 @@ static void write_mesh(const Check *check, const json_t *mesh, size_t object, FI
     const bool is_closed = check->census.meshes[object].closedness.is_closed;
     json_print(mesh, "{path}: {triangles} triangles, {vertices} vertices, ", stream);
     fputs(is_closed ? "closed\n" : "not closed\n", stream);
-    if (check->scene.objects.data[object].mesh.triangle_count == 0)
+    if (check->scene->objects.data[object].mesh.triangle_count == 0)
         return;
     json_print(mesh,
                "  shortest edge {shortest_edge.size .3g}, lowest height {lowest_height.size .3g}: "
@@ -155,7 +155,7 @@ static void write_mesh(const Check *check, const json_t *mesh, size_t object, FI
 
 void check_report_write_text(const Check *check, FILE *stream)
 {
-    const Scene *scene = &check->scene;
+    const Scene *scene = check->scene;
     size_t next = 0; // findings are in the order of the objects
     json_t *json = report_json(check);
     for (size_t object = 0; object < scene->objects.count; object++) {

@@ -6,25 +6,24 @@
 #include "base/clock.h"
 #include "check/census.h"
 #include "check/report.h"
-#include "cli/run.h"
+#include "cli/stages.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-static bool count_leaks(Check *check, const SessionSettings *settings, RayCaster *caster,
-                        Error *error)
+static bool count_leaks(Check *check, const Session *session, RayCaster *caster, Error *error)
 {
-    ThreadPool *pool = thread_pool_open(threads_allowed(settings->threads));
+    ThreadPool *pool = thread_pool_open(threads_allowed(session->settings.wanted.threads));
     bool ok = true;
-    for (size_t object = 0; ok && object < check->scene.objects.count; object++) {
+    for (size_t object = 0; ok && object < check->scene->objects.count; object++) {
         const LeakSetting setting = {
             .normalization = &check->normalization,
             .closedness = &check->census.meshes[object].closedness,
             .pool = pool,
-            .builder = settings->builder,
-            .uses_bvh = settings->tree != TREE_NEVER,
+            .builder = session_builder(&session->settings.wanted),
+            .uses_bvh = session->settings.wanted.tree != CLRT_TREE_NONE,
         };
-        const MeshObject *given = &check->scene.objects.data[object];
+        const MeshObject *given = &check->scene->objects.data[object];
         if (given->mesh.triangle_count > 0)
             ok = leaks_count(&check->leaks[object], caster, given, &setting, error);
     }
@@ -35,10 +34,10 @@ static bool count_leaks(Check *check, const SessionSettings *settings, RayCaster
 static bool trace_leaks(Check *check, Session *session, Error *error)
 {
     RayCaster caster;
-    check->leaks = memory_zeroed(check->scene.objects.count, sizeof *check->leaks, error);
+    check->leaks = memory_zeroed(check->scene->objects.count, sizeof *check->leaks, error);
     if (check->leaks == NULL || !ray_caster_open(&caster, session, error))
         return false;
-    const bool ok = count_leaks(check, &session->settings, &caster, error);
+    const bool ok = count_leaks(check, session, &caster, error);
     ray_caster_close(&caster);
     return ok;
 }
@@ -48,9 +47,9 @@ static bool trace_leaks(Check *check, Session *session, Error *error)
 static bool find_leaks(Check *check, Session *session, const Options *options, Error *error)
 {
     Error cause = {0};
-    if (scene_triangle_count(&check->scene) == 0)
+    if (scene_triangle_count(check->scene) == 0)
         return true;
-    run_begin(session, options);
+    stage_begin(session, options);
     if (session_await(session, NULL, &cause) && trace_leaks(check, session, &cause))
         check->device = session->device.name;
     else if (options->renderer.device != NULL || options->renderer.precision == CLRT_FP64)
@@ -80,32 +79,32 @@ static void print_notes(const Options *options, const Scene *scene)
         fprintf(stderr, "clrt: %s\n", scene->notes.data[note]);
 }
 
-static ExitCode perform(Check *check, Session *session, const Options *options, Error *error)
+static ExitCode perform(Check *check, const Options *options, Session *session, Scene *scene,
+                        Error *error)
 {
     const double start = clock_seconds();
-    if (!scene_source_load(&check->scene, options, error))
+    if (!stage_read(scene, options, error))
         return EXIT_SCENE;
-    if (!command_files_check(options, &check->scene, error))
+    if (!command_files_check(options, scene, error))
         return EXIT_OUTPUT;
-    check->normalization = normalization_of(&check->scene);
-    normalization_check(&check->normalization, &check->scene, &check->scale_fault);
-    if (!census_take(&check->census, &check->scene, &check->normalization, error))
+    check->normalization = normalization_of(scene);
+    normalization_check(&check->normalization, scene, &check->scale_fault);
+    if (!census_take(&check->census, scene, &check->normalization, error))
         return EXIT_SCENE;
-    print_notes(options, &check->scene);
+    print_notes(options, scene);
     if (!find_leaks(check, session, options, error))
         return EXIT_DEVICE;
     check->seconds = clock_seconds() - start;
     return report(check, options, error);
 }
 
-ExitCode check_scene(Run *run, Error *error)
+ExitCode check_scene(const Options *options, Session *session, Scene *scene, Error *error)
 {
-    Check check = {.scene_path = run->options->scene_path};
-    const ExitCode outcome = perform(&check, &run->session, run->options, error);
+    Check check = {.scene_path = options->scene_path, .scene = scene};
+    const ExitCode outcome = perform(&check, options, session, scene, error);
     free(check.findings.data);
     free(check.leaks);
     census_free(&check.census);
-    scene_free(&check.scene);
     return outcome;
 }
 

@@ -4,34 +4,40 @@
 #pragma once
 
 #include "base/file_plan.h"
-#include "cli/run.h"
+#include "cli/options/options.h"
+#include "session/session.h"
 
 #include <stdio.h>
 
+// A command that traces. The caller has opened the session's cache, and later frees scene, which
+// receives the scene that the options name.
+typedef ExitCode TracingCommand(const Options *options, Session *session, Scene *scene,
+                                Error *error);
+
 // clrt SCENE -o FILE: renders the scene to a picture file.
-ExitCode picture_make(Run *run, Error *error);
+TracingCommand picture_make;
 
 // clrt SCENE: shows the scene in a window until the user closes it.
-ExitCode show_scene(Run *run, Error *error);
+TracingCommand show_scene;
 
 // Prints the window's keys for the man page; prints nothing in a build without a window.
 void show_write_keys(FILE *stream);
 
 // clrt warm: compiles kernels in advance.
-ExitCode warm_kernels(Run *run, Error *error);
+TracingCommand warm_kernels;
 
 // clrt explain SCENE: prints which kernel features and buffers a scene uses or omits, and why.
-ExitCode explain_scene(Run *run, Error *error);
+TracingCommand explain_scene;
 
 // clrt explain SCENE X,Y: prints how clrt computes a pixel's color.
-ExitCode explain_pixel(Run *run, Error *error);
-
-// clrt devices: prints the OpenCL devices as `clinfo -l` does, or writes versioned JSON.
-ExitCode device_report_write(const Options *options, Error *error);
+TracingCommand explain_pixel;
 
 // clrt check: reports faults of a scene's geometry. A missing device is an error only if the
 // options name a device or fp64.
-ExitCode check_scene(Run *run, Error *error);
+TracingCommand check_scene;
+
+// clrt devices: prints the OpenCL devices as `clinfo -l` does, or writes versioned JSON.
+ExitCode device_report_write(const Options *options, Error *error);
 
 // Checks the scene for commands other than check. With --bad-geometry fail, rejects triangles
 // without area. Otherwise prints notes and the first mesh with dropped triangles, unless quiet.
@@ -53,7 +59,7 @@ ExitCode convert_scene(const Options *options, Error *error);
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
 
 // Fails if an output would replace an input or another output. main calls it before any work;
-// run_start and check_scene call it again when the scene's meshes are known.
+// stage_start and check_scene call it again when the scene's meshes are known.
 bool command_files_check(const Options *options, const Scene *scene, Error *error);
 
 // Writes the text of --help.

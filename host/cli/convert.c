@@ -4,7 +4,7 @@
 
 #include "base/file.h"
 #include "base/output_file.h"
-#include "cli/run.h"
+#include "cli/stages.h"
 #include "mesh/ply_write.h"
 #include "scene/scn_write.h"
 
@@ -131,7 +131,7 @@ static ExitCode write_text(Conversion *conversion, Error *error)
 static ExitCode run(Conversion *conversion, Error *error)
 {
     const Options *options = conversion->options;
-    if (!scene_source_load(&conversion->scene, options, error) ||
+    if (!stage_read(&conversion->scene, options, error) ||
         !check_geometry(options, &conversion->scene, error))
         return EXIT_SCENE;
     const bool is_mesh = file_has_ending(options->other_path, ".ply");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Explains a pixel: text is printed sample by sample, and JSON after the last sample.
 #include "cli/commands.h"
+#include "cli/stages.h"
 
 #include "explain/report.h"
 #include "image/json_file.h"
@@ -23,26 +24,28 @@ static ExitCode explain(const ExplainReport *report, Explainer *explainer, const
     return json_file_write(json, options->json_path, error) ? EXIT_DONE : EXIT_OUTPUT;
 }
 
-ExitCode explain_pixel(Run *run, Error *error)
+ExitCode explain_pixel(const Options *options, Session *session, Scene *scene, Error *error)
 {
     Explainer explainer;
-    const Options *options = run->options;
-    ExitCode code = run_start(run, error);
+    SessionPicture request;
+    StageSeconds unused = {0};
+    ExitCode code = stage_start(session, scene, options, &unused, error);
     if (code != EXIT_DONE)
         return code;
-    if (!has_pixel(options->pixel, &run->request.settings, error))
+    if (!stage_request(&request, options, scene, error))
+        return EXIT_SCENE;
+    if (!has_pixel(options->pixel, &request.settings, error))
         return EXIT_USAGE;
-    code = run_prepare(run, error);
+    code = stage_prepare(session, options, NULL, &unused, error);
     if (code != EXIT_DONE)
         return code;
-    const Viewpoint *viewpoint = &run->scene.viewpoints.data[options->picture.view - 1];
     const ExplainReport report = {.scene_path = options->scene_path,
-                                  .scene = &run->scene,
-                                  .settings = &run->request.settings,
+                                  .scene = scene,
+                                  .settings = &request.settings,
                                   .view = options->picture.view,
                                   .pixel = {options->pixel[0], options->pixel[1]},
                                   .encoding = options->encoding};
-    if (!explainer_open(&explainer, &run->session, &run->request.settings, viewpoint, error))
+    if (!explainer_open(&explainer, session, &request.settings, &request.viewpoint, error))
         return EXIT_DEVICE;
     code = explain(&report, &explainer, options, error);
     explainer_close(&explainer);

@@ -1,78 +1,68 @@
 // SPDX-License-Identifier: MIT
 // Prepares a picture without drawing it. Prints the compiled features and the uploaded buffers.
 #include "cli/commands.h"
+#include "cli/stages.h"
 
 #include "image/json_file.h"
 
-#include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
-#define SCENE_PARTS 6
-
-// A kernel feature that can be omitted at compile time.
-typedef struct {
-    const char *name;
-    bool is_needed;
-    bool is_compiled; // general kernels also contain features that the scene does not need
-    char reason[160];
-} ScenePart;
-
-__attribute__((format(printf, 3, 4))) static ScenePart part(const char *name, bool is_needed,
-                                                            const char *format, ...)
-{
-    ScenePart made = {.name = name, .is_needed = is_needed};
-    va_list values;
-    va_start(values, format);
-    vsnprintf(made.reason, sizeof made.reason, format, values);
-    va_end(values);
-    return made;
-}
-
-static ScenePart tree_part(const Session *session, const SceneForm *form, bool is_needed)
+static json_t *tree_reason(const Session *session, const SceneForm *form, bool is_needed)
 {
     const uint32_t triangles = form->flat.triangle_count, stored = form->flat.node_count;
     if (is_needed)
-        return part("tree", true, "%u node%s over the triangles, uploaded as %u %s node%s",
-                    form->tree.node_count, form->tree.node_count == 1 ? "" : "s", stored,
-                    kernel_nodes_name(session->choice.nodes), stored == 1 ? "" : "s");
+        return json_sprintf("%u node%s over the triangles, uploaded as %u %s node%s",
+                            form->tree.node_count, form->tree.node_count == 1 ? "" : "s", stored,
+                            kernel_nodes_name(session->choice.nodes), stored == 1 ? "" : "s");
     if (triangles == 0)
-        return part("tree", false, "there are no triangles to find");
-    if (session->settings.tree == TREE_NEVER)
-        return part("tree", false, "--tune bvh=none: every triangle is tested");
-    return part("tree", false, "testing all %u triangles is faster", triangles);
+        return json_string("there are no triangles to find");
+    if (session->settings.wanted.tree == CLRT_TREE_NONE)
+        return json_string("--tune bvh=none: every triangle is tested");
+    return json_sprintf("testing all %u triangles is faster", triangles);
 }
 
-static void scene_parts_list(const Run *run, ScenePart parts[SCENE_PARTS])
+static json_t *count_reason(uint32_t count)
 {
-    const FlatScene *flat = &run->form->flat;
-    const SceneTraits needed = traits_of(flat, run->options->picture.statistics);
-    const ScenePart list[SCENE_PARTS] = {
-        needed.spheres ? part("spheres", true, "%u of them", flat->sphere_count)
-                       : part("spheres", false, "there are none"),
-        needed.triangles ? part("triangles", true, "%u of them", flat->triangle_count)
-                         : part("triangles", false, "there are none"),
-        tree_part(&run->session, run->form, needed.bvh),
-        needed.shaded
-            ? part("lights", true, "%u of them shade materials in use", flat->light_count)
-            : part("lights", false, "all materials in use are silhouettes: no shadow rays"),
-        needed.mirrors ? part("mirrors", true, "a material in use reflects")
-                       : part("mirrors", false, "no material in use reflects: no reflected rays"),
-        needed.statistics ? part("statistics", true, "--stats counts rays and tests")
-                          : part("statistics", false, "not requested: no --stats")};
-    memcpy(parts, list, sizeof list);
-    // General programs contain all features, except that statistics require --stats.
-    for (int i = 0; i < SCENE_PARTS; i++)
-        parts[i].is_compiled =
-            parts[i].is_needed || (!run->report.drawn.is_special && i < SCENE_PARTS - 1);
+    return count > 0 ? json_sprintf("%u of them", count) : json_string("there are none");
+}
+
+// Describes a kernel feature that can be omitted at compile time. General programs also contain
+// features that the scene does not need.
+static json_t *part_json(const char *name, bool is_needed, bool is_special, json_t *reason)
+{
+    return JSON(FIELD("name", name), FIELD("needed", is_needed),
+                FIELD("compiled", (bool)(is_needed || !is_special)), FIELD("reason", reason));
+}
+
+static json_t *parts_json(const Session *session, const SceneForm *form, bool counts,
+                          bool is_special)
+{
+    const FlatScene *flat = &form->flat;
+    const SceneTraits needed = traits_of(flat, counts);
+    json_t *lights = needed.shaded
+                         ? json_sprintf("%u of them shade materials in use", flat->light_count)
+                         : json_string("all materials in use are silhouettes: no shadow rays");
+    json_t *mirrors =
+        json_string(needed.mirrors ? "a material in use reflects"
+                                   : "no material in use reflects: no reflected rays");
+    json_t *statistics = json_string(needed.statistics ? "--stats counts rays and tests"
+                                                       : "not requested: no --stats");
+    return json_pack(
+        "[o, o, o, o, o, o]",
+        part_json("spheres", needed.spheres, is_special, count_reason(flat->sphere_count)),
+        part_json("triangles", needed.triangles, is_special, count_reason(flat->triangle_count)),
+        part_json("tree", needed.bvh, is_special, tree_reason(session, form, needed.bvh)),
+        part_json("lights", needed.shaded, is_special, lights),
+        part_json("mirrors", needed.mirrors, is_special, mirrors),
+        part_json("statistics", needed.statistics, true, statistics));
 }
 
 static const char *scene_family_reason(const Session *session)
 {
-    const KernelRequest *wanted = &session->settings.kernel;
-    if (wanted->precision == PRECISION_FP64)
+    const ClrtSettings *wanted = &session->settings.wanted;
+    if (wanted->precision == CLRT_FP64)
         return "--precision fp64 traces rays one by one";
-    if (wanted->form != KERNEL_AUTO)
+    if (wanted->kernel != CLRT_KERNEL_AUTO)
         return "--tune kernel requests it";
     if (session->is_quick)
         return "packets are not compiled yet, and compiling takes longer than they would save";
@@ -81,25 +71,13 @@ static const char *scene_family_reason(const Session *session)
     return session->device.is_cpu ? "it suits this OpenCL implementation" : "it suits GPUs";
 }
 
-static const char *scene_program_reason(Specialization wanted, bool is_special)
+static const char *scene_program_reason(ClrtSpecialize wanted, bool is_special)
 {
-    if (wanted != SPECIALIZE_AUTO)
+    if (wanted != CLRT_SPECIALIZE_AUTO)
         return is_special ? "--tune specialize=always" : "--tune specialize=never";
     return is_special
                ? "the kernels are compiled already, or save more than compiling costs"
                : "special kernels are not compiled yet, and would save less than compiling costs";
-}
-
-static json_t *parts_json(const Run *run)
-{
-    ScenePart parts[SCENE_PARTS];
-    json_t *list = json_array();
-    scene_parts_list(run, parts);
-    for (const ScenePart *part = parts; part < parts + SCENE_PARTS; part++)
-        json_array_append_new(
-            list, JSON(FIELD("name", part->name), FIELD("needed", part->is_needed),
-                       FIELD("compiled", part->is_compiled), FIELD("reason", part->reason)));
-    return list;
 }
 
 static json_t *arrays_json(const FlatScene *flat)
@@ -112,84 +90,94 @@ static json_t *arrays_json(const FlatScene *flat)
     return object;
 }
 
-static json_t *report_json(const Run *run)
+static json_t *report_json(const Options *options, const Session *session, const SceneForm *form,
+                           bool is_special)
 {
-    const KernelChoice *choice = &run->session.choice;
+    const KernelChoice *choice = &session->choice;
+    const bool counts = options->picture.statistics;
     json_t *kernels = JSON(FIELD("family", kernel_family_name(choice->family)),
                            FIELD("nodes", kernel_nodes_name(choice->nodes)),
                            FIELD("precision", kernel_precision_name(choice->precision)),
-                           FIELD("reason", scene_family_reason(&run->session)));
-    const bool is_special = run->report.drawn.is_special;
-    const Specialization wanted = run->session.settings.specialization;
-    json_t *program = JSON(FIELD("special", is_special),
-                           FIELD("reason", scene_program_reason(wanted, is_special)));
-    return REPORT(2, FIELD("scene", run->options->scene_path),
-                  FIELD("device", run->session.device.name), FIELD("kernels", kernels),
-                  FIELD("program", program), FIELD("parts", parts_json(run)),
-                  FIELD("uploaded_bytes", arrays_json(&run->form->flat)));
+                           FIELD("reason", scene_family_reason(session)));
+    json_t *program = JSON(
+        FIELD("special", is_special),
+        FIELD("reason", scene_program_reason(session->settings.wanted.specialize, is_special)));
+    return REPORT(2, FIELD("scene", options->scene_path), FIELD("device", session->device.name),
+                  FIELD("kernels", kernels), FIELD("program", program),
+                  FIELD("parts", parts_json(session, form, counts, is_special)),
+                  FIELD("uploaded_bytes", arrays_json(&form->flat)));
 }
 
 // Prints the features with these properties below the heading, if there are any.
-static void write_parts(const ScenePart parts[SCENE_PARTS], const char *heading, bool is_needed,
-                        bool is_compiled)
+static void write_parts(const json_t *parts, const char *heading, bool is_needed, bool is_compiled)
 {
-    for (int i = 0; i < SCENE_PARTS; i++) {
-        if (parts[i].is_needed != is_needed || parts[i].is_compiled != is_compiled)
+    for (size_t i = 0; i < json_array_size(parts); i++) {
+        const json_t *part = json_array_get(parts, i);
+        if (json_is_true(json_object_get(part, "needed")) != is_needed ||
+            json_is_true(json_object_get(part, "compiled")) != is_compiled)
             continue;
-        printf("%s  %-11s %s\n", heading, parts[i].name, parts[i].reason);
+        printf("%s  %-11s", heading, json_string_value(json_object_get(part, "name")));
+        json_print(part, " {reason}\n", stdout);
         heading = "";
     }
 }
 
-static void write_arrays(const FlatScene *flat, size_t upload_size)
+static void write_arrays(json_t *arrays)
 {
-    FlatArray arrays[FLAT_ARRAYS];
+    const char *name;
+    json_t *bytes;
     int missing = 0;
-    flat_arrays(flat, arrays);
-    printf("uploaded, %zu bytes\n", upload_size);
-    for (int i = 0; i < FLAT_ARRAYS; i++)
-        if (arrays[i].bytes > 0)
-            printf("  %-11s %zu bytes\n", arrays[i].name, arrays[i].bytes);
-    for (int i = 0; i < FLAT_ARRAYS; i++)
-        if (arrays[i].bytes == 0)
-            printf("%s %s", missing++ == 0 ? "not uploaded, because they are empty\n " : "",
-                   arrays[i].name);
+    json_object_foreach(arrays, name, bytes)
+    {
+        if (json_integer_value(bytes) > 0)
+            printf("  %-11s %lld bytes\n", name, (long long)json_integer_value(bytes));
+    }
+    json_object_foreach(arrays, name, bytes)
+    {
+        if (json_integer_value(bytes) == 0)
+            printf("%s %s", missing++ == 0 ? "not uploaded, because they are empty\n " : "", name);
+    }
     printf("%s", missing > 0 ? "\n" : "");
 }
 
-static void write_text(const Run *run)
+static void write_text(const json_t *report, size_t upload_size)
 {
-    ScenePart parts[SCENE_PARTS];
-    json_t *json = report_json(run);
-    scene_parts_list(run, parts);
-    json_print(json,
+    const json_t *parts = json_object_get(report, "parts");
+    const json_t *program = json_object_get(report, "program");
+    json_print(report,
                "{scene} on {device}\n"
                "  kernels     {kernels.family} over {kernels.nodes} nodes in {kernels.precision}: "
                "{kernels.reason}\n"
                "  program     ",
                stdout);
-    fputs(run->report.drawn.is_special ? "special" : "general", stdout);
-    json_print(json, ": {program.reason}\n", stdout);
-    json_decref(json);
+    fputs(json_is_true(json_object_get(program, "special")) ? "special" : "general", stdout);
+    json_print(program, ": {reason}\n", stdout);
     write_parts(parts, "compiled in\n", true, true);
     write_parts(parts, "compiled in but idle, because the program is general\n", false, true);
     write_parts(parts, "left out\n", false, false);
-    write_arrays(&run->form->flat, run->report.drawn.upload_size);
+    printf("uploaded, %zu bytes\n", upload_size);
+    write_arrays(json_object_get(report, "uploaded_bytes"));
 }
 
-ExitCode explain_scene(Run *run, Error *error)
+ExitCode explain_scene(const Options *options, Session *session, Scene *scene, Error *error)
 {
-    const Options *options = run->options;
-    ExitCode code = run_start(run, error);
+    SessionPicture request;
+    PictureResult prepared;
+    StageSeconds unused = {0};
+    ExitCode code = stage_start(session, scene, options, &unused, error);
+    if (code == EXIT_DONE && !stage_request(&request, options, scene, error))
+        code = EXIT_SCENE;
     if (code == EXIT_DONE)
-        code = run_prepare(run, error);
+        code = stage_prepare(session, options, NULL, &unused, error);
     if (code != EXIT_DONE)
         return code;
-    if (!session_prepare(&run->session, &run->request, &run->report.drawn, error))
+    if (!session_prepare(session, &request, &prepared, error))
         return EXIT_DEVICE;
+    json_t *report =
+        report_json(options, session, session_own_form(session, error), prepared.is_special);
     if (options->json_path != NULL)
-        return json_file_write(report_json(run), options->json_path, error) ? EXIT_DONE
-                                                                            : EXIT_OUTPUT;
-    write_text(run);
+        return json_file_write(report, options->json_path, error) ? EXIT_DONE : EXIT_OUTPUT;
+    write_text(report, prepared.upload_size);
+    json_decref(report);
     return EXIT_DONE;
 }

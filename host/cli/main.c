@@ -26,17 +26,20 @@ static void limit_threads(uint32_t count)
     setenv("POCL_CPU_MAX_CU_COUNT", text, count > 0);
 }
 
-static ExitCode perform_run(const Options *options, ExitCode perform_stages(Run *, Error *),
-                            Error *error)
+// Runs a command on a session. Without CLRT_TIDY_EXIT, leaves the session to the operating system,
+// because drivers are slow to close.
+static ExitCode perform_traced(const Options *options, TracingCommand *command, Error *error)
 {
-    Run run = {.options = options};
-    cache_open(&run.session.cache);
+    Session session = {0};
+    Scene scene = {0};
+    cache_open(&session.cache);
     if (progress_on_terminal() && !options->quiet)
-        run.session.cache.announce = progress_show_compiling;
+        session.cache.announce = progress_show_compiling;
     limit_threads(options->renderer.threads);
-    const ExitCode code = perform_stages(&run, error);
-    run_free(&run);
-    cache_close(&run.session.cache);
+    const ExitCode code = command(options, &session, &scene, error);
+    (CLRT_TIDY_EXIT ? session_close : session_save)(&session);
+    scene_free(&scene);
+    cache_close(&session.cache);
     return code;
 }
 
@@ -52,11 +55,11 @@ static ExitCode perform(const Options *options, Error *error)
     case ACTION_DEVICES:
         return device_report_write(options, error);
     case ACTION_WARM:
-        return perform_run(options, warm_kernels, error);
+        return perform_traced(options, warm_kernels, error);
     case ACTION_VIEW:
-        return perform_run(options, show_scene, error);
+        return perform_traced(options, show_scene, error);
     case ACTION_CHECK:
-        return perform_run(options, check_scene, error);
+        return perform_traced(options, check_scene, error);
     case ACTION_COMPARE:
         return compare_files(options, error);
     case ACTION_MERGE:
@@ -64,13 +67,13 @@ static ExitCode perform(const Options *options, Error *error)
     case ACTION_CONVERT:
         return convert_scene(options, error);
     case ACTION_EXPLAIN:
-        return perform_run(options, explain_pixel, error);
+        return perform_traced(options, explain_pixel, error);
     case ACTION_EXPLAIN_SCENE:
-        return perform_run(options, explain_scene, error);
+        return perform_traced(options, explain_scene, error);
     case ACTION_RENDER:
         break;
     }
-    return perform_run(options, picture_make, error);
+    return perform_traced(options, picture_make, error);
 }
 
 static ExitCode run_arguments(int count, char **arguments, Error *error)

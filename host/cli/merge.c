@@ -6,7 +6,6 @@
 #include "cli/commands.h"
 
 #include "base/output_file.h"
-#include "cli/picture.h"
 #include "cli/report.h"
 #include "jobs/exr_join.h"
 #include "jobs/stored_tiles.h"

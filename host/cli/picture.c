@@ -5,7 +5,8 @@
 #include "base/clock.h"
 #include "base/output_file.h"
 #include "cli/options/option.h"
-#include "cli/picture.h"
+#include "cli/picture_error.h"
+#include "cli/picture_messages.h"
 #include "cli/process.h"
 #include "cli/progress.h"
 #include "cli/report.h"
@@ -29,71 +30,53 @@ static bool tile_done(void *context, const RenderProgress *render)
 {
     TileWatch *watch = context;
     Picture *picture = watch->picture;
-    return resume_keep(&picture->resume, &picture->run->request.settings, &picture->framebuffer,
+    return resume_keep(&picture->resume, &picture->request.settings, &picture->framebuffer,
                        render->tiles_done - 1, watch->error) &&
            progress_tile_done(&watch->progress, render);
 }
 
-SessionPicture picture_request(const Picture *picture)
-{
-    SessionPicture request = picture->run->request;
-    request.viewpoint = picture->viewpoint;
-    return request;
-}
-
 static bool draw_frame(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
     double moment = clock_seconds();
-    TileWatch watch = {picture, progress_begin(run->options->quiet), error};
+    TileWatch watch = {picture, progress_begin(picture->options->quiet), error};
     const RenderObserver observer = {tile_done, &watch};
-    const SessionPicture request = picture_request(picture);
-    const bool ok = session_draw(&run->session, &request, &observer, &picture->framebuffer,
-                                 &run->report.drawn, error);
+    const bool ok = session_draw(picture->session, &picture->request, &observer,
+                                 &picture->framebuffer, &picture->drawn, error);
     picture->stopped_by = progress_end(&watch.progress);
-    const double seconds = run_lap(&moment);
-    if (run->options->verbose && ok)
+    const double seconds = stage_lap(&moment);
+    if (picture->options->verbose && ok)
         fprintf(stderr, "traced in %.4f s\n", seconds);
-    run->report.frame_seconds[run->report.frame_count++] = seconds;
+    picture->frame_seconds[picture->frame_count++] = seconds;
     return ok && !picture->resume.is_broken;
 }
 
 static bool draw(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
     bool ok = true;
-    for (uint32_t frame = 0; ok && picture->stopped_by == 0 && frame < run->options->repeat;
+    for (uint32_t frame = 0; ok && picture->stopped_by == 0 && frame < picture->options->repeat;
          frame++)
         ok = draw_frame(picture, error);
-    run->report.complete = ok && run->report.drawn.is_complete;
+    picture->complete = ok && picture->drawn.is_complete;
     return ok;
 }
 
 static bool trace_layers(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
-    const ChannelRequest channels = {run->options->aovs, run->report.drawn.pixel_samples,
+    const ChannelRequest channels = {picture->options->aovs, picture->drawn.pixel_samples,
                                      picture->certainty.marks != NULL ? &picture->certainty : NULL};
-    const SessionPicture request = picture_request(picture);
-    Progress progress = progress_begin(run->options->quiet);
+    Progress progress = progress_begin(picture->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok = session_draw_channels(&run->session, &request, &channels, &observer,
+    const bool ok = session_draw_channels(picture->session, &picture->request, &channels, &observer,
                                           &picture->layers, error);
     picture->stopped_by = progress_end(&progress);
-    run->report.complete = run->report.complete && picture->stopped_by == 0;
+    picture->complete = picture->complete && picture->stopped_by == 0;
     return ok;
-}
-
-static bool certify(Picture *picture, Error *error)
-{
-    return !aov_needs(picture->run->options->aovs, AOV_NEEDS_CERTAINTY) ||
-           certain_picture_make(picture, error);
 }
 
 // Computes the channels besides the colors. If the picture was stopped, all their values are zero.
 static bool draw_layers(Picture *picture, Error *error)
 {
-    const Options *options = picture->run->options;
+    const Options *options = picture->options;
     const Framebuffer *frame = &picture->framebuffer;
     aov_name_layers(options->aovs, &picture->layers);
     reference_name_layer(options, &picture->layers);
@@ -101,29 +84,10 @@ static bool draw_layers(Picture *picture, Error *error)
            (options->aovs == 0 || picture->stopped_by != 0 || trace_layers(picture, error));
 }
 
-static bool measure_error(Picture *picture, Error *error)
-{
-    Run *run = picture->run;
-    if (!run->options->reference)
-        return true;
-    const bool ok = reference_measure(picture, error);
-    if (ok && !run->options->quiet)
-        report_write_error(&run->report.reference, stderr);
-    return ok;
-}
-
-static bool write_reference(const Picture *picture, Error *error)
-{
-    const Run *run = picture->run;
-    const char *path = run->options->reference_path;
-    return path == NULL || picture->reference.pixels == NULL ||
-           reference_write(picture, path, error);
-}
-
 static bool open_film(Picture *picture, Error *error)
 {
-    const RenderSettings *settings = &picture->run->request.settings;
-    const uint64_t rows = (uint64_t)frames_count(&picture->run->options->frames) * settings->height;
+    const RenderSettings *settings = &picture->request.settings;
+    const uint64_t rows = (uint64_t)frames_count(&picture->options->frames) * settings->height;
     if (rows > INT32_MAX)
         return error_set(error, "the pictures are too many for one file");
     const bool ok = framebuffer_make(&picture->film, settings->width, (uint32_t)rows, error);
@@ -143,61 +107,59 @@ static uint32_t add_to_film(Picture *picture)
 
 static bool write_picture(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
     Provenance provenance;
-    const Options *options = run->options;
+    const Options *options = picture->options;
     double moment = clock_seconds();
     const bool is_film = options->frames.is_film;
-    framebuffer_hash(&picture->framebuffer, run->report.pixel_hash);
+    framebuffer_hash(&picture->framebuffer, picture->pixel_hash);
     const uint32_t film_frames = is_film ? add_to_film(picture) : 0;
     if (is_film && film_frames < frames_count(&options->frames) && picture->stopped_by == 0)
         return true;
     if (picture->path == NULL) // only the hash is requested
         return true;
-    report_fill_provenance(&provenance, run);
+    report_fill_provenance(&provenance, picture);
     provenance_list(&provenance);
     ImageSettings settings = {.format = options->format,
                               .encoding = options->encoding,
                               .exposure = options->exposure,
                               .frames = film_frames,
-                              .left = run->request.settings.left,
-                              .top = run->request.settings.top,
-                              .whole_width = render_whole_width(&run->request.settings),
-                              .whole_height = render_whole_height(&run->request.settings),
+                              .left = picture->request.settings.left,
+                              .top = picture->request.settings.top,
+                              .whole_width = render_whole_width(&picture->request.settings),
+                              .whole_height = render_whole_height(&picture->request.settings),
                               .texts = provenance.list,
                               .text_count = options->no_metadata ? 0 : provenance.count,
                               .layers = picture->layers.count > 0 ? &picture->layers : NULL};
     ImagePart part = {0};
-    if (run->request.settings.parts > 0) {
+    if (picture->request.settings.parts > 0) {
         settings.part = &part;
-        if (!stored_tiles_list(&run->request.settings, &part, error))
+        if (!stored_tiles_list(&picture->request.settings, &part, error))
             return false;
-        part.tile_count = run->report.drawn.progress.tiles_done;
+        part.tile_count = picture->drawn.progress.tiles_done;
     }
     const bool ok = image_write(is_film ? &picture->film : &picture->framebuffer, picture->path,
                                 &settings, error);
     free(part.tiles);
-    run->report.write = run_lap(&moment);
+    picture->write_seconds = stage_lap(&moment);
     if (ok && picture->stopped_by == 0)
         picture_print_end(picture);
     return ok;
 }
 
-static bool write_statistics(Run *run, double start, Error *error)
+static bool write_statistics(Picture *picture, Error *error)
 {
-    const Options *options = run->options;
-    run->report.total = clock_seconds() - start;
+    const Options *options = picture->options;
+    picture->total_seconds = clock_seconds() - picture->start;
     if (option_is_given(options, "stats"))
-        report_write_text(run, stderr);
-    return options->json_path == NULL || report_write_json(run, options->json_path, error);
+        report_write_text(picture, stderr);
+    return options->json_path == NULL || report_write_json(picture, options->json_path, error);
 }
 
 // Rejects an invalid SOURCE_DATE_EPOCH, and outputs that are unwritable or cannot be resumed,
 // before any work.
 static ExitCode check_files(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
-    const Options *options = run->options;
+    const Options *options = picture->options;
     if (!provenance_check_date(error))
         return EXIT_USAGE;
     if ((options->output_path != NULL && !output_file_check(options->output_path, error)) ||
@@ -220,81 +182,86 @@ static bool check_sizes(const Options *options, const RenderSettings *settings, 
             image_check_size(image_format_of_path(reference), width, height, error));
 }
 
-static ExitCode prepare(Run *run, Error *error)
+static ExitCode prepare(Picture *picture, Error *error)
 {
-    picture_warn_of_goal(run->options);
-    const ExitCode started = run_start(run, error);
+    Scene *scene = picture->scene;
+    const Options *options = picture->options;
+    picture_warn_of_goal(options);
+    const ExitCode started = stage_start(picture->session, scene, options, &picture->stages, error);
     if (started != EXIT_DONE)
         return started;
-    picture_warn_of_few_tiles(run->options, &run->request.settings);
-    if (!check_sizes(run->options, &run->request.settings, error))
+    if (!stage_request(&picture->request, options, scene, error))
+        return EXIT_SCENE;
+    picture->truncation = truncation_bound(scene, picture->request.settings.max_level);
+    picture_warn_of_few_tiles(options, &picture->request.settings);
+    if (!check_sizes(options, &picture->request.settings, error))
         return EXIT_OUTPUT;
-    const ExitCode prepared = run_prepare(run, error);
+    const double pictures = options->repeat * (double)frames_count(&options->frames);
+    const SessionWork work = session_work(&picture->request, pictures);
+    const ExitCode prepared =
+        stage_prepare(picture->session, options, &work, &picture->stages, error);
     if (prepared != EXIT_DONE)
         return prepared;
-    if (!session_prepare(&run->session, &run->request, &run->report.drawn, error))
+    picture->form = session_own_form(picture->session, error);
+    if (!session_prepare(picture->session, &picture->request, &picture->drawn, error))
         return EXIT_DEVICE;
-    if (run->options->verbose)
-        report_write_setup(run, stderr);
+    if (options->verbose)
+        report_write_setup(picture, stderr);
     return EXIT_DONE;
 }
 
 static void clear(Picture *picture)
 {
-    Run *run = picture->run;
     framebuffer_free(&picture->framebuffer);
-    framebuffer_free(&picture->reference);
+    framebuffer_free(&picture->reference.picture);
     layers_free(&picture->layers);
     certainty_map_free(&picture->certainty);
-    free(run->report.drawn.pixel_samples);
-    run->report.drawn.pixel_samples = NULL;
-    run->report.frame_count = 0;
+    free(picture->drawn.pixel_samples);
+    picture->drawn.pixel_samples = NULL;
+    picture->frame_count = 0;
 }
 
 static void set_view(Picture *picture, uint32_t number)
 {
-    Run *run = picture->run;
-    const Options *options = run->options;
+    const Options *options = picture->options;
+    const Scene *scene = picture->scene;
     const uint32_t steps = options->frames.turntable;
-    run->report.view = steps > 0 ? options->picture.view : number;
-    run->report.turned = steps > 0 ? 360.0 * (number - 1) / steps : 0;
-    picture->viewpoint = turn_viewpoint(&run->scene.viewpoints.data[run->report.view - 1],
-                                        run->scene.has_course_views, run->report.turned);
+    picture->view = steps > 0 ? options->picture.view : number;
+    picture->turned = steps > 0 ? 360.0 * (number - 1) / steps : 0;
+    picture->request.viewpoint = turn_viewpoint(&scene->viewpoints.data[picture->view - 1],
+                                                scene->has_course_views, picture->turned);
 }
 
 // Creates a black picture and copies the finished tiles of an earlier run into it.
 static bool begin_picture(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
     Provenance own;
-    RenderSettings *settings = &run->request.settings;
     uint32_t width, height;
-    report_fill_provenance(&own, run);
+    RenderSettings *settings = &picture->request.settings;
+    report_fill_provenance(&own, picture);
     tile_frame_size(settings, &width, &height);
     return framebuffer_make(&picture->framebuffer, width, height, error) &&
            resume_open(&picture->resume, &own, settings, &picture->framebuffer, error);
 }
 
-static ExitCode finish(Picture *picture, double start, Error *error)
+static ExitCode finish(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
-    if (run->options->frames.skips_finished && !run->report.complete) {
+    if (picture->options->frames.skips_finished && !picture->complete) {
         error_set(error, "stopped: %s is not written", picture->path);
         return (ExitCode)(128 + picture->stopped_by);
     }
-    if (!write_picture(picture, error) || !write_reference(picture, error) ||
-        !write_statistics(run, start, error))
+    if (!write_picture(picture, error) || !reference_write(picture, error) ||
+        !write_statistics(picture, error))
         return EXIT_OUTPUT;
-    resume_close(&picture->resume, run->report.complete);
+    resume_close(&picture->resume, picture->complete);
     if (picture->stopped_by > 0)
         return picture_fail_stopped(picture, error);
-    if (!report_print_hash(run->options, run->report.pixel_hash, error))
+    if (!report_print_hash(picture->options, picture->pixel_hash, error))
         return EXIT_FAULTS;
-    return run->report.drawn.goal_missed ? picture_fail_goal(run->options, &run->report, error)
-                                         : EXIT_DONE;
+    return picture->drawn.goal_missed ? picture_fail_goal(picture, error) : EXIT_DONE;
 }
 
-static ExitCode make_frame(Picture *picture, uint32_t number, double start, Error *error)
+static ExitCode make_frame(Picture *picture, uint32_t number, Error *error)
 {
     clear(picture);
     set_view(picture, number);
@@ -306,17 +273,17 @@ static ExitCode make_frame(Picture *picture, uint32_t number, double start, Erro
     stop_wait_for_tiles();
     if (!draw(picture, error))
         return picture->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
-    if (!certify(picture, error) || !draw_layers(picture, error) || !measure_error(picture, error))
+    if (!picture_certify(picture, error) || !draw_layers(picture, error) ||
+        !reference_measure(picture, error))
         return EXIT_DEVICE;
-    return finish(picture, start, error);
+    return finish(picture, error);
 }
 
 // Draws all frames. If a frame misses its goal, the remaining frames are still drawn.
-static ExitCode make_frames(Picture *picture, double start, Error *error)
+static ExitCode make_frames(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
     ExitCode outcome = EXIT_DONE;
-    const Frames *frames = &run->options->frames;
+    const Frames *frames = &picture->options->frames;
     const uint32_t count = frames_count(frames);
     if (frames->is_film && !open_film(picture, error))
         return EXIT_OUTPUT;
@@ -326,31 +293,35 @@ static ExitCode make_frames(Picture *picture, double start, Error *error)
             error_set(error, "stopped: %u of %u pictures are drawn", place, count);
             return (ExitCode)(128 + stop_signal());
         }
-        char *name = frames_name(run->options->output_path, number, error);
+        char *name = frames_name(picture->options->output_path, number, error);
         if (name == NULL)
             return EXIT_OUTPUT;
         picture->path = frames->is_film ? picture->path : name;
         const bool is_finished = frames->skips_finished && access(name, F_OK) == 0;
-        const ExitCode code = is_finished ? EXIT_DONE : make_frame(picture, number, start, error);
+        const ExitCode code = is_finished ? EXIT_DONE : make_frame(picture, number, error);
         outcome = code > outcome ? code : outcome;
         free(name);
     }
     return outcome;
 }
 
-ExitCode picture_make(Run *run, Error *error)
+ExitCode picture_make(const Options *options, Session *session, Scene *scene, Error *error)
 {
-    const Options *options = run->options;
     const double start = clock_seconds();
-    Picture picture = {.run = run, .path = options->output_path, .moment = start};
+    Picture picture = {.options = options,
+                       .session = session,
+                       .scene = scene,
+                       .path = options->output_path,
+                       .start = start,
+                       .moment = start};
     stop_watch();
     ExitCode code = check_files(&picture, error);
     if (code == EXIT_DONE)
-        code = prepare(run, error);
+        code = prepare(&picture, error);
     if (code == EXIT_DONE)
         code = frames_are_many(&options->frames)
-                   ? make_frames(&picture, start, error)
-                   : make_frame(&picture, options->picture.view, start, error);
+                   ? make_frames(&picture, error)
+                   : make_frame(&picture, options->picture.view, error);
     clear(&picture);
     framebuffer_free(&picture.film);
     resume_close(&picture.resume, false);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Certifies a finished picture, and measures its error against a reference.
-#include "cli/picture.h"
+#include "cli/picture_error.h"
 
 #include "base/clock.h"
 #include "cli/progress.h"
+#include "cli/report.h"
 #include "session/reference.h"
 
 #include <math.h>
@@ -34,22 +35,22 @@ static void store_errors(Picture *picture)
     const size_t pixels = (size_t)layers->width * layers->height;
     for (size_t pixel = 0; pixel < pixels; pixel++) {
         const float off =
-            error_of(picture->framebuffer.pixels[pixel], picture->reference.pixels[pixel]);
+            error_of(picture->framebuffer.pixels[pixel], picture->reference.picture.pixels[pixel]);
         memcpy(&layers->values[(pixel + 1) * layers->count - 1], &off, sizeof off);
     }
 }
 
 static bool measure(Picture *picture, const ReferencePicture *reference, Error *error)
 {
-    ReferenceResult *result = &picture->run->report.reference;
+    MeasuredReference *measured = &picture->reference;
     const StoredImage drawn = stored_view(&picture->framebuffer);
-    const StoredImage truth = stored_view(&picture->reference);
+    const StoredImage truth = stored_view(&measured->picture);
     ImagePair pair = {{&truth, &drawn}, {"the reference", "the picture"}, {{0}}};
-    result->own_error = reference->own_error;
-    result->samples = picture->run->request.reference_samples;
+    measured->own_error = reference->own_error;
+    measured->samples = picture->request.reference_samples;
     if (!image_pair_check(&pair, error))
         return false;
-    difference_measure(&result->difference, &pair);
+    difference_measure(&measured->difference, &pair);
     store_errors(picture);
     return true;
 }
@@ -63,49 +64,51 @@ void reference_name_layer(const Options *options, Layers *layers)
 
 bool reference_measure(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
     double moment = clock_seconds();
     ReferencePicture reference;
-    const SessionPicture request = picture_request(picture);
-    if (picture->stopped_by != 0)
+    if (!picture->options->reference || picture->stopped_by != 0)
         return true;
-    Progress progress = progress_begin(run->options->quiet);
+    Progress progress = progress_begin(picture->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    bool ok = reference_draw(&run->session, &request, &observer, &reference, error);
+    bool ok = reference_draw(picture->session, &picture->request, &observer, &reference, error);
     picture->stopped_by = progress_end(&progress);
-    picture->reference = reference.picture;
+    picture->reference.picture = reference.picture;
     if (ok && reference.picture.pixels != NULL)
         ok = measure(picture, &reference, error);
-    run->report.reference.seconds = run_lap(&moment);
+    picture->reference.seconds = stage_lap(&moment);
+    if (ok && !picture->options->quiet)
+        report_write_error(&picture->reference, stderr);
     return ok;
 }
 
-bool reference_write(const Picture *picture, const char *path, Error *error)
+bool reference_write(const Picture *picture, Error *error)
 {
+    const char *path = picture->options->reference_path;
+    if (path == NULL || picture->reference.picture.pixels == NULL)
+        return true;
     const ImageSettings settings = {.format = image_format_of_path(path),
-                                    .encoding = picture->run->options->encoding,
-                                    .exposure = picture->run->options->exposure};
-    return image_write(&picture->reference, path, &settings, error);
+                                    .encoding = picture->options->encoding,
+                                    .exposure = picture->options->exposure};
+    return image_write(&picture->reference.picture, path, &settings, error);
 }
 
-bool certain_picture_make(Picture *picture, Error *error)
+bool picture_certify(Picture *picture, Error *error)
 {
-    Run *run = picture->run;
     double moment = clock_seconds();
     const Framebuffer *frame = &picture->framebuffer;
-    const SessionPicture request = picture_request(picture);
+    if (!aov_needs(picture->options->aovs, AOV_NEEDS_CERTAINTY))
+        return true;
     if (!certainty_map_make(&picture->certainty, frame->width, frame->height, error))
         return false;
     if (picture->stopped_by != 0)
         return true;
     const CertifiedPicture certified = {&picture->framebuffer, &picture->certainty};
-    Progress progress = progress_begin(run->options->quiet);
+    Progress progress = progress_begin(picture->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok = session_certify(&run->session, &request, &observer, &certified, error);
+    const bool ok =
+        session_certify(picture->session, &picture->request, &observer, &certified, error);
     picture->stopped_by = progress_end(&progress);
-    run->report.complete = run->report.complete && picture->stopped_by == 0;
-    run->report.certainty.seconds = run_lap(&moment);
-    memcpy(run->report.certainty.pixels, picture->certainty.counts,
-           sizeof picture->certainty.counts);
+    picture->complete = picture->complete && picture->stopped_by == 0;
+    picture->certainty_seconds = stage_lap(&moment);
     return ok;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Prints notes about a picture, and describes pictures that miss a goal or are stopped.
-#include "cli/picture.h"
+#include "cli/picture_messages.h"
 
 #include "cli/progress.h"
 
@@ -36,46 +36,44 @@ void picture_warn_of_few_tiles(const Options *options, const RenderSettings *set
 
 void picture_print_beginning(const Picture *picture)
 {
-    const Run *run = picture->run;
-    if (!run->options->verbose)
+    if (!picture->options->verbose)
         return;
-    if (frames_are_many(&run->options->frames))
+    if (frames_are_many(&picture->options->frames))
         fprintf(stderr, "picture: %s\n", picture->path);
-    if (run->options->resume)
+    if (picture->options->resume)
         fprintf(stderr, "resumed: %llu of %llu tiles were finished before\n",
-                (unsigned long long)run->request.settings.ready_tiles,
-                (unsigned long long)tile_count(&run->request.settings));
+                (unsigned long long)picture->request.settings.ready_tiles,
+                (unsigned long long)tile_count(&picture->request.settings));
 }
 
 void picture_print_end(Picture *picture)
 {
     const Framebuffer *framebuffer = &picture->framebuffer;
-    const double seconds = run_lap(&picture->moment);
-    if (progress_on_terminal() && !picture->run->options->quiet && strcmp(picture->path, "-") != 0)
+    const double seconds = stage_lap(&picture->moment);
+    if (progress_on_terminal() && !picture->options->quiet && strcmp(picture->path, "-") != 0)
         fprintf(stderr, "wrote %s (%ux%u, %.2f s)\n", picture->path, framebuffer->width,
                 framebuffer->height, seconds);
 }
 
-ExitCode picture_fail_goal(const Options *options, const Report *report, Error *error)
+ExitCode picture_fail_goal(const Picture *picture, Error *error)
 {
-    if (options->picture.seconds > 0)
+    if (picture->request.goal.seconds > 0)
         error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
-                  report->frame_seconds[0]);
+                  picture->frame_seconds[0]);
     else
         error_set(error, "the error may be %.2g %%, more than --error allows",
-                  100 * fmax(report->drawn.bound, report->truncation));
+                  100 * fmax(picture->drawn.bound, picture->truncation));
     return EXIT_FAULTS;
 }
 
 ExitCode picture_fail_stopped(const Picture *picture, Error *error)
 {
-    const Run *run = picture->run;
-    const RenderProgress *progress = &run->report.drawn.progress;
+    const RenderProgress *progress = &picture->drawn.progress;
     const char *path = picture->path,
                *name = path == NULL || strcmp(path, "-") == 0 ? "the picture" : path;
-    if (run->report.complete)
+    if (picture->complete)
         error_set(error, "stopped: %s is complete", name);
-    else if (progress->tiles_done == progress->tiles || options_are_adaptive(run->options))
+    else if (progress->tiles_done == progress->tiles || options_are_adaptive(picture->options))
         error_set(error, "stopped: %s is incomplete", name);
     else
         error_set(error, "stopped: %s is incomplete, with %llu of %llu tiles", name,

@@ -26,11 +26,11 @@ const char *report_tree_name(const Bvh *tree, BvhBuilder builder)
     return builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }
 
-static json_t *frames_json(const Report *report)
+static json_t *frames_json(const Picture *picture)
 {
     json_t *list = json_array();
-    for (uint32_t frame = 0; frame < report->frame_count; frame++)
-        json_array_append_new(list, json_real(report->frame_seconds[frame]));
+    for (uint32_t frame = 0; frame < picture->frame_count; frame++)
+        json_array_append_new(list, json_real(picture->frame_seconds[frame]));
     return list;
 }
 
@@ -50,44 +50,44 @@ static json_t *tree_json(const Bvh *tree, BvhBuilder builder)
                 FIELD("largest_leaf", tree->largest_leaf));
 }
 
-static json_t *scene_json(const Run *run)
+static json_t *scene_json(const Picture *picture)
 {
     char hash[SCENE_HASH_SIZE], mesh_hash[SCENE_HASH_SIZE];
-    const Scene *scene = &run->scene;
+    const Scene *scene = picture->scene;
     scene_hash_name(scene->hash, hash);
     scene_hash_name(scene->mesh_hash, mesh_hash);
-    return JSON(FIELD("path", run->options->scene_path), FIELD("hash", hash),
+    return JSON(FIELD("path", picture->options->scene_path), FIELD("hash", hash),
                 FIELD("mesh_hash", mesh_hash), FIELD("lights", scene->lights.count),
                 FIELD("spheres", scene->spheres.count),
                 FIELD("triangles", scene_triangle_count(scene)),
                 FIELD("dropped_triangles", scene_dropped_count(scene)));
 }
 
-static json_t *settings_json(const Run *run)
+static json_t *settings_json(const Picture *picture)
 {
-    const RenderSettings *settings = &run->request.settings;
-    const KernelChoice *choice = &run->session.choice;
-    const uint32_t *group = run->report.drawn.group;
-    return JSON(FIELD("view", run->report.view), FIELD("width", render_whole_width(settings)),
+    const RenderSettings *settings = &picture->request.settings;
+    const KernelChoice *choice = &picture->session->choice;
+    const uint32_t *group = picture->drawn.group;
+    return JSON(FIELD("view", picture->view), FIELD("width", render_whole_width(settings)),
                 FIELD("height", render_whole_height(settings)), FIELD("crop", crop_json(settings)),
                 FIELD("samples", settings->samples), FIELD("max_level", settings->max_level),
-                FIELD("truncation_bound", run->report.truncation),
+                FIELD("truncation_bound", picture->truncation),
                 FIELD("tile", json_pair(settings->tile_width, settings->tile_height)),
                 FIELD("work_group", json_pair(group[0], group[1])),
-                FIELD("specialized", run->report.drawn.is_special),
+                FIELD("specialized", picture->drawn.is_special),
                 FIELD("kernel", kernel_family_name(choice->family)),
                 FIELD("nodes", kernel_nodes_name(choice->nodes)), FIELD("lanes", choice->lanes),
                 FIELD("precision", kernel_precision_name(choice->precision)));
 }
 
 // Returns null for refined pictures, which are drawn in several passes without tiles.
-static json_t *tiles_json(const Run *run)
+static json_t *tiles_json(const Picture *picture)
 {
-    const uint64_t found = run->request.settings.ready_tiles;
-    if (options_are_adaptive(run->options))
+    const uint64_t found = picture->request.settings.ready_tiles;
+    if (options_are_adaptive(picture->options))
         return json_null();
-    return JSON(FIELD("total", tile_count(&run->request.settings)), FIELD("found", found),
-                FIELD("drawn", run->report.drawn.progress.tiles_done - found));
+    return JSON(FIELD("total", tile_count(&picture->request.settings)), FIELD("found", found),
+                FIELD("drawn", picture->drawn.progress.tiles_done - found));
 }
 
 static json_t *samples_json(const PictureResult *drawn, double contrast)
@@ -118,72 +118,73 @@ static json_t *tests_json(const uint64_t *tallies)
                 FIELD("sphere_per_ray", ratio(sphere, rays)));
 }
 
-static json_t *seconds_json(const Report *report, double device_seconds)
+static json_t *seconds_json(const Picture *picture)
 {
-    return JSON(FIELD("parse", report->parse), FIELD("load", report->load),
-                FIELD("build", report->build), FIELD("device", device_seconds),
-                FIELD("upload", report->drawn.upload_seconds),
-                FIELD("kernel_build", report->drawn.build_seconds),
-                FIELD("trace", report->frame_seconds[0]), FIELD("write", report->write),
-                FIELD("total", report->total));
+    return JSON(FIELD("parse", picture->stages.parse), FIELD("load", picture->stages.load),
+                FIELD("build", picture->stages.build),
+                FIELD("device", picture->session->device_seconds),
+                FIELD("upload", picture->drawn.upload_seconds),
+                FIELD("kernel_build", picture->drawn.build_seconds),
+                FIELD("trace", picture->frame_seconds[0]), FIELD("write", picture->write_seconds),
+                FIELD("total", picture->total_seconds));
 }
 
-static json_t *reference_json(const ReferenceResult *result)
+static json_t *reference_json(const MeasuredReference *reference)
 {
-    const Difference *difference = &result->difference;
+    const Difference *difference = &reference->difference;
     const uint64_t pixels = difference->pixels;
-    if (result->samples == 0)
+    if (reference->samples == 0)
         return json_null();
-    return JSON(FIELD("samples", result->samples), FIELD("rmse", difference->rmse),
-                FIELD("own_error", result->own_error), FIELD("maximum", difference->maximum),
+    return JSON(FIELD("samples", reference->samples), FIELD("rmse", difference->rmse),
+                FIELD("own_error", reference->own_error), FIELD("maximum", difference->maximum),
                 FIELD("maximum_at", json_pair(difference->maximum_x, difference->maximum_y)),
                 FIELD("share_off_by_1", ratio(difference->off_by_1, pixels)),
                 FIELD("share_off_by_4", ratio(difference->off_by_4, pixels)),
-                FIELD("seconds", result->seconds));
+                FIELD("seconds", reference->seconds));
 }
 
-static json_t *certainty_json(const CertaintyResult *certainty, AovSet channels)
+static json_t *certainty_json(const Picture *picture)
 {
-    const uint64_t *pixels = certainty->pixels;
-    if (!aov_needs(channels, AOV_NEEDS_CERTAINTY))
+    const uint64_t *pixels = picture->certainty.counts;
+    if (!aov_needs(picture->options->aovs, AOV_NEEDS_CERTAINTY))
         return json_null();
     return JSON(FIELD("certified", pixels[CERTAINTY_CERTIFIED]),
                 FIELD("repaired", pixels[CERTAINTY_REPAIRED]),
-                FIELD("open", pixels[CERTAINTY_OPEN]), FIELD("seconds", certainty->seconds));
+                FIELD("open", pixels[CERTAINTY_OPEN]),
+                FIELD("seconds", picture->certainty_seconds));
 }
 
-static json_t *report_json(const Run *run)
+static json_t *report_json(const Picture *picture)
 {
     struct rusage usage;
-    const Report *report = &run->report;
-    const Device *device = &run->session.device;
-    const uint64_t *tallies = report->drawn.progress.tallies;
+    const Device *device = &picture->session->device;
+    const uint64_t *tallies = picture->drawn.progress.tallies;
     getrusage(RUSAGE_SELF, &usage);
     const uint64_t peak = (uint64_t)usage.ru_maxrss * 1024;
     return REPORT(
-        1, FIELD("complete", report->complete), FIELD("pixel_hash", report->pixel_hash),
+        1, FIELD("complete", picture->complete), FIELD("pixel_hash", picture->pixel_hash),
         FIELD("device", JSON(FIELD("name", device->name), FIELD("driver", device->version))),
         FIELD("bytes",
-              JSON(FIELD("uploaded", report->drawn.upload_size), FIELD("peak_memory", peak))),
-        FIELD("scene", scene_json(run)),
-        FIELD("bvh", tree_json(&run->report.tree, run->session.settings.builder)),
-        FIELD("settings", settings_json(run)), FIELD("cached", report->drawn.was_compiled),
-        FIELD("tiles", tiles_json(run)),
-        FIELD("samples", samples_json(&report->drawn, run->options->picture.contrast)),
+              JSON(FIELD("uploaded", picture->drawn.upload_size), FIELD("peak_memory", peak))),
+        FIELD("scene", scene_json(picture)),
+        FIELD("bvh",
+              tree_json(&picture->form->tree, session_builder(&picture->session->settings.wanted))),
+        FIELD("settings", settings_json(picture)), FIELD("cached", picture->drawn.was_compiled),
+        FIELD("tiles", tiles_json(picture)),
+        FIELD("samples", samples_json(&picture->drawn, picture->options->picture.contrast)),
         FIELD("rays", rays_json(tallies)), FIELD("tests", tests_json(tallies)),
-        FIELD("seconds", seconds_json(report, run->session.device_seconds)),
-        FIELD("frame_seconds", frames_json(report)),
-        FIELD("reference", reference_json(&report->reference)),
-        FIELD("certainty", certainty_json(&report->certainty, run->options->aovs)));
+        FIELD("seconds", seconds_json(picture)), FIELD("frame_seconds", frames_json(picture)),
+        FIELD("reference", reference_json(&picture->reference)),
+        FIELD("certainty", certainty_json(picture)));
 }
 
-static void print_error(const Run *run, const json_t *json, FILE *stream)
+static void print_error(const Picture *picture, const json_t *json, FILE *stream)
 {
     json_print(json,
                "error: about {samples.error_estimate .2g%}, at most {samples.error_bound .2g%} "
                "with 95 % confidence",
                stream);
-    if (run->request.goal.truncated > 0)
+    if (picture->request.goal.truncated > 0)
         json_print(json,
                    ", including at most {settings.truncation_bound .2g%} because rays end at level "
                    "{settings.max_level}",
@@ -191,10 +192,10 @@ static void print_error(const Run *run, const json_t *json, FILE *stream)
     fputs("\n", stream);
 }
 
-void report_write_text(const Run *run, FILE *stream)
+void report_write_text(const Picture *picture, FILE *stream)
 {
-    json_t *json = report_json(run);
-    if (run->options->resume)
+    json_t *json = report_json(picture);
+    if (picture->options->resume)
         json_print(json,
                    "{tiles.found} of {tiles.total} tiles were finished before: time and counts "
                    "cover the others\n",
@@ -203,8 +204,8 @@ void report_write_text(const Run *run, FILE *stream)
                "{seconds.trace .3f} seconds\n"
                "{samples.total} samples, {samples.per_pixel .2f} per pixel\n",
                stream);
-    if (run->report.drawn.estimate > 0)
-        print_error(run, json, stream);
+    if (picture->drawn.estimate > 0)
+        print_error(picture, json, stream);
     json_print(json,
                "{rays.total} rays: {rays.camera} camera, {rays.shadow} shadow, {rays.reflected} "
                "reflected\n"
@@ -217,9 +218,9 @@ void report_write_text(const Run *run, FILE *stream)
     json_decref(json);
 }
 
-void report_write_setup(const Run *run, FILE *stream)
+void report_write_setup(const Picture *picture, FILE *stream)
 {
-    json_t *json = report_json(run);
+    json_t *json = report_json(picture);
     json_print(
         json,
         "scene: {scene.triangles} triangles, {scene.spheres} spheres, {scene.lights} lights; "
@@ -228,19 +229,19 @@ void report_write_setup(const Run *run, FILE *stream)
         "triangles, {bvh.depth} levels\n"
         "device: {device.name}, driver {device.driver}, ",
         stream);
-    fprintf(stream, "%u compute units\n", run->session.device.compute_units);
+    fprintf(stream, "%u compute units\n", picture->session->device.compute_units);
     json_print(json, "kernels: {settings.kernel}, {settings.nodes} nodes, {settings.precision}, ",
                stream);
-    fputs(run->report.drawn.is_special ? "specialized" : "general", stream);
-    fputs(run->report.drawn.was_compiled ? ", cached" : ", compiled", stream);
+    fputs(picture->drawn.is_special ? "specialized" : "general", stream);
+    fputs(picture->drawn.was_compiled ? ", cached" : ", compiled", stream);
     json_print(json, ", ready in {seconds.kernel_build .3f} s; uploaded {bytes.uploaded} bytes\n",
                stream);
     json_decref(json);
 }
 
-void report_write_error(const ReferenceResult *result, FILE *stream)
+void report_write_error(const MeasuredReference *reference, FILE *stream)
 {
-    json_t *json = reference_json(result);
+    json_t *json = reference_json(reference);
     json_print(json,
                "RMSE {rmse .4g} ({rmse .3g%}), largest difference "
                "{maximum .4g} at {maximum_at.0},{maximum_at.1}; "
@@ -252,48 +253,50 @@ void report_write_error(const ReferenceResult *result, FILE *stream)
     json_decref(json);
 }
 
-bool report_write_json(const Run *run, const char *path, Error *error)
+bool report_write_json(const Picture *picture, const char *path, Error *error)
 {
-    return json_file_write(report_json(run), path, error);
+    return json_file_write(report_json(picture), path, error);
 }
 
 // Fills the metadata of a picture. Settings that cannot change a pixel are left out, so that they
 // do not change the file. Only parts and unfinished pictures also record their tiles.
 
-static json_t *stored_samples_json(const Run *run)
+static json_t *stored_samples_json(const Picture *picture)
 {
-    return options_are_adaptive(run->options) ? json_string("adaptive")
-                                              : json_count(run->request.settings.samples);
+    return options_are_adaptive(picture->options) ? json_string("adaptive")
+                                                  : json_count(picture->request.settings.samples);
 }
 
 // Test counts depend on the tree; colors do not.
-static void add_tree(json_t *json, const Run *run)
+static void add_tree(json_t *json, const Picture *picture)
 {
-    if (!aov_needs(run->options->aovs, AOV_NEEDS_TESTS))
+    if (!aov_needs(picture->options->aovs, AOV_NEEDS_TESTS))
         return;
     json_object_set_new(
         json, "bvh",
-        json_string(report_tree_name(&run->report.tree, run->session.settings.builder)));
-    json_object_set_new(json, "nodes", json_string(kernel_nodes_name(run->session.choice.nodes)));
+        json_string(report_tree_name(&picture->form->tree,
+                                     session_builder(&picture->session->settings.wanted))));
+    json_object_set_new(json, "nodes",
+                        json_string(kernel_nodes_name(picture->session->choice.nodes)));
 }
 
-static json_t *stored_settings_json(const Run *run)
+static json_t *stored_settings_json(const Picture *picture)
 {
-    const RenderSettings *settings = &run->request.settings;
-    const Options *options = run->options;
-    const bool is_unfinished = !run->report.complete && !options_are_adaptive(options);
+    const RenderSettings *settings = &picture->request.settings;
+    const Options *options = picture->options;
+    const bool is_unfinished = !picture->complete && !options_are_adaptive(options);
     json_t *json =
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", json_count(run->report.view),
-                  "width", json_count(render_whole_width(settings)), "height",
-                  json_count(render_whole_height(settings)), "samples", stored_samples_json(run),
-                  "max_level", json_count(settings->max_level), "encode",
-                  options->encoding == ENCODE_SRGB ? "srgb" : "raw", "precision",
-                  kernel_precision_name(run->session.choice.precision));
-    add_tree(json, run);
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", json_count(picture->view), "width",
+                  json_count(render_whole_width(settings)), "height",
+                  json_count(render_whole_height(settings)), "samples",
+                  stored_samples_json(picture), "max_level", json_count(settings->max_level),
+                  "encode", options->encoding == ENCODE_SRGB ? "srgb" : "raw", "precision",
+                  kernel_precision_name(picture->session->choice.precision));
+    add_tree(json, picture);
     if (options->exposure != 0)
         json_object_set_new(json, "exposure", json_real(options->exposure));
-    if (run->report.turned > 0)
-        json_object_set_new(json, "turned", json_real(run->report.turned));
+    if (picture->turned > 0)
+        json_object_set_new(json, "turned", json_real(picture->turned));
     if (render_is_part(settings))
         json_object_set_new(json, "crop", crop_json(settings));
     if (options->picture.contrast > 0)
@@ -307,7 +310,7 @@ static json_t *stored_settings_json(const Run *run)
     if (settings->parts > 0 || is_unfinished)
         json_object_set_new(json, "tile", json_pair(settings->tile_width, settings->tile_height));
     if (is_unfinished)
-        json_object_set_new(json, "tiles_done", json_count(run->report.drawn.progress.tiles_done));
+        json_object_set_new(json, "tiles_done", json_count(picture->drawn.progress.tiles_done));
     return json;
 }
 
@@ -316,17 +319,17 @@ static void set(Provenance *provenance, StoredText kind, const char *value)
     snprintf(provenance->texts[kind], STORED_TEXT_SIZE, "%s", value);
 }
 
-void report_fill_provenance(Provenance *provenance, const Run *run)
+void report_fill_provenance(Provenance *provenance, const Picture *picture)
 {
-    json_t *settings = stored_settings_json(run);
+    json_t *settings = stored_settings_json(picture);
     set(provenance, STORED_VERSION, CLRT_VERSION);
-    scene_hash_name(run->scene.hash, provenance->texts[STORED_SCENE_HASH]);
-    scene_hash_name(run->scene.mesh_hash, provenance->texts[STORED_MESH_HASH]);
+    scene_hash_name(picture->scene->hash, provenance->texts[STORED_SCENE_HASH]);
+    scene_hash_name(picture->scene->mesh_hash, provenance->texts[STORED_MESH_HASH]);
     provenance_write_settings(provenance->texts[STORED_SETTINGS], settings);
-    set(provenance, STORED_DEVICE, run->session.device.name);
-    set(provenance, STORED_DRIVER, run->session.device.version);
-    set(provenance, STORED_PIXEL_HASH, run->report.pixel_hash);
-    set(provenance, STORED_COMPLETE, run->report.complete ? "yes" : "no");
+    set(provenance, STORED_DEVICE, picture->session->device.name);
+    set(provenance, STORED_DRIVER, picture->session->device.version);
+    set(provenance, STORED_PIXEL_HASH, picture->pixel_hash);
+    set(provenance, STORED_COMPLETE, picture->complete ? "yes" : "no");
     json_decref(settings);
 }
 

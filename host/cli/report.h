@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Reports of a run's costs and results, as text and as JSON.
+// Reports of a picture's costs and results, as text and as JSON.
 #pragma once
 
-#include "cli/run.h"
+#include "cli/picture_data.h"
 #include "image/provenance.h"
 
 // Returns the name of the tree's builder as in --tune bvh, or "none" without a tree.
 const char *report_tree_name(const Bvh *tree, BvhBuilder builder);
 
 // Prints the error against the reference, if one was drawn.
-void report_write_error(const ReferenceResult *result, FILE *stream);
+void report_write_error(const MeasuredReference *reference, FILE *stream);
 
 // Prints the scene, the tree, the device and the kernels, before the picture is drawn.
-void report_write_setup(const Run *run, FILE *stream);
+void report_write_setup(const Picture *picture, FILE *stream);
 
 // Prints time, samples, rays and tests, like the course's program.
-void report_write_text(const Run *run, FILE *stream);
+void report_write_text(const Picture *picture, FILE *stream);
 
 // Writes versioned JSON with sorted keys to path ("-": standard output).
-bool report_write_json(const Run *run, const char *path, Error *error);
+bool report_write_json(const Picture *picture, const char *path, Error *error);
 
 // Fills the texts that the picture's file stores.
-void report_fill_provenance(Provenance *provenance, const Run *run);
+void report_fill_provenance(Provenance *provenance, const Picture *picture);
 
 // Prints the hash of the pixels if the options request it. Fails if the hash differs from the
 // expected hash.

@@ -4,7 +4,7 @@
 
 #ifdef CLRT_WITH_WINDOW
 #include "base/file.h"
-#include "cli/options/option.h"
+#include "cli/stages.h"
 #include "view/status_text.h"
 #include "view/viewer.h"
 
@@ -24,9 +24,9 @@ void show_write_keys(FILE *stream)
     }
 }
 
-ExitCode show_scene(Run *run, Error *error)
+ExitCode show_scene(const Options *options, Session *session, Scene *scene, Error *error)
 {
-    const Options *options = run->options;
+    (void)scene; // the window reads scenes again and again
     static const ExitCode codes[] = {[VIEWER_CLOSED] = EXIT_DONE,
                                      [VIEWER_NO_WINDOW] = EXIT_USAGE,
                                      [VIEWER_NO_SCENE] = EXIT_SCENE,
@@ -42,8 +42,8 @@ ExitCode show_scene(Run *run, Error *error)
         .uses_bvh = options->renderer.tree != CLRT_TREE_NONE,
         .encoding = options->encoding,
         .exposure = (int)lround(2 * options->exposure),
-        .tracer = {.session = run_session_settings(options),
-                   .cache = run->session.cache,
+        .tracer = {.session = stage_settings(options),
+                   .cache = session->cache,
                    .max_level = options->picture.max_level},
         .keys = options->keys,
         .quit_after = options->quit_after,
@@ -61,9 +61,9 @@ void show_write_keys(FILE *stream)
     (void)stream;
 }
 
-ExitCode show_scene(Run *run, Error *error)
+ExitCode show_scene(const Options *options, Session *session, Scene *scene, Error *error)
 {
-    (void)run;
+    (void)options, (void)session, (void)scene;
     error_set(error, "this build has no window");
     return EXIT_USAGE;
 }

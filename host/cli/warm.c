@@ -3,15 +3,17 @@
 // "--tune specialize=always" omits the general kernels, and "specialize=never" the
 // specialized ones.
 #include "cli/commands.h"
+#include "cli/stages.h"
 
 #include <stdio.h>
 
-static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, Error *error)
+static bool warm_kernel(Session *session, const Options *options, const SceneTraits *traits,
+                        const char *name, Error *error)
 {
-    const PictureGoal goal = request_goal(&run->options->picture);
+    const PictureGoal goal = request_goal(&options->picture);
     const RendererUse use = {.entry = picture_entry(&goal)};
-    const Kernel *kernel = session_kernel(&run->session, &use, traits, error);
-    if (kernel != NULL && !run->options->quiet)
+    const Kernel *kernel = session_kernel(session, &use, traits, error);
+    if (kernel != NULL && !options->quiet)
         printf("%s kernels, %s, %s nodes, %s: %s %.2f s\n", name,
                kernel_family_name(kernel->choice.family), kernel_nodes_name(kernel->choice.nodes),
                kernel_precision_name(kernel->choice.precision),
@@ -20,23 +22,24 @@ static bool warm_kernel(Run *run, const SceneTraits *traits, const char *name, E
     return kernel != NULL;
 }
 
-ExitCode warm_kernels(Run *run, Error *error)
+ExitCode warm_kernels(const Options *options, Session *session, Scene *scene, Error *error)
 {
-    const Options *options = run->options;
-    const bool has_scene = options->scene_path != NULL;
-    run_begin(&run->session, options);
-    if (has_scene && !run_load_scene(run, error))
+    StageSeconds unused = {0};
+    const bool has_scene = options->scene_path != NULL, counts = options->picture.statistics;
+    stage_begin(session, options);
+    if (has_scene && !stage_load(session, scene, options, &unused, error))
         return EXIT_SCENE;
-    if (!run_await_device(run, error))
+    if (!session_await(session, NULL, error))
         return EXIT_DEVICE;
-    if (has_scene && !run_build_scene(run, error))
-        return EXIT_SCENE;
-    const SceneTraits general = traits_general(options->picture.statistics);
+    const SceneTraits general = traits_general(counts);
     if ((!has_scene || options->renderer.specialize != CLRT_SPECIALIZE_ALWAYS) &&
-        !warm_kernel(run, &general, "general", error))
+        !warm_kernel(session, options, &general, "general", error))
         return EXIT_DEVICE;
     if (!has_scene || options->renderer.specialize == CLRT_SPECIALIZE_NEVER)
         return EXIT_DONE;
-    const SceneTraits special = traits_of(&run->form->flat, options->picture.statistics);
-    return warm_kernel(run, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
+    const SceneForm *form = stage_build(session, options, error);
+    if (form == NULL)
+        return EXIT_SCENE;
+    const SceneTraits special = traits_of(&form->flat, counts);
+    return warm_kernel(session, options, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
 }

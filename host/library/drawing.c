@@ -65,8 +65,7 @@ static bool take_channels(Drawing *drawing, ClrtError *error)
 static bool check_request(const Drawing *drawing, ClrtError *error)
 {
     RequestFault fault;
-    const ClrtPrecision precision =
-        (ClrtPrecision)drawing->renderer->session.settings.kernel.precision;
+    const ClrtPrecision precision = drawing->renderer->session.settings.wanted.precision;
     if (request_check(&drawing->wanted, drawing->channels, precision, &fault))
         return true;
     switch (fault.rule) {

@@ -40,13 +40,14 @@ static bool check_settings(const ClrtSettings *given, ClrtError *error)
            check_number(error, "the group's height", given->group_height, 0, GROUP_SIDE_MOST);
 }
 
-static bool take_settings(SessionSettings *settings, const ClrtSettings *given, ClrtError *error)
+static bool take_settings(ClrtSettings *wanted, const ClrtSettings *given, ClrtError *error)
 {
-    ClrtSettings wanted = {.size = sizeof wanted};
-    if ((given != NULL && !check_struct(error, "the settings", given, &wanted, sizeof wanted)) ||
-        !check_settings(&wanted, error))
+    *wanted = (ClrtSettings){0};
+    if (given != NULL && !check_struct(error, "the settings", given, wanted, sizeof *wanted))
         return false;
-    return request_settings(&wanted, settings) ||
+    if (!check_settings(wanted, error))
+        return false;
+    return request_names_kernel(wanted) ||
            check_fail(error, CLRT_ARGUMENT,
                       "precision, kernel and lanes contradict each other: the wide and packet "
                       "kernels have 4, 8 or 16 lanes and no fp64");
@@ -55,14 +56,14 @@ static bool take_settings(SessionSettings *settings, const ClrtSettings *given, 
 ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *error)
 {
     Error cause = {0};
-    SessionSettings wanted;
+    ClrtSettings wanted;
     if (!take_settings(&wanted, settings, error))
         return NULL;
     ClrtRenderer *renderer = memory_zeroed(1, sizeof *renderer, &cause);
     if (renderer != NULL) {
-        renderer->session.settings = wanted;
+        renderer->session.settings.wanted = wanted;
         if (open_session(&renderer->session, &cause)) {
-            renderer->session.settings.device = NULL; // the caller's
+            renderer->session.settings.wanted.device = NULL; // the caller's
             return renderer;
         }
     }

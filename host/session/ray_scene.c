@@ -31,9 +31,10 @@ static bool compile(RayScene *ray_scene, const Session *session, const Scene *sc
         .scene = scene,
         .normalization = &session->scene.normalization,
         .layout = layout,
-        .builder = session->settings.builder,
-        .has_tree = session->settings.tree != TREE_NEVER && session_wants_tree(session, layout),
-        .pool = thread_pool_open(threads_allowed(session->settings.threads))};
+        .builder = session_builder(&session->settings.wanted),
+        .has_tree =
+            session->settings.wanted.tree != CLRT_TREE_NONE && session_wants_tree(session, layout),
+        .pool = thread_pool_open(threads_allowed(session->settings.wanted.threads))};
     const bool ok = scene_compile(&ray_scene->flat, &stages, &source, error);
     thread_pool_close(source.pool);
     ray_scene->triangles = stages.triangles;

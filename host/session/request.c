@@ -29,22 +29,10 @@ bool request_needs_fp64(const ClrtPicture *wanted)
     return wanted->error > 0 && wanted->error < ERROR_OF_FP64;
 }
 
-bool request_settings(const ClrtSettings *wanted, SessionSettings *settings)
+bool request_names_kernel(const ClrtSettings *wanted)
 {
-    static const TreeUse trees[] = {[CLRT_TREE_AUTO] = TREE_AUTO,
-                                    [CLRT_TREE_SAH] = TREE_ALWAYS,
-                                    [CLRT_TREE_MIDPOINT] = TREE_ALWAYS,
-                                    [CLRT_TREE_NONE] = TREE_NEVER};
-    *settings = (SessionSettings){
-        .device = wanted->device,
-        .threads = wanted->threads,
-        .kernel = {(KernelForm)wanted->kernel, wanted->lanes, (Precision)wanted->precision},
-        .specialization = (Specialization)wanted->specialize,
-        .builder = wanted->tree == CLRT_TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH,
-        .tree = trees[wanted->tree],
-        .group_width = wanted->group_width,
-        .group_height = wanted->group_height};
-    return kernel_is_valid(&settings->kernel);
+    const KernelRequest request = session_kernel_request(wanted);
+    return kernel_is_valid(&request);
 }
 
 static bool check_numbers(const ClrtPicture *wanted, RequestFault *fault)

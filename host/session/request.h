@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ClrtPicture of clrt.h -> SessionPicture, and ClrtSettings -> SessionSettings. The library and the
-// program share these rules and defaults. Each words its own messages about a RequestFault.
+// ClrtPicture of clrt.h -> SessionPicture. The library and the program share these rules and
+// defaults. Each words its own messages about a RequestFault.
 #pragma once
 
 #include "library/clrt.h"
@@ -34,8 +34,8 @@ bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision pre
 // Returns whether the error goal is too small for fp32.
 bool request_needs_fp64(const ClrtPicture *wanted);
 
-// Fills the settings of a session. Returns false if precision, kernel and lanes exclude each other.
-bool request_settings(const ClrtSettings *wanted, SessionSettings *settings);
+// Returns false if precision, kernel and lanes exclude each other.
+bool request_names_kernel(const ClrtSettings *wanted);
 
 // Returns the picture's goal. Its member `truncated` is 0, because it depends on the scene.
 PictureGoal request_goal(const ClrtPicture *wanted);

@@ -10,13 +10,20 @@
 #include "base/clock.h"
 #include "session/costs.h"
 
+KernelRequest session_kernel_request(const ClrtSettings *settings)
+{
+    return (KernelRequest){(KernelForm)settings->kernel, settings->lanes,
+                           (Precision)settings->precision};
+}
+
 static bool open_device(Session *session, Error *error)
 {
     const SessionSettings *settings = &session->settings;
+    const KernelRequest request = session_kernel_request(&settings->wanted);
     const double start = clock_seconds();
-    session->is_open = device_open(&session->device, settings->device, error);
+    session->is_open = device_open(&session->device, settings->wanted.device, error);
     session->device_seconds = clock_seconds() - start;
-    session->choice = kernel_choose(&settings->kernel, &session->device);
+    session->choice = kernel_choose(&request, &session->device);
     session->kernels.source = (ProgramSource){.device = &session->device,
                                               .cache = &session->cache,
                                               .kernel_folder = settings->kernel_folder,
@@ -46,10 +53,9 @@ bool session_open(Session *session, Error *error)
 // Returns whether the settings leave the choice of kernels to the session.
 static bool leaves_kernels_open(const Session *session)
 {
-    const SessionSettings *settings = &session->settings;
-    const KernelRequest *request = &settings->kernel;
-    return request->form == KERNEL_AUTO && request->precision == PRECISION_FP32 &&
-           settings->tree != TREE_NEVER && settings->specialization != SPECIALIZE_ALWAYS;
+    const ClrtSettings *wanted = &session->settings.wanted;
+    return wanted->kernel == CLRT_KERNEL_AUTO && wanted->precision == CLRT_FP32 &&
+           wanted->tree != CLRT_TREE_NONE && wanted->specialize != CLRT_SPECIALIZE_ALWAYS;
 }
 
 static bool is_compiled(const Session *session, const KernelEntry *entry, KernelChoice choice)
@@ -117,15 +123,16 @@ static bool specialization_pays(const Session *session, const KernelSpec *specia
         (double)settings->width * settings->height * settings->samples * settings->samples;
     const double rate = RAYS_PER_SECOND * session->device.compute_units;
     const double saving = SPECIALIZED_SAVES * samples * RAYS_PER_SAMPLE / rate;
-    if (session->settings.specialization != SPECIALIZE_AUTO)
-        return session->settings.specialization == SPECIALIZE_ALWAYS;
+    const ClrtSpecialize wanted = session->settings.wanted.specialize;
+    if (wanted != CLRT_SPECIALIZE_AUTO)
+        return wanted == CLRT_SPECIALIZE_ALWAYS;
     return kernel_set_has(&session->kernels, special) ||
            (session->settings.kernel_folder == NULL && saving > COMPILE_SECONDS);
 }
 
 static KernelSpec spec_of(const Session *session, const RendererUse *use, const SceneTraits *traits)
 {
-    const SessionSettings *settings = &session->settings;
+    const ClrtSettings *settings = &session->settings.wanted;
     KernelSpec spec = {.entry = use->entry,
                        .choice = use->choice != NULL ? *use->choice : session->choice,
                        .traits = *traits};

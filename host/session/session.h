@@ -10,34 +10,15 @@
 #pragma once
 
 #include "device/cache_private.h"
+#include "library/clrt.h"
 #include "render/renderer.h"
 #include "session/geometry.h"
 
-// Selects general kernels or kernels specialized for the scene. Both draw the same picture.
-typedef enum {
-    SPECIALIZE_AUTO, // specialized if compiled already, or if that saves time in total
-    SPECIALIZE_ALWAYS,
-    SPECIALIZE_NEVER
-} Specialization;
-
-// Selects whether rays find triangles by a tree.
-typedef enum {
-    TREE_AUTO, // unless testing all triangles is faster
-    TREE_ALWAYS,
-    TREE_NEVER
-} TreeUse;
-
-// The embedded kernels draw the same picture with all settings of equal kernel.precision.
+// The embedded kernels draw the same picture with all settings of equal wanted.precision.
 typedef struct {
-    const char *device;        // selects the device (device_open)
-    uint32_t threads;          // on the host; 0: as many as the process may use
+    ClrtSettings wanted;       // wanted.size is not used
     const char *kernel_folder; // replaces the embedded kernels; may be NULL
     const char *extra_options; // for the kernels' compiler; may be NULL
-    KernelRequest kernel;
-    Specialization specialization;
-    BvhBuilder builder;
-    TreeUse tree;
-    uint32_t group_width, group_height; // of work-groups; 0: the kernels' default
 } SessionSettings;
 
 // A scene in one layout of nodes.
@@ -108,8 +89,11 @@ bool session_wants_tree(const Session *session, NodeLayout layout);
 // tree if has_tree is false or session_wants_tree returns false.
 SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Error *error);
 
-// Returns the settings of the trees that the session's kernels traverse.
-BvhSettings session_tree(const Session *session);
+// Returns the builder that the settings request.
+BvhBuilder session_builder(const ClrtSettings *settings);
+
+// Returns the kernels that the settings request, which may be an impossible combination.
+KernelRequest session_kernel_request(const ClrtSettings *settings);
 
 // Returns the scene in the layout of session->choice, or NULL.
 SceneForm *session_own_form(Session *session, Error *error);

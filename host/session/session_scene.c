@@ -24,7 +24,7 @@ void session_scene_free(SessionScene *scene)
 bool session_wants_tree(const Session *session, NodeLayout layout)
 {
     const uint64_t triangles = scene_triangle_count(session->scene.scene);
-    return session->settings.tree == TREE_ALWAYS || layout != NODES_WIDE ||
+    return session->settings.wanted.tree != CLRT_TREE_AUTO || layout != NODES_WIDE ||
            triangles > TREELESS_TRIANGLES;
 }
 
@@ -49,13 +49,13 @@ static bool make_form(Session *session, SceneForm *form, NodeLayout layout, bool
                       Error *error)
 {
     CompileStages stages = {0};
-    const CompileSource source = {.scene = session->scene.scene,
-                                  .normalization = &session->scene.normalization,
-                                  .layout = layout,
-                                  .builder = session->settings.builder,
-                                  .has_tree = has_tree,
-                                  .pool =
-                                      thread_pool_open(threads_allowed(session->settings.threads))};
+    const CompileSource source = {
+        .scene = session->scene.scene,
+        .normalization = &session->scene.normalization,
+        .layout = layout,
+        .builder = session_builder(&session->settings.wanted),
+        .has_tree = has_tree,
+        .pool = thread_pool_open(threads_allowed(session->settings.wanted.threads))};
     const bool ok = compile(session, form, &stages, &source, error);
     thread_pool_close(source.pool);
     form->tree = stages.bvh;
@@ -77,11 +77,11 @@ SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Erro
 
 SceneForm *session_own_form(Session *session, Error *error)
 {
-    return session_form(session, session->choice.nodes, session->settings.tree != TREE_NEVER,
-                        error);
+    return session_form(session, session->choice.nodes,
+                        session->settings.wanted.tree != CLRT_TREE_NONE, error);
 }
 
-BvhSettings session_tree(const Session *session)
+BvhBuilder session_builder(const ClrtSettings *settings)
 {
-    return (BvhSettings){session->settings.builder, flat_leaves(session->choice.nodes)};
+    return settings->tree == CLRT_TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH;
 }

@@ -19,7 +19,8 @@ void tracer_close(ViewTracer *tracer)
 
 BvhSettings tracer_tree(const ViewTracer *tracer)
 {
-    return session_tree(&tracer->session);
+    return (BvhSettings){session_builder(&tracer->options->session.wanted),
+                         flat_leaves(tracer->session.choice.nodes)};
 }
 
 // Compiles the scene and the kernels for the next pass.
@@ -32,14 +33,14 @@ bool tracer_take(ViewTracer *tracer, Model *model, bool uses_bvh, Error *error)
 {
     Session *session = &tracer->session;
     SessionScene before = session->scene;
-    const TreeUse tree = session->settings.tree;
+    const ClrtTree tree = session->settings.wanted.tree;
     session->scene = (SessionScene){
         .scene = &model->scene, .normalization = model->normalization, .stages = &model->stages};
-    session->settings.tree = uses_bvh ? TREE_ALWAYS : TREE_NEVER;
+    session->settings.wanted.tree = uses_bvh ? CLRT_TREE_SAH : CLRT_TREE_NONE;
     if (!prepare(tracer, error)) {
         session_scene_free(&session->scene);
         session->scene = before;
-        session->settings.tree = tree;
+        session->settings.wanted.tree = tree;
         return false;
     }
     Model *held = model_hold(model);

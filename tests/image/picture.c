@@ -33,7 +33,7 @@ PictureRequest picture_request(const char *scene_path, uint32_t view)
                             .tile_height = 128,
                             .group_width = group,
                             .group_height = group,
-                            .specialization = SPECIALIZE_NEVER,
+                            .specialization = CLRT_SPECIALIZE_NEVER,
                             .choice = choice};
 }
 
@@ -139,17 +139,18 @@ static bool open_session(const PictureRequest *request, Error *error)
     const char *older = session.settings.extra_options;
     if (session.is_open && options != older)
         session_close(&session);
-    const bool is_kept = options == NULL && request->specialization != SPECIALIZE_ALWAYS;
+    const bool is_kept = options == NULL && request->specialization != CLRT_SPECIALIZE_ALWAYS;
     session.cache = is_kept ? *shared_cache() : (Cache){0};
-    session.settings = (SessionSettings){.device = getenv("CLRT_DEVICE"),
-                                         .threads = request->threads,
-                                         .kernel_folder = getenv("CLRT_KERNEL_DIR"),
-                                         .extra_options = options,
-                                         .specialization = request->specialization,
-                                         .builder = request->builder,
-                                         .tree = request->uses_bvh ? TREE_ALWAYS : TREE_NEVER,
-                                         .group_width = request->group_width,
-                                         .group_height = request->group_height};
+    const ClrtTree builder = request->builder == BVH_MIDPOINT ? CLRT_TREE_MIDPOINT : CLRT_TREE_SAH;
+    session.settings =
+        (SessionSettings){.wanted = {.device = getenv("CLRT_DEVICE"),
+                                     .threads = request->threads,
+                                     .specialize = request->specialization,
+                                     .tree = request->uses_bvh ? builder : CLRT_TREE_NONE,
+                                     .group_width = request->group_width,
+                                     .group_height = request->group_height},
+                          .kernel_folder = getenv("CLRT_KERNEL_DIR"),
+                          .extra_options = options};
     const bool ok = session.is_open || session_open(&session, error);
     session.choice = request->choice;
     return ok;

@@ -28,7 +28,7 @@ typedef struct {
     bool uses_bvh;
     BvhBuilder builder;
     uint32_t tile_width, tile_height, group_width, group_height;
-    Specialization specialization;
+    ClrtSpecialize specialization;
     KernelChoice choice;
     const char *extra_options; // for the compiler of kernels; NULL for none
     uint64_t *tallies;         // receives TALLY_KINDS counts; NULL: does not count

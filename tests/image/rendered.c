@@ -80,7 +80,7 @@ void rendered_expect_same_in_every_form(const PictureRequest *usual)
         others[i] = rendered_in_form(*usual, &form_all[i]);
         others[i].threads = i;
         others[i].builder = i % 2 == 0 ? BVH_SAH : BVH_MIDPOINT;
-        others[i].specialization = i == 0 ? SPECIALIZE_ALWAYS : SPECIALIZE_NEVER;
+        others[i].specialization = i == 0 ? CLRT_SPECIALIZE_ALWAYS : CLRT_SPECIALIZE_NEVER;
     }
     rendered_expect_same(usual, others, FORMS_FP32);
 }

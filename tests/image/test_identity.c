@@ -157,7 +157,7 @@ static void expect_special_same(unsigned mask, const KernelChoice *choice)
     general.width = general.height = 40;
     general.uses_bvh = (mask & 16) != 0;
     PictureRequest special = general;
-    special.specialization = SPECIALIZE_ALWAYS;
+    special.specialization = CLRT_SPECIALIZE_ALWAYS;
     special.extra_options = "-Werror";
     special.tallies = mask & 32 ? tallies : NULL;
     rendered_expect_same(&general, &special, 1);

@@ -35,16 +35,17 @@ __attribute__((visibility("default"))) int dlclose(void *handle)
 static void show_once(const char *keys)
 {
     Error error = {0};
-    const ViewerSettings settings = {.scene_path = CLRT_SOURCE_FOLDER "/scenes/simple.scn",
-                                     .view = 1,
-                                     .width = 256,
-                                     .height = 256,
-                                     .samples = 2,
-                                     .uses_bvh = true,
-                                     .tracer = {.session = {.threads = 2}, .cache = cache},
-                                     .keys = keys,
-                                     .quit_after = 1,
-                                     .patience = 60};
+    const ViewerSettings settings = {
+        .scene_path = CLRT_SOURCE_FOLDER "/scenes/simple.scn",
+        .view = 1,
+        .width = 256,
+        .height = 256,
+        .samples = 2,
+        .uses_bvh = true,
+        .tracer = {.session = {.wanted = {.threads = 2}}, .cache = cache},
+        .keys = keys,
+        .quit_after = 1,
+        .patience = 60};
     if (viewer_run(&settings, &error) != VIEWER_CLOSED)
         fail_msg("%s", error.text);
 }

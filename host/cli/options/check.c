@@ -223,8 +223,7 @@ static void choose_precision(Options *options)
 
 static bool check_kernel(const Options *options, Error *error)
 {
-    SessionSettings unused;
-    return request_settings(&options->renderer, &unused) ||
+    return request_names_kernel(&options->renderer) ||
            error_set(error, "--precision fp64 traces rays one by one through pair nodes: leave out "
                             "--tune kernel");
 }

@@ -256,13 +256,13 @@ bool set_tune(Options *options, const char *text, Error *error)
 bool set_kernel(Options *options, const char *text, Error *error)
 {
     const size_t length = strcspn(text, ":");
-    const int form = find_word("auto|pair|wide|packet", text, length); // as KernelForm
+    const int form = find_word("auto|pair|wide|packet", text, length); // as ClrtKernel
     int64_t lanes = 0;
     const bool ok = text[length] == '\0' || read_integer(text + length + 1, 4, 16, &lanes);
-    const KernelRequest request = {(KernelForm)form, (uint32_t)lanes, PRECISION_FP32};
-    options->renderer.kernel = (ClrtKernel)form;
-    options->renderer.lanes = request.lanes;
-    return (form >= 0 && ok && kernel_is_valid(&request)) ||
+    const ClrtSettings named = {.kernel = (ClrtKernel)form, .lanes = (uint32_t)lanes};
+    options->renderer.kernel = named.kernel;
+    options->renderer.lanes = named.lanes;
+    return (form >= 0 && ok && request_names_kernel(&named)) ||
            error_set(error,
                      "--tune kernel wants auto, pair, wide or packet, and wide or packet may have "
                      "4, 8 or 16 lanes, as in packet:8, not '%s'",

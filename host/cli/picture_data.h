@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The data of a picture that clrt renders to a file.
+#pragma once
+
+#include "cli/stages.h"
+#include "jobs/resume.h"
+#include "session/channels.h"
+
+// A picture's reference, and their difference.
+typedef struct {
+    Framebuffer picture; // empty without --reference
+    uint32_t samples;    // per pixel; 0 until the difference is measured
+    Difference difference;
+    double own_error; // the reference's RMSE, estimated from its two independent halves
+    double seconds;
+} MeasuredReference;
+
+// A picture in progress. The frames of a film use one Picture in succession.
+typedef struct {
+    const Options *options;
+    Session *session;
+    Scene *scene;
+    SessionPicture request; // for the frame's view
+    const char *path;       // of the output file
+    uint32_t view;          // from 1
+    double turned;          // the turntable's angle in degrees
+    double truncation;      // bound on the color error caused by max_level
+    Framebuffer framebuffer;
+    Framebuffer film; // the frames of an animated file, below each other; empty without one
+    MeasuredReference reference;
+    Layers layers;          // the channels besides the colors
+    CertaintyMap certainty; // empty without --aov certainty
+    Resume resume;          // empty without --resume
+    int stopped_by;         // the signal that stopped the picture, or 0
+    double start, moment;   // of the command; the end of the previous frame, or start
+
+    // For reports.
+    const SceneForm *form; // the scene for the picture's kernels
+    PictureResult drawn;
+    bool complete; // with all channels
+    StageSeconds stages;
+    double certainty_seconds, write_seconds, total_seconds;
+    double frame_seconds[REPEAT_MAX]; // one entry per repetition
+    uint32_t frame_count;
+    char pixel_hash[FRAMEBUFFER_HASH_SIZE];
+} Picture;

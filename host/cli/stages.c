@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "cli/stages.h"
+
+#include "base/clock.h"
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "image/image_file.h"
+#include "scene/scene.h"
+#include "scene/scn.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+
+// The default side of a part's tiles. They are smaller than a picture's, so that each part has more
+// tiles and all parts take about equal time.
+#define PART_TILE 64
+
+double stage_lap(double *moment)
+{
+    const double before = *moment;
+    *moment = clock_seconds();
+    return *moment - before;
+}
+
+SessionSettings stage_settings(const Options *options)
+{
+    return (SessionSettings){.wanted = options->renderer,
+                             .kernel_folder = getenv("CLRT_KERNEL_DIR")};
+}
+
+void stage_begin(Session *session, const Options *options)
+{
+    session->settings = stage_settings(options);
+    session_begin(session);
+}
+
+static void show_loading(const Options *options, bool begins)
+{
+    if (progress_on_terminal() && !options->quiet)
+        progress_show_loading(begins);
+}
+
+// The name of a scene on standard input, in messages. It has no slash, so paths of meshes are
+// relative to the current folder. Only the program reads "-" as standard input; to the library, "-"
+// is a file name.
+#define INPUT_NAME "standard input"
+
+bool stage_read(Scene *scene, const Options *options, Error *error)
+{
+    File file = {0};
+    SceneLoadOptions load = options->load;
+    load.is_tolerant = options->action == ACTION_CHECK;
+    show_loading(options, true);
+    const bool ok = options_read_input(options)
+                        ? file_read_stream(&file, stdin, INPUT_NAME, error) &&
+                              scn_take(scene, &file, INPUT_NAME, &load, error)
+                        : scn_load(scene, options->scene_path, &load, error);
+    file_free(&file);
+    show_loading(options, false);
+    return ok;
+}
+
+static bool check_view(const Options *options, const Scene *scene, Error *error)
+{
+    const Frames *frames = &options->frames;
+    const bool are_views = frames->turntable == 0 && frames->last > 0;
+    const uint32_t view = are_views ? frames->last : options->picture.view;
+    return view <= scene->viewpoints.count ||
+           error_set(error, "%s has %zu viewpoints, so there is no view %u", options->scene_path,
+                     scene->viewpoints.count, view);
+}
+
+static bool check_missing(const Options *options, const Scene *scene, Error *error)
+{
+    const MissingPart missing = scene_missing(scene);
+    if (missing.is_fault)
+        return error_set(error, "%s: %s", options->scene_path, missing.text);
+    if (missing.kind != NULL && !options->quiet)
+        fprintf(stderr, "clrt: %s: %s\n", options->scene_path, missing.text);
+    return true;
+}
+
+bool stage_load(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
+                Error *error)
+{
+    Error cause = {0};
+    double moment = clock_seconds();
+    if (!stage_read(scene, options, error) || !check_view(options, scene, error))
+        return false;
+    seconds->load = scene->mesh_seconds;
+    seconds->parse = stage_lap(&moment) - seconds->load;
+    if (!check_geometry(options, scene, error) || !check_missing(options, scene, error))
+        return false;
+    const bool ok = session_take(session, scene, &cause) ||
+                    error_set(error, "%s: %s", options->scene_path, cause.text);
+    seconds->build = stage_lap(&moment);
+    return ok;
+}
+
+ExitCode stage_start(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
+                     Error *error)
+{
+    stage_begin(session, options);
+    if (!stage_load(session, scene, options, seconds, error))
+        return EXIT_SCENE;
+    return command_files_check(options, scene, error) ? EXIT_DONE : EXIT_OUTPUT;
+}
+
+bool stage_request(SessionPicture *request, const Options *options, const Scene *scene,
+                   Error *error)
+{
+    const char *format = options->format != NULL ? options->format : "png";
+    ClrtPicture wanted = options->picture;
+    if (wanted.width == 0) {
+        wanted.width = scene->width;
+        wanted.height = scene->height;
+    }
+    if (wanted.tile_width == 0 && options->parts > 0)
+        wanted.tile_width = wanted.tile_height = PART_TILE;
+    if (options->fits_level)
+        wanted.truncation =
+            image_format_half_step(format, options->encoding) / exp2(options->exposure);
+    if (!crop_apply(&options->crop, &wanted, error))
+        return false;
+    const bool is_inside = request_resolve(&wanted, scene, NULL, request);
+    assert(is_inside);
+    (void)is_inside;
+    request->settings.part = options->parts > 0 ? options->part - 1 : 0;
+    request->settings.parts = options->parts;
+    request->keeps_samples = options->aovs != 0;
+    return true;
+}
+
+const SceneForm *stage_build(Session *session, const Options *options, Error *error)
+{
+    show_loading(options, true);
+    const SceneForm *form = session_own_form(session, error);
+    show_loading(options, false);
+    return form;
+}
+
+ExitCode stage_prepare(Session *session, const Options *options, const SessionWork *work,
+                       StageSeconds *seconds, Error *error)
+{
+    if (!session_await(session, work, error))
+        return EXIT_DEVICE;
+    double moment = clock_seconds();
+    const SceneForm *form = stage_build(session, options, error);
+    seconds->build += stage_lap(&moment);
+    return form != NULL ? EXIT_DONE : EXIT_SCENE;
+}

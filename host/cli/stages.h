@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The stages from the command line to a session that is ready to draw. Commands call those that
+// they need, in this order.
+#pragma once
+
+#include "cli/options/options.h"
+#include "session/picture.h"
+
+typedef struct {
+    double parse, load, build; // of the scene's text, of its meshes, and of the tree and the arrays
+} StageSeconds;
+
+// Returns the seconds since *moment, and sets *moment to the current time.
+double stage_lap(double *moment);
+
+// Returns the settings of the session that the options describe.
+SessionSettings stage_settings(const Options *options);
+
+// Sets the session's settings, and starts a thread that opens the device.
+void stage_begin(Session *session, const Options *options);
+
+// Reads the scene that the options name, a file or standard input, as scn_load does.
+bool stage_read(Scene *scene, const Options *options, Error *error);
+
+// Reads and checks the scene, and gives it to the session.
+bool stage_load(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
+                Error *error);
+
+// Calls stage_begin and stage_load, and checks the scene's files against the outputs. Returns the
+// exit status.
+ExitCode stage_start(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
+                     Error *error);
+
+// Fills the request for the view that the options name.
+bool stage_request(SessionPicture *request, const Options *options, const Scene *scene,
+                   Error *error);
+
+// Returns the session's scene for the kernels of pictures, or NULL. Builds the tree and flattens
+// the scene into arrays at the first call.
+const SceneForm *stage_build(Session *session, const Options *options, Error *error);
+
+// Waits for the device, chooses the kernels for device, scene and work, and calls stage_build. Adds
+// its time to seconds->build. work may be NULL. Returns the exit status.
+ExitCode stage_prepare(Session *session, const Options *options, const SessionWork *work,
+                       StageSeconds *seconds, Error *error);
