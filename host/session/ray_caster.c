@@ -87,12 +87,20 @@ void ray_caster_close(RayCaster *caster)
     *caster = (RayCaster){0};
 }
 
+// Does not wait. The rays must not change until results are read or abandon_cast() returns.
 static bool write_rays(const Device *device, cl_mem buffer, const RayData *rays, size_t count,
                        Error *error)
 {
-    return cl_succeeded(clEnqueueWriteBuffer(device->queue, buffer, CL_TRUE, 0,
+    return cl_succeeded(clEnqueueWriteBuffer(device->queue, buffer, CL_FALSE, 0,
                                              count * sizeof *rays, rays, 0, NULL, NULL),
                         "write rays", error);
+}
+
+// Ends a failed cast: waits until the device no longer reads rays. Returns false.
+static bool abandon_cast(const Device *device)
+{
+    clFinish(device->queue);
+    return false;
 }
 
 static size_t smaller(size_t a, size_t b)
@@ -109,7 +117,7 @@ bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits
         if (!write_rays(device, caster->rays, cast->rays + first, count, error) ||
             !launch(caster, cast->scene, (cl_uint)count, kind, error) ||
             !device_read(device, caster->hits, hits + first, count * sizeof *hits, error))
-            return false;
+            return abandon_cast(device);
     }
     return true;
 }
@@ -177,7 +185,7 @@ bool crossing_finder_find(const CrossingFinder *finder, const RayCast *cast, Cro
                          count * sizeof *found->counts, error) ||
             (room > 0 && !device_read(device, finder->hits, found->hits + first * room,
                                       count * room * sizeof *found->hits, error)))
-            return false;
+            return abandon_cast(device);
     }
     return true;
 }

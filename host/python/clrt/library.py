@@ -2,6 +2,7 @@
 """Calls libclrt. cffi reads clrt.h, so every struct is defined once."""
 
 import contextlib
+import functools
 import os
 import pathlib
 import re
@@ -76,16 +77,21 @@ def call(name, *arguments):
 _kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 
+@functools.cache
+def _fields(kind):
+    return {name: field.type for name, field in ffi.typeof(kind).fields}
+
+
 def struct(kind, **members):
     """Makes a struct of clrt.h. Arrays in it live as long as the struct. None is the default."""
-    made = ffi.new(kind + " *", {"size": ffi.sizeof(kind)})
+    made = ffi.new(kind + " *", (ffi.sizeof(kind),))
     _kept[made] = kept = []
     for name, value in members.items():
-        if not hasattr(made, name):
+        if name not in _fields(kind):
             raise TypeError(f"there is no setting {name!r}")
         if isinstance(value, np.ndarray):
             kept.append(value)
-            value = ffi.cast(dict(ffi.typeof(kind).fields)[name].type, value.ctypes.data)
+            value = ffi.cast(_fields(kind)[name], value.ctypes.data)
         elif isinstance(value, str):
             value = ffi.new("char[]", os.fsencode(value))
         if value is not None:
@@ -155,11 +161,14 @@ def choice(names, given, what):
 @contextlib.contextmanager
 def progress_of(progress):
     """Yields a ClrtProgress: a function of (done, all), a bar by tqdm for True, otherwise NULL."""
-    faults, ask = [], _bar() if progress is True else progress
-    callback = ffi.callback("ClrtProgress", lambda _, *parts: ask(*parts) is not False,
+    if not progress or progress is True and not (progress := _bar()):
+        yield ffi.NULL
+        return
+    faults = []
+    callback = ffi.callback("ClrtProgress", lambda _, *parts: progress(*parts) is not False,
                             error=False, onerror=lambda _, fault, __: faults.append(fault))
     try:
-        yield callback if ask else ffi.NULL
+        yield callback
     except Stopped as stopped:
         raise faults[0] if faults else stopped
 
