@@ -22,6 +22,9 @@ class Picture(np.ndarray):
     channels: Mapping[str, np.ndarray] = {}
     result: Mapping[str, Any] = {}
 
+    def __array_wrap__(self, array, *_):
+        return array.view(Picture) if array.ndim else array[()]
+
     def _repr_png_(self) -> bytes | None:
         """PNG bytes for notebooks, with the values that `clrt -o FILE.png` writes."""
         if self.ndim != 3 or self.shape[2] != 3:
