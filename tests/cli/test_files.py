@@ -44,13 +44,6 @@ class Files(SharedWork):
                      *SMALL, "bright.pfm", "--exposure", "1")
         self.refuses(2, "--exposure wants stops between -8 and 8, not '9'", *SMALL, "a.png", "--exposure", "9")
 
-    def test_the_ci_recipe_renders_the_picture_of_its_hash(self):
-        recipe = (ROOT / "docs/ci-recipe.yml").read_text()
-        (program, scene, *words), = (line.split()[2:] for line in recipe.splitlines() if "tools/render" in line)
-        self.assertEqual(program, "clrt/tools/render")
-        self.clrt(scene.replace("clrt", str(ROOT), 1), *words)
-        self.assertIn(f"path: {words[words.index('-o') + 1]}\n", recipe)
-
     def test_png_of_one_pixel_and_of_many_chunks_hold_the_picture(self):
         for name, words in (("one", ["-s", "1x1"]), ("many", ["-s", "801x603", "--aa"])):
             for ending in "png", "pfm":
