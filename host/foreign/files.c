@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each file is read once and kept in memory, because Assimp opens the model several times to guess
-// its format. Assimp cannot read outside the model's folder, regardless of the paths in a model.
+// Implements Assimp's interface for files. Each file is read once and kept in memory, because
+// Assimp opens the model several times to guess its format. Paths in a model may name any file, but
+// Assimp only gets files in the model's folder or below.
 #include "foreign/files.h"
 
 #include "foreign/limits.h"
@@ -31,8 +32,8 @@ static bool is_below(const char *file, const char *folder)
     return strncmp(file, folder, length) == 0 && file[length] == '/';
 }
 
-// Returns whether path is in the model's folder after links are resolved, because that folder may
-// contain hostile links.
+// Returns whether path is in the model's folder or below. Links are resolved first, because the
+// folder may contain hostile links.
 static bool stays_inside(const Files *files, const char *path)
 {
     char *target = realpath(path, NULL);
@@ -74,7 +75,7 @@ static bool read_regular(File *file, const char *path, Error *error)
     Error cause = {0};
     if (file_read(file, path, &cause))
         return true;
-    // Removes the file's name from the message, because clrt adds it.
+    // Removes the file's name from the message, because clrt adds it again.
     const size_t length = strlen(path);
     const bool is_named = strncmp(cause.text, path, length) == 0;
     return error_set(error, "%s", cause.text + (is_named ? length + strlen(": ") : 0));
@@ -138,8 +139,8 @@ static size_t file_size(struct aiFile *interface)
     return file_of(reading_of(interface))->size;
 }
 
-// Assimp passes negative offsets to seek backward. The unsigned sum then wraps to the right
-// position.
+// Implements aiFile::SeekProc. Assimp passes negative offsets as large unsigned numbers, and their
+// sum with the position wraps to the right result.
 static enum aiReturn seek(struct aiFile *interface, size_t offset, enum aiOrigin origin)
 {
     Reading *reading = reading_of(interface);
@@ -157,8 +158,8 @@ static void flush_nothing(struct aiFile *interface)
     (void)interface;
 }
 
-// Records a material library that Assimp cannot open. Assimp then tries other names for the
-// library, so only the first counts.
+// Records a material library that Assimp cannot open. Assimp then tries other names for the same
+// library, so only the first name is recorded.
 static void note_missing(Files *files, const char *path)
 {
     const size_t folder = folder_length(files);

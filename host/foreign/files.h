@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The files that Assimp may read for a model: the model file, and files in its folder or below.
-// Each file is read completely, once. Assimp cannot write files.
+// Assimp cannot write files.
 #pragma once
 
 #include "base/array.h"

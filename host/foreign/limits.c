@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Memory for models has a soft limit, which rises with the size of the files read, up to a hard
-// limit. The soft limit stops short files whose nodes share children, which stand for vast models.
+// Limits this process by setrlimit, and by an alarm for elapsed time.
+//
+// The memory for models has a soft limit, which rises with the size of the files read, up to a hard
+// limit. In some formats, nodes can share children, so a short file can describe a vast model. The
+// soft limit stops such files early.
 #include "foreign/limits.h"
 
 #include "base/processors.h"
@@ -19,12 +22,12 @@
 #define MEMORY_PER_THREAD ((rlim_t)16 << 20)  // bytes; mostly stack
 #define STACK_LIMIT       ((rlim_t)8 << 20) // bytes; too deep a tree of nodes crashes this process
 #define FILE_LIMIT        32                // open files
-#define PROCESSOR_SECONDS 8
-#define SECONDS           120     // of elapsed time
-#define BYTES_PER_SECOND  2000000 // of a file; slower readers run out of processor time
+#define PROCESSOR_SECONDS 8                 // processor time for the shortest file
+#define SECONDS           120               // elapsed time
+#define BYTES_PER_SECOND  2000000 // a file adds a second of processor time for this many bytes
 
-// AddressSanitizer maps more memory than any limit could allow. gcc defines a macro for it; clang
-// has __has_feature.
+// AddressSanitizer maps more memory than any limit could allow, so memory is then not limited. gcc
+// defines a macro for AddressSanitizer, and clang has __has_feature.
 #ifndef __has_feature
 #define __has_feature(name) 0
 #endif
@@ -34,7 +37,7 @@
 #define LIMITS_MEMORY true
 #endif
 
-// Ignores failures, because setting a limit only fails if the hard limit is already lower.
+// Sets a limit. Ignores failures, because the call fails only if the hard limit is already lower.
 static void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard)
 {
     const struct rlimit both = {soft, hard};
@@ -42,7 +45,7 @@ static void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard)
         setrlimit(resource, &both);
 }
 
-// Raises the soft limit, to less than the hard limit.
+// Raises the soft limit by `more`, but not to the hard limit.
 static void raise_limit(__rlimit_resource_t resource, uint64_t more)
 {
     struct rlimit now;
@@ -57,7 +60,7 @@ void limits_take(void)
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     close_range(STDERR_FILENO + 1, ~0U, 0);
-    // At the soft limit, the signal is SIGXCPU; at the hard limit, SIGKILL.
+    // The system sends SIGXCPU at the soft limit, and SIGKILL at the hard limit.
     limit(RLIMIT_CPU, PROCESSOR_SECONDS, SECONDS + 1);
     limit(RLIMIT_FSIZE, 0, 0);
     limit(RLIMIT_CORE, 0, 0);
@@ -98,7 +101,7 @@ void limits_allow_file(uint64_t bytes)
     raise_limit(RLIMIT_AS, bytes < MEMORY_MOST ? bytes * MEMORY_FACTOR : MEMORY_MOST);
 }
 
-// Decoders need memory for the values and about as much for themselves. Each thread reserves some.
+// Allows memory for the picture's values, as much again for the decoder, and some for each thread.
 void limits_take_picture(uint64_t bytes)
 {
     const rlim_t most = mapped_memory() + 2 * sizeof(float) * stored_values_most(bytes) +

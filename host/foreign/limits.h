@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The limits of this process. They make hostile files fail early, but they confine nothing: a file
-// that takes over a library can do what this user can. Only root can raise the limits again.
+// The limits of this process. They make hostile files fail early, but they confine nothing. If a
+// file takes over a library, it can do everything that the user may do. Only root can raise the
+// limits again.
 #pragma once
 
 #include <stdint.h>
 
-// Ends this process when the thread that started it ends, and at the limits of processor time and
-// of elapsed time. Limits its stack and open files. From now on, the process gains no privileges,
-// writes no file and dumps no core.
+// Limits processor time, elapsed time, stack and open files. The process then also ends when the
+// thread that started it ends. From now on, the process gains no privileges, writes no file and
+// dumps no core.
 void limits_take(void);
 
-// Limits memory, and forbids threads. limits_allow_file raises the limit for each file.
+// Limits memory, and forbids threads. limits_allow_file raises the limit of memory for each file.
 void limits_take_model(void);
 
 // Adds memory and processor time for a file of a model with this size, up to the overall limits.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// clrt-foreign MODEL: reads a model with Assimp. clrt-foreign PICTURE FORMAT MODULE: reads a
-// picture with OpenImageIO. Both write records (base/foreign.h) to standard output. Only clrt and
-// its library run this program.
+// The program clrt-foreign. `clrt-foreign MODEL` reads a model by Assimp. `clrt-foreign PICTURE
+// FORMAT MODULE` reads a picture by OpenImageIO. Both write records (base/foreign.h) to standard
+// output. Only clrt and its library run this program.
 #include "foreign/limits.h"
 #include "foreign/picture.h"
 #include "foreign/send.h"
@@ -13,7 +13,8 @@
 #ifdef CLRT_WITH_ASSIMP
 #include "foreign/model.h"
 
-// The path always includes a folder, so that Assimp searches that folder for companion files.
+// Sends the model. Adds the folder "." to a path without a folder, so that Assimp searches the
+// folder for companion files.
 static bool send_model(FILE *stream, const char *name, Error *error)
 {
     Files files;

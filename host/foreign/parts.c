@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Walks the tree of nodes and multiplies their matrices in fp64. Identity matrices are
-// skipped, so that coordinates keep their bits. A mirroring matrix reverses the corner order, so
-// that fronts stay fronts.
+// Walks Assimp's tree of nodes, multiplies their matrices in fp64, and sends each mesh in the
+// coordinates of the whole file. Identity matrices are not applied, so that coordinates keep their
+// bits. If a matrix mirrors, the order of corners is reversed, so that fronts stay fronts.
 #include "foreign/parts.h"
 
 #include "base/limits.h"
@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The properties of a material that clrt renders are two colors and an exponent. Values come from
-// Assimp without checks. The receiver clamps them.
+// clrt renders two colors and an exponent of a material. They are sent as Assimp returns them, and
+// the receiver clamps them.
 
 static bool find_color(const struct aiMaterial *material, const char *key, float color[3])
 {
@@ -42,8 +42,8 @@ static void find_name(const struct aiMaterial *material, char *name, size_t size
         name[0] = '\0';
 }
 
-// Returns false for materials that importers invent. They have Assimp's default name, or no name
-// and a diffuse color of 60 % gray or white.
+// Returns false for materials that Assimp's importers add by themselves. These have Assimp's
+// default name, or they have no name and a diffuse color of 60 % gray or white.
 static bool material_is_given(const struct aiMaterial *material)
 {
     const float gray = 0.6f, white = 1;
@@ -124,7 +124,7 @@ static Vec3 column_of(const Placement *placement, int column)
     return vec3(placement->rows[0][column], placement->rows[1][column], placement->rows[2][column]);
 }
 
-// Negative zero counts as zero.
+// Returns whether the placement changes no coordinates. Negative zeros in it count as zeros.
 static bool is_identity(const Placement *placement)
 {
     for (int row = 0; row < 3; row++)
@@ -168,7 +168,8 @@ static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
-// Normalizes before and after the transform, so that large values do not overflow.
+// Transforms a normal. Normalizes it before and after the transform, so that large values do not
+// overflow.
 static void transform_normal(const struct aiVector3D *given, const NormalMatrix *normal_matrix,
                              float normal[3])
 {
@@ -199,8 +200,8 @@ static void place_normals(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
-// Rejects indices that Assimp failed to check, because they would refer to vertices of another
-// mesh.
+// Returns whether all corners of a face are vertices of its mesh, because Assimp does not check
+// this for all formats.
 static bool is_within(const struct aiFace *face, size_t vertex_count)
 {
     for (size_t corner = 0; corner < face->mNumIndices; corner++)
@@ -265,7 +266,8 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
     return *number - 1;
 }
 
-// Reserves memory for `count` more vertices. If the part has or gets normals, new ones are zero.
+// Reserves memory for `count` more vertices. If the part has normals or gets some now, the normals
+// of vertices without any are zero.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals)
 {
     Mesh *mesh = &sender->part.mesh;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sends a model's parts. A part is a run of triangles with one material, in the coordinates of the
-// whole file.
+// Assimp's scene -> records of its parts. A part is a run of triangles with one material, in the
+// coordinates of the whole file.
 #pragma once
 
 #include "foreign/send.h"
@@ -14,7 +14,7 @@ typedef struct {
     bool is_colored;  // a part's vertices have colors
 } PartCounts;
 
-// Sends every part after its material. keeps_normals is false for formats with facet normals, which
-// the corners already determine.
+// Sends every part after its material. keeps_normals is false for formats whose normals are those
+// of the facets, because the corners determine them.
 bool parts_send(FILE *stream, const struct aiScene *scene, bool keeps_normals, PartCounts *counts,
                 Error *error);

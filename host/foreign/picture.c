@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenImageIO's module -> a StoredImage and its values, all as floats.
+// Reads a picture by the module that contains OpenImageIO, and sends it as a StoredImage and its
+// values. 8-bit values are converted to float.
 #include "foreign/picture.h"
 
 #include "foreign/limits.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes records, each a head and data. Only the stream's error state shows failures.
+// Writes the records of base/foreign.h. These functions do not report failures, which the stream's
+// error state shows.
 #pragma once
 
 #include "mesh/foreign_stream.h"
@@ -11,7 +12,7 @@ void send_head(FILE *stream, ForeignKind kind, uint32_t number, size_t size);
 
 void send_bytes(FILE *stream, ForeignKind kind, const void *bytes, size_t size);
 
-// Sends a record of this kind with a text, shortened if too long.
+// Sends a record of this kind with a text, which is shortened if it is too long.
 __attribute__((format(printf, 3, 4))) void send_text(FILE *stream, ForeignKind kind,
                                                      const char *format, ...);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds the lowest vertex at each position with a hash table with open addressing. Sorts sides into
-// a bucket per lower point by counting, and then sorts each bucket of about six sides. Joins fans
-// with union-find.
+// A hash table with open addressing finds the lowest vertex at each position. Sides are first put
+// into one bucket per lower point by a counting sort. Each bucket, of about six sides, is then
+// sorted. Fans are joined by union-find.
 #include "mesh/edges.h"
 
 #include "base/array.h"
@@ -10,7 +10,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-// Longer buckets use qsort. For shorter ones, insertion sort is faster.
+// Buckets up to this size use insertion sort, and longer ones use qsort.
 #define FEW_SIDES 24
 
 typedef struct {
@@ -112,7 +112,8 @@ typedef struct {
     size_t mask;        // slots minus one; the number of slots is a power of two
 } Table;
 
-// Adding 0.0 turns negative zero into zero, so that both have the same bits.
+// Copies a position for hashing. Adding 0.0 turns negative zero into zero, so that both have the
+// same bits.
 static void copy_position(const Mesh *mesh, uint32_t vertex, double position[3])
 {
     for (int axis = 0; axis < 3; axis++)
@@ -234,11 +235,11 @@ void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t oth
 {
     const uint32_t a = fans_root(fans, corner_at(fans, triangle, point));
     const uint32_t b = fans_root(fans, corner_at(fans, other, point));
-    // The lower corner becomes the root, so the root belongs to the fan's first triangle.
+    // The lower corner becomes the root. The root therefore belongs to the fan's first triangle.
     fans->parents[a > b ? a : b] = a > b ? b : a;
 }
 
-// A corner's parent is lower, so the loop has already numbered the parent.
+// A corner's parent is a lower corner, so the loop has numbered it before.
 uint32_t fans_number(Fans *fans)
 {
     uint32_t count = 0, *parents = fans->parents;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Merges vertices at equal positions into points, because rays cannot distinguish such vertices.
-// Finds the edges between points and each edge's triangles, and joins corners of triangles into
-// fans.
+// Mesh -> its points, its edges with their triangles, and fans of triangles around points.
 //
-// A file's vertices say little about a surface: STL repeats each vertex for each triangle, and
-// other files repeat vertices along texture seams. Equal positions are therefore one point. An edge
-// is a pair of points, and may have any number of triangles. A fan is a set of triangles around a
-// point that are connected across edges.
+// A file's vertices reveal little about a surface. STL repeats each vertex for each triangle, and
+// other files repeat vertices along texture seams. Vertices at equal positions are therefore merged
+// into one point. An edge is a pair of points, and may have any number of triangles. A fan is a set
+// of triangles around a point that are connected across edges.
 //
-// Invariant: points, edges and fans are numbered by the lowest vertex or corner, so results do not
-// depend on hashing or sorting.
+// Invariant: points, edges and fans are numbered by their lowest vertex or corner, so the results
+// do not depend on hashing or sorting.
 #pragma once
 
 #include "base/error.h"
@@ -32,7 +30,7 @@ typedef struct {
     uint32_t high;     // the edge's higher point
     uint32_t opposite; // the triangle's third point
     uint32_t triangle : 31;
-    uint32_t falling : 1; // the triangle runs from the higher point to the lower one
+    uint32_t falling : 1; // the triangle's corners go from the higher point to the lower one
 } EdgeSide;
 
 // Sides [first[point], first[point + 1]) belong to edges from `point` to higher points. They are
@@ -54,7 +52,8 @@ typedef struct {
     size_t count;
 } Edge;
 
-// Advances *edge to the next edge, and {0} to the first one. Returns false after the last edge.
+// Advances *edge to the next edge, or from {0} to the first edge. Returns false after the last
+// edge.
 bool edges_next(const Edges *edges, Edge *edge);
 
 // Fans: sets of corners at one point, whose triangles the caller has joined across edges. A corner

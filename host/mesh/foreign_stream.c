@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For each kind of record, one function checks the data and adds it to the model.
+// Reads the records one after another. For each kind of record, one function checks the data and
+// adds them to the model. The first invalid record ends the parse, and the model is freed.
 #include "mesh/foreign_stream.h"
 
 #include "base/limits.h"
@@ -10,7 +11,7 @@
 #include <string.h>
 #include <strings.h>
 
-#define LONGEST_TEXT PATH_MAX // bytes of a message or a path
+#define LONGEST_TEXT PATH_MAX // largest size of a message or a path, in bytes
 
 // Assimp 5's file extensions. The list omits .ply, which clrt reads itself, .scn, which is clrt's
 // own, and plain .xml, which identifies no format.
@@ -82,13 +83,13 @@ static bool take_file(Parser *parser)
     return array_push(&parser->model->hashes, hash, parser->error);
 }
 
-// Clamps value to [0, most]; NaN becomes zero.
+// Clamps value to [0, most], and replaces NaN by 0.
 static float within(float value, float most)
 {
     return !(value > 0) ? 0 : value > most ? most : value;
 }
 
-// Replaces all but printable ASCII, and the characters that have a meaning in scene text.
+// Replaces characters that are not printable ASCII or have a meaning in scene text.
 static void make_word(char *name)
 {
     foreign_make_printable(name, strlen(name), '_');

@@ -33,8 +33,8 @@ typedef struct {
     char *note;                       // a message about omitted parts, or NULL; owned
 } ForeignModel;
 
-// Returns whether clrt-foreign reads models with the path's extension, ignoring case.
-// The extension alone decides, because most of Assimp's formats have no magic bytes.
+// Returns whether clrt-foreign reads models with the path's extension. The case of letters does not
+// matter. Only the extension counts, because most of Assimp's formats have no magic bytes.
 bool foreign_format_is(const char *path);
 
 // Fills model from a stream. name is the model file's name for messages, and parse reads the parts.

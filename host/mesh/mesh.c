@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bounds, faults and rotation of a mesh.
+// Computes a mesh's bounds, drops its faulty triangles, and rotates it.
 #include "mesh/mesh.h"
 
 #include <stdbool.h>
@@ -48,7 +48,7 @@ static void clear_lost_vertices(Mesh *mesh)
             memset(mesh->positions[vertex], 0, sizeof mesh->positions[vertex]);
 }
 
-// Compacts the triangles in place.
+// Moves the remaining triangles to the front of the array.
 bool mesh_drop_triangles(Mesh *mesh, Error *error)
 {
     size_t kept = 0;
@@ -78,8 +78,8 @@ bool mesh_drop_triangles(Mesh *mesh, Error *error)
     return true;
 }
 
-// The number of remaining triangles before the i-th dropped one is dropped[i] - i. A binary search
-// therefore finds how many dropped triangles precede a remaining one.
+// dropped[i] - i triangles remain before the i-th dropped triangle. This number never falls as i
+// grows, so a binary search finds the number of dropped triangles before a remaining one.
 size_t mesh_original_number(const Mesh *mesh, size_t triangle)
 {
     size_t low = 0, high = mesh->dropped.count;
@@ -108,13 +108,14 @@ void mesh_free(Mesh *mesh)
     *mesh = (Mesh){0};
 }
 
-// A rotation by multiples of 90 degrees gives each axis a source axis and a sign. Turns from y and
-// -y keep x. The other turns keep y, so that the mesh's front, toward -y, stays there.
+// The code below rotates by multiples of 90 degrees. Each axis of the turned mesh is an axis of the
+// original mesh, possibly with the opposite sign. Turns from y and -y keep the x axis. The other
+// turns keep the y axis, so that the front of the mesh, toward -y, stays in front.
 
 const char *const up_axis_names[UP_AXES] = {"auto", "x", "y", "z", "-x", "-y", "-z"};
 
-// For each axis of the turned mesh, its source axis: 1, 2 or 3 for x, y or z, negative if the sign
-// changes.
+// The original axis for each axis of the turned mesh: 1, 2 or 3 for x, y or z, negative for the
+// opposite sign.
 static const int sources[UP_AXES][3] = {
     [UP_X] = {-3, 2, 1},       [UP_Y] = {1, -3, 2},       [UP_Z] = {1, 2, 3},
     [UP_MINUS_X] = {3, 2, -1}, [UP_MINUS_Y] = {1, 3, -2}, [UP_MINUS_Z] = {-1, 2, -3}};

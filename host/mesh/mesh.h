@@ -31,19 +31,19 @@ typedef struct {
     ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
     MeshFault equal_corners; // removed triangles with two equal corners
     MeshFault lost_corners;  // removed triangles with a bad position
-    // Vertices whose bad position, or bad components of the normal, became zero. Only tolerant
-    // readers accept such vertices.
+    // Vertices with bad positions, and vertices with bad components of the normal. Both became
+    // zero. Only tolerant readers accept such vertices.
     MeshFault bad_positions, bad_normals;
 } Mesh;
 
 // Extends low and high to contain all vertices that triangles use.
 void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
 
-// Returns the direction from a vertex to another: of length 1, or zero if they coincide.
+// Returns the direction from a vertex to another. It has length 1, or is zero if both coincide.
 Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to);
 
-// Removes and lists triangles with two equal corners or a NaN position. Then sets NaN positions to
-// zero. Fails if memory runs out; the mesh must then be freed.
+// Removes triangles with two equal corners or a NaN position, and lists them in mesh->dropped. Then
+// sets NaN positions to zero. Fails if memory runs out. The caller must then free the mesh.
 bool mesh_drop_triangles(Mesh *mesh, Error *error);
 
 // Returns the number that a triangle had before mesh_drop_triangles.
@@ -55,7 +55,8 @@ void mesh_drop_normals(Mesh *mesh);
 // Frees the mesh's memory and leaves a valid empty mesh.
 void mesh_free(Mesh *mesh);
 
-// Turns meshes whose up axis is not z, the default up direction of clrt's cameras.
+// The following declarations turn meshes upright whose up axis is not z, the default of clrt's
+// cameras.
 
 // The axis of a file's coordinates that points up.
 typedef enum {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Joins corners into fans across smooth edges, and makes one vertex per fan. Weights faces by their
-// angles (Thuermer and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998), so that
-// the triangulation of flat faces does not change normals.
+// Joins the corners of triangles into fans across smooth edges, and makes one vertex per fan. Its
+// normal is the mean of the faces' normals, weighted by the faces' angles at the vertex (Thuermer
+// and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). With these weights, the
+// triangulation of a flat face does not change normals.
 #include "mesh/normals.h"
 
 #include "base/array.h"
@@ -11,16 +12,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Chooses the crease angle of a mesh. The faces of a smooth shape meet at small angles, and larger
-// angles are ever rarer. Technical shapes have chamfers and edges, which are peaks at larger
-// angles.
+// The following functions choose the crease angle of a mesh. The faces of a smooth shape usually
+// meet at small angles, and an angle is rarer the larger it is. Technical shapes have chamfers and
+// edges, so some larger angles are frequent.
 
 // Meshes with fewer edges are too small for statistics.
 #define EDGES_LEAST 1000
 
 #define ROUND_CREASE_DEGREES 70 // for smooth shapes
 
-// The cosines of the windows' ends.
+// The cosines of the largest angle of each window.
 static const double ends[ANGLE_WINDOWS] = {
     0.99619469809174555, 0.98480775301220806, 0.96592582628906829, 0.93969262078590838,
     0.90630778703664996, 0.86602540378443865, 0.81915204428899178, 0.76604444311897804,
@@ -80,7 +81,7 @@ double crease_of_angles(const EdgeAngles *angles)
     return is_round ? ROUND_CREASE_DEGREES : CREASE_DEGREES;
 }
 
-// Edges with more faces than this are sharp, which limits the pairs of faces per edge.
+// Edges with more faces are sharp. This limits the number of pairs of faces at an edge.
 #define EDGE_FACES_MOST 8
 
 // Rounding must not separate coplanar faces at 0 degrees or opposite faces at 180 degrees.
@@ -90,7 +91,8 @@ double crease_of_angles(const EdgeAngles *angles)
 // normal of a sliver by any angle.
 #define SINE_LEAST 0x1p-20
 
-// Shorter sums of normals are rounding errors: the normals cancel each other.
+// Sums of normals shorter than this are zero, because only rounding errors are left of normals that
+// cancel each other.
 #define SUM_LEAST 0x1p-40
 
 typedef struct {
@@ -105,7 +107,7 @@ typedef struct {
 
 typedef struct {
     const Mesh *mesh;
-    double cosine; // smallest cosine between the normals of faces that a smooth edge joins
+    double cosine; // edges are smooth if the cosine between their faces' normals is at least this
     Face *faces;   // by triangle
     Fans fans;     // after make_vertices, parents holds the vertex of each corner
     ARRAY(FanVertex) vertices;
@@ -128,7 +130,7 @@ bool mesh_has_all_normals(const Mesh *mesh)
 static Face face_of(const Mesh *mesh, const uint32_t *triangle)
 {
     Face face;
-    Vec3 sides[3], sum = {0, 0, 0}; // sides: from each corner to the next
+    Vec3 sides[3], sum = {0, 0, 0}; // sides[i] goes from corner i to the next corner
     for (int corner = 0; corner < 3; corner++)
         sides[corner] = mesh_direction(mesh, triangle[corner], triangle[(corner + 1) % 3]);
     for (int corner = 0; corner < 3; corner++) {
@@ -207,8 +209,9 @@ static bool make_vertices(Smoothing *smoothing, Error *error)
     return vertices != NULL;
 }
 
-// Gives a corner its own vertex if the file has a normal for the corner, or if the fan's mean
-// normal is zero or differs from the face's by more than the crease angle, as at the tip of a cone.
+// Gives a corner its own vertex if the file has a normal for the corner. Does the same if the fan's
+// mean normal is zero, or differs from the face's normal by more than the crease angle. This
+// happens at the tip of a cone.
 static bool split_corners(Smoothing *smoothing, Error *error)
 {
     for (size_t i = 0; i < 3 * smoothing->mesh->triangle_count; i++) {

@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.h"
 
-// Stands for the crease angle that fits the shape.
+// Selects the crease angle that suits the mesh's shape.
 #define CREASE_BY_SHAPE (-1)
 
 // The crease angle of `normals smooth` without an angle, and of most lone mesh files.
@@ -13,16 +13,18 @@
 // Returns whether every corner of a triangle has a normal.
 bool mesh_has_all_normals(const Mesh *mesh);
 
-// Computes a unit normal for each used vertex that lacks one: the mean normal of the faces around
-// the vertex, weighted by their angles. Vertices at one position count as one. Edges stay sharp if
-// the normals of their faces differ by more than crease_degrees: 0 to 180, or CREASE_BY_SHAPE. If a
-// normal is missing, new vertices replace all vertices. The triangles keep their order. No computed
-// normal differs by more than crease_degrees from the normal of its triangle. Corners of triangles
-// that are nearly lines stay without a computed normal. Equal arguments give equal bits. On
-// failure, the mesh is unchanged.
+// Computes a normal of length 1 for each used vertex that lacks one: the mean normal of the faces
+// around the vertex, weighted by their angles. Vertices at one position count as one.
+//
+// Edges stay sharp if the normals of their faces differ by more than crease_degrees, which is from
+// 0 to 180, or CREASE_BY_SHAPE. No computed normal differs by more than crease_degrees from the
+// normal of its triangle. Corners of triangles that are nearly lines get no normal.
+//
+// If a normal is missing, new vertices replace all vertices. The triangles keep their order. Equal
+// arguments give equal bits. On failure, the mesh is unchanged.
 bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error);
 
-// Chooses a crease angle by shape.
+// The following declarations choose a crease angle by a mesh's shape.
 
 #define ANGLE_WINDOW_DEGREES 5
 #define ANGLE_WINDOWS        15
@@ -40,6 +42,7 @@ void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b);
 // Adds all edges of the mesh.
 bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error);
 
-// Returns 70 degrees if the edges are those of a smooth shape, such as a scan, whose coarse places
-// also have larger angles. Returns CREASE_DEGREES if many edges may be meant to be sharp.
+// Returns 70 degrees for the edges of a smooth shape, such as a scan. Coarse places of such shapes
+// have larger angles than CREASE_DEGREES. Returns CREASE_DEGREES if many edges may be meant to be
+// sharp.
 double crease_of_angles(const EdgeAngles *angles);

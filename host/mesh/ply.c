@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Converts PLY elements to vertices and triangles. Faces may precede the vertices, so the last step
-// drops triangles with equal corners.
+// Converts PLY elements to vertices and triangles. ply_header.c parses the header, which lists the
+// elements, and ply_reader.c reads the values. Elements of unusual layout are read value by value.
+// For the usual binary layout, a fast path reads whole runs of elements.
+//
+// A file may list its faces before its vertices. Triangles with equal corners are therefore dropped
+// in a last step.
+//
+// Invariant: no count or index of the file is used before it is checked against the file's size and
+// the vertex count.
 #include "mesh/ply.h"
 
 #include "mesh/ply_reader.h"
@@ -12,7 +19,7 @@ typedef struct {
     PlyHeader header;
     Mesh *mesh;
     ARRAY(Triangle) triangles;
-    size_t last_bad_position, last_bad_normal; // latest bad vertices, so that each counts once
+    size_t last_bad_position, last_bad_normal; // latest bad vertices, to count each only once
 } Loader;
 
 static void count_once(MeshFault *fault, size_t *last, size_t vertex)
@@ -22,8 +29,8 @@ static void count_once(MeshFault *fault, size_t *last, size_t vertex)
     *last = vertex;
 }
 
-// Returns value, or a replacement for a bad value. NaN marks a bad position until the vertex's
-// triangles are dropped.
+// Returns value, or a replacement if it is bad. NaN replaces bad coordinates, until the triangles
+// of such vertices are dropped.
 static double replace_bad_value(Loader *loader, PlyRole role, double value)
 {
     const size_t vertex = (size_t)loader->reader.index;
@@ -72,7 +79,7 @@ static bool read_length(PlyReader *reader, const PlyProperty *property, int64_t 
            ply_reader_fail(reader, "list length %lld is negative", (long long)*length);
 }
 
-// In a list of strips, -1 is a valid corner.
+// Reads and checks an index of a vertex. In a list of strips, -1 is valid too.
 static bool read_corner(Loader *loader, const PlyProperty *property, PlyKind kind, int64_t *corner)
 {
     PlyReader *reader = &loader->reader;
@@ -127,9 +134,9 @@ static bool read_polygon(Loader *loader, const PlyProperty *property, int64_t le
     return true;
 }
 
-// Three consecutive corners form a triangle, and every second triangle of a strip is reversed. To
-// reverse it, the corners of odd positions stay in last[1] and the others in last[0]. The index -1
-// ends a strip.
+// Reads a list of triangle strips. Three consecutive corners form a triangle, and the index -1 ends
+// a strip. Every second triangle of a strip is reversed. This happens because corners at odd
+// positions are kept in last[1], and the others in last[0].
 static bool read_strips(Loader *loader, const PlyProperty *property, int64_t length)
 {
     int64_t last[2] = {0, 0}, corner, held = 0;
@@ -190,7 +197,7 @@ static bool allocate_vertices(Loader *loader)
     return mesh->positions != NULL && (mesh->normals != NULL || !loader->header.has_normals);
 }
 
-// Returns the minimum size of an element in bytes: the size with empty lists.
+// Returns the smallest size of an element in bytes, which it has if its lists are empty.
 static size_t smallest_size(const PlyReader *reader, PlyProperties properties)
 {
     size_t size = 0;
@@ -235,7 +242,7 @@ static bool read_in_bulk(Loader *loader, const PlyElement *element)
 static bool read_element(Loader *loader, const PlyElement *element)
 {
     PlyReader *reader = &loader->reader;
-    if (element->property_count == 0) // such elements take no space, so any count is valid
+    if (element->property_count == 0) // such elements take no bytes, so any count is valid
         return true;
     const PlyProperties properties = ply_header_properties(&loader->header, element);
     reader->element = element->name;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses header lines into elements and their properties in one pass. Elements and properties may
-// repeat only if a mesh does not use them.
+// Header lines -> elements and their properties, in one pass. Of the elements and properties that a
+// mesh uses, none may occur twice.
 #include "mesh/ply_reader.h"
 
 #include "base/number.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WORD_LIMIT 6 // one word more than the longest statement
+#define WORD_LIMIT 6 // the longest statement has one word less
 
 typedef struct {
     PlyHeader *header;
@@ -113,7 +113,7 @@ static bool read_format(Parser *parser)
                                            "binary_big_endian 1.0'");
 }
 
-// Fails if an element that a mesh uses repeats or has too large a count.
+// Fails if an element that a mesh uses occurs twice or has too large a count.
 static bool check_kind(const Parser *parser, const PlyElement *element)
 {
     const PlyHeader *header = parser->header;
@@ -165,8 +165,8 @@ static bool find_type(const Parser *parser, PlyWord word, PlyType *type)
                            ply_reader_quote(word).text);
 }
 
-// List lengths and corner indices must be integers. Corners must be a list, and vertex components
-// must not.
+// Checks a property's types. List lengths and corner indices must be integers. Corners must be a
+// list, and vertex components must not be lists.
 static bool check_property(const Parser *parser, const PlyProperty *property, PlyWord name)
 {
     const PlyReader *reader = parser->reader;
@@ -182,7 +182,8 @@ static bool check_property(const Parser *parser, const PlyProperty *property, Pl
     return true;
 }
 
-// Stores the property's role. Only PLY_UNUSED may repeat in the element.
+// Stores the property's role. Fails if an earlier property of the element has this role, unless it
+// is PLY_UNUSED.
 static bool find_role(const Parser *parser, PlyElement *element, PlyWord name, PlyRole *role)
 {
     *role = PLY_UNUSED;

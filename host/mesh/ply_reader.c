@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads one value after another from ASCII or binary files. Only failures compute a line number, by
-// counting the line breaks before the value.
+// Reads one value after another from an ASCII or binary file. Line numbers are needed only in
+// messages, so the reader counts line breaks only after a failure.
 #include "mesh/ply_reader.h"
 
 #include "base/number.h"
@@ -74,7 +74,7 @@ bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size)
 {
     assert(count >= 0 && size > 0);
     const size_t left = (size_t)(reader->end - reader->next);
-    // The last ASCII value needs no whitespace after it.
+    // An ASCII value takes a character and a blank, but the last value of the file needs no blank.
     const size_t room = reader->format == PLY_ASCII ? left + 1 : left;
     if ((uint64_t)count <= room / size)
         return true;
@@ -105,7 +105,7 @@ static const char *token_end(const PlyReader *reader)
     return text;
 }
 
-// Consumes the token at reader->place. Fails unless stop is the token's end.
+// Advances past the token at reader->place. Fails unless the token ends at stop.
 static bool take_token(PlyReader *reader, const char *stop, const char *expected)
 {
     reader->next = stop;
@@ -139,8 +139,8 @@ static int64_t bits_to_integer(uint64_t bits, PlyType type)
     return ((int64_t)bits ^ sign) - sign;
 }
 
-// Returns whether the next word is an infinity or a NaN. Programs write them in many spellings,
-// such as inf, -nan and nan(ind).
+// Returns whether the next word is an infinity or a NaN. Programs spell them in many ways, for
+// example inf, -nan and nan(ind).
 static bool is_no_number(const PlyReader *reader)
 {
     const char *word = reader->place;
@@ -211,8 +211,8 @@ bool ply_reader_skip_values(PlyReader *reader, PlyType type, int64_t count)
     return true;
 }
 
-// The fast path for elements whose values have fixed offsets. Reading a value is one load, without
-// a function call, a bounds check or a stored position for messages.
+// The following functions are the fast path for elements whose values have fixed offsets. They read
+// a value by one load, without a function call, a bounds check or a stored position for messages.
 
 #define COMPONENTS 6 // x y z nx ny nz, in the order of PlyRole
 

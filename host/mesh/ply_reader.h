@@ -37,7 +37,7 @@ typedef struct {
     const char *place;       // position that failures report, usually a line's or value's start
     PlyFormat format;        // PLY_ASCII throughout the header
     PlyWord element;         // name of the element being read; empty in the header
-    int64_t index;           // index of the element being read; negative: messages omit it
+    int64_t index;           // index of the element being read; if negative, messages omit it
     bool is_tolerant;        // accepts bad numbers; reads words such as inf and nan as NaN
     Error *error;
 } PlyReader;
@@ -125,9 +125,9 @@ void ply_header_free(PlyHeader *header);
 PlyProperties ply_header_properties(const PlyHeader *header, const PlyElement *element);
 
 // The fast path for binary PLY files with the usual layout. It stops before the first unusual or
-// invalid element. The general reader continues there and reports faults.
+// invalid element. The general reader continues at this element and reports faults.
 
-// Reads vertices from reader->index up to count. Reads none if a property is a list or a used
+// Reads the vertices from reader->index to count - 1. Reads none if a property is a list or a used
 // property is an integer. Advances reader->index and reader->next past the vertices read.
 void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t count, Mesh *mesh);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Writes the machine's byte order, which ply_parse reads fastest.
+// Writes numbers in the machine's byte order, which ply_parse reads fastest.
 #include "mesh/ply_write.h"
 
 #include <string.h>
 
 #define HEADER_SIZE 512
-#define FACE_SIZE   13 // bytes: a count byte and three 4-byte indices
+#define FACE_SIZE   13 // bytes: a 1-byte count and three 4-byte indices
 
 typedef struct {
     char text[HEADER_SIZE];
