@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// If all triangles around an aim of a closed mesh face the ray's origin, the ray must hit one of
-// them. Only rounding could make it miss. The rounding bounds are generous, so aims with too sharp
-// angles or too small triangles get no ray.
+// Makes aims and shoots rays at them. If all triangles around an aim of a closed mesh face the
+// origin of a ray to the aim, the ray must hit one of them. Only rounding could let it pass. The
+// bounds on rounding are generous, so aims with too sharp angles or too small triangles get no ray.
 #include "check/aims.h"
 
 #include "base/array.h"
@@ -18,15 +18,16 @@
 
 // A ray misses its aim by at most LENGTH_ERROR times its length plus COORDINATE_ERROR times the
 // aim's largest coordinate. With correctly rounded division, triangle.inc.cl accepts hits within 22
-// units of 2^-24 of the ray (BVH_SLACK in shared.h). Directions and aims are also rounded.
+// * 2^-24 of the ray (BVH_SLACK in shared.h). Rounding directions and aims to float adds to this.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 
-// An aim divides its edge at this fraction, measured from the point with the lower index. Unlike
-// 1/2, the fraction makes the aim's coordinates inexact.
+// An aim divides its edge at this fraction, measured from the point with the lower index. The
+// coordinates of the aim are then rounded, which they might not be for 1/2.
 #define EDGE_PART 0.4
 
-// The distance of an aim beyond an open edge, in radii of the mesh; far above rounding errors.
+// The distance between an open edge and the aim beyond it, in radii of the mesh. Rounding errors
+// are far smaller.
 #define BEYOND 0x1p-14
 
 // The members of Aim that are accumulated over the triangles around an aim.
@@ -40,7 +41,7 @@ typedef struct {
     const AimSource *source;
     Aims *aims;
     Star *stars; // by point
-    size_t step; // the builder keeps every step-th aim
+    size_t step; // the builder keeps one aim out of `step`
     size_t seen;
 } AimBuilder;
 
@@ -79,8 +80,8 @@ static double height_at(const Triangles *triangles, uint32_t triangle, int corne
     return length > 0 ? length_of(vec3_cross(base, vec3_sub(apex, from))) / length : 0;
 }
 
-// Returns the triangle's angle at a corner. If normals are weighted by these angles, their sum does
-// not depend on how faces are triangulated.
+// Returns the triangle's angle at a corner. Normals are weighted by these angles, so that their sum
+// does not depend on the triangulation of faces.
 static double angle_at(const Triangles *triangles, uint32_t triangle, int corner)
 {
     const Vec3 apex = corner_of(triangles, triangle, corner);
@@ -236,8 +237,8 @@ void aims_free(Aims *aims)
     *aims = (Aims){0};
 }
 
-// Returns the position of an eye. The eyes form a Fibonacci lattice on a sphere: equal height
-// steps, each turned by the golden angle.
+// Returns the position of an eye. The eyes form a Fibonacci lattice on a sphere: their heights
+// differ by equal steps, and each is turned by the golden angle from the one before.
 static Vec3 eye_at(const Aims *aims, int eye)
 {
     const double height = 1 - (2 * eye + 1) / (double)EYES;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> rays toward its edges and points. The target of a ray is called an aim. In a closed mesh,
-// the ray must hit a triangle there or earlier. The first rays start at eyes, which are a few
-// positions around the mesh. Aims without a ray, or hidden from their eye, get a ray from nearby.
+// Mesh -> rays toward its edges and points. The target of a ray is called an aim. If the mesh is
+// closed, the ray must hit a triangle at its aim or before it.
 //
-// Rays between two triangles are the ones that rounding can lose. Random rays almost never pass so
-// close to an edge, so the check aims at the edges and points themselves.
+// A renderer leaks if rounding lets a ray pass between two triangles. Random rays almost never come
+// so close to an edge, so the check aims at the edges and points themselves. The first rays start
+// at eyes, which are a few positions around the mesh. An aim that has no such ray, or is hidden
+// from its eye, gets a ray that starts near it.
 //
-// Invariant: a ray is cast only if every triangle around its aim faces the origin clearly enough
-// that rounding cannot carry the ray past them. A miss is therefore a leak, never an accident.
+// Invariant: a ray is cast only if every triangle around its aim faces the origin so clearly that
+// rounding cannot carry the ray past them. Every miss is therefore a leak.
 #pragma once
 
 #include "mesh/edges.h"
@@ -23,8 +24,8 @@ typedef enum {
 typedef struct {
     Vec3 point;        // in normalized coordinates
     Vec3 outward;      // mean of the normals around the aim; unit length
-    double facing;     // cosine between outward and the normal farthest from it
-    double size;       // lower bound on how far the triangles around the aim extend
+    double facing;     // least cosine between outward and a normal around the aim
+    double size;       // the triangles around the aim extend at least this far
     uint32_t triangle; // one of the triangles around the aim
     float tolerance;   // error bound of t for the latest ray
     AimState state;
@@ -46,13 +47,13 @@ typedef struct {
     bool is_inside_out;
 } AimSource;
 
-// Makes an aim at every edge, at every point and just beyond every open edge. Keeps only every n-th
-// aim if there are more than `most`.
+// Makes an aim at every edge, at every point and just beyond every open edge. If there are more
+// than `most`, keeps only one of n, for the smallest n that suffices.
 bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error);
 void aims_free(Aims *aims);
 
-// Store rays that reach their aims at t = 1, and in targets the index of each ray's aim. Return the
-// number of rays, at most aims->count.
+// Both functions store rays that reach their aims at t = 1, and the index of each ray's aim in
+// targets. They return the number of rays, which is at most aims->count.
 size_t aims_shoot_from_afar(Aims *aims, RayData *rays, uint32_t *targets);
 size_t aims_shoot_from_close(Aims *aims, RayData *rays, uint32_t *targets);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sorting makes duplicate meshes, spheres and lights adjacent.
+// Counts the faults of meshes by their edges, and duplicate meshes, spheres and lights. Sorting
+// makes duplicates adjacent.
 #include "check/census.h"
 
 #include "base/array.h"
@@ -8,14 +9,16 @@
 #include <string.h>
 #include <xxhash.h>
 
-// Visits each edge once and joins its triangles into fans. A point with several fans is pinched.
+// The following functions visit each edge once and join its triangles into fans. A point with
+// several fans is pinched.
 
 static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t count)
 {
     uint32_t lowest = sides[0].triangle;
     for (size_t side = 1; side < count; side++) {
         lowest = sides[side].triangle < lowest ? sides[side].triangle : lowest;
-        // A duplicate triangle counts only once, at the edge of its two lower points.
+        // A duplicate triangle has three edges, and counts only at the edge of its two lower
+        // points.
         if (sides[side].opposite == sides[side - 1].opposite &&
             sides[side].opposite > sides[side].high)
             mesh_fault_add(&closedness->duplicates, sides[side].triangle);
@@ -123,7 +126,8 @@ static size_t count_duplicates(Identity *identities, size_t count)
     return duplicates;
 }
 
-// Adding 0.0 turns -0 into 0.
+// Returns the identity of a sphere or light. Adding 0.0 turns -0 into 0, so that both have equal
+// bits.
 static Identity identity_of(Vec3 position, double radius)
 {
     return (Identity){{position.x + 0.0, position.y + 0.0, position.z + 0.0, radius}};

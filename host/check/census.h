@@ -5,8 +5,8 @@
 #include "check/features.h"
 #include "mesh/edges.h"
 
-// Edges -> whether a mesh is closed: every edge has two consistently oriented triangles, and the
-// triangles around each point form one fan.
+// A mesh is closed if every edge has two consistently oriented triangles, and the triangles around
+// each point form one fan.
 
 // Each MeshFault counts edges, points or triangles. Its field `first` is a triangle at a fault.
 typedef struct {
@@ -23,8 +23,8 @@ typedef struct {
 bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld, const Edges *edges,
                      Error *error);
 
-// The counts of one mesh. Triangles are named by their numbers in the file. The Mesh itself holds
-// the faults that its file reader found.
+// The counts of one mesh. Triangles have the numbers that they have in the file. The faults that
+// the file's reader found are in the Mesh.
 typedef struct {
     Closedness closedness;
     Features features;
@@ -39,7 +39,7 @@ typedef struct {
     size_t duplicate_meshes;  // objects with the triangles of an earlier one
     size_t duplicate_spheres; // spheres with center and radius of an earlier one
     size_t duplicate_lights;  // lights at the position of an earlier one
-    size_t unused_materials;  // defined in the file, but not used
+    size_t unused_materials;  // materials that the file defines, but no object uses
 } Census;
 
 // Counts the parts of a scene. `normalization` must be the scene's.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares squared lengths, so only a new minimum needs a square root.
+// Finds the shortest edge and the lowest height of all triangles. Squared lengths are compared, so
+// only a new minimum needs a square root.
 #include "check/features.h"
 
 #define FLOAT_DIGITS 23 // bits of a float's fraction
@@ -23,15 +24,16 @@ static Vec3 doubled_area(const Shape *shape)
                       vec3_sub(shape->corners[2], shape->corners[0]));
 }
 
-// Scales by a power of two, because squares of coordinates in a file may leave the range of fp64.
+// Scales by a power of two, because squares of a file's coordinates may overflow or underflow in
+// fp64.
 static Shape scaled_shape(const Shape *shape, double scale)
 {
     return (Shape){{vec3_scale(shape->corners[0], scale), vec3_scale(shape->corners[1], scale),
                     vec3_scale(shape->corners[2], scale)}};
 }
 
-// Returns whether the corners lie on one line, up to the rounding of fp64. Scales the longest edge
-// to about 1 first, because the area of a tiny triangle may be below the range of fp64.
+// Returns whether the corners are on one line, within the rounding of fp64. First scales the
+// longest edge to about 1, because the area of a tiny triangle may underflow in fp64.
 static bool is_flat(const Shape *shape)
 {
     const double size = fmax(vec3_extent(vec3_sub(shape->corners[1], shape->corners[0])),
@@ -146,7 +148,7 @@ static MeshFault flat_triangles(const Mesh *mesh)
     return flat;
 }
 
-// Returns whether no triangle of the object has the fault. Otherwise fills error with a message
+// Returns whether no triangle of the object has the fault. Otherwise, fills error with a message
 // that contains text.
 static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fault,
                      const char *text, Error *error)

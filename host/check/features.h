@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its finest details, in units of float spacing, as written and as traced.
+// Mesh -> the sizes of its finest details, measured in steps between floats. A detail of few steps
+// is distorted by rounding. The sizes are measured both in the file's coordinates and in normalized
+// coordinates.
 #pragma once
 
 #include "scene/normalize.h"
 
-// Among all triangles' lengths of one kind, the length with the fewest steps. A step is the spacing
-// of floats at the triangle's largest coordinate.
+// The smallest edge or height of all triangles, in steps. A step is the distance between
+// neighboring floats at the triangle's largest coordinate.
 typedef struct {
     double steps; // the length in steps; INFINITY if there is no length
     double size;  // the length in the scene's units
@@ -14,7 +16,7 @@ typedef struct {
 
 typedef struct {
     Feature edge;         // shortest edge, in normalized coordinates
-    Feature height;       // lowest height, also there; triangles without area do not count
+    Feature height;       // lowest height of triangles with an area, in normalized coordinates
     Feature written_edge; // shortest edge, in the file's coordinates
     bool holds_floats;    // floats represent every coordinate exactly
     MeshFault flat;       // triangles without area: three corners on a line
@@ -24,8 +26,8 @@ typedef struct {
 
 Features features_of(const Mesh *mesh, const Normalization *normalization);
 
-// The next two functions reject triangles without area. They report the first object that fails:
-// its file, its first bad triangle and the count.
+// The next two functions fail if there are triangles without area. The message names the file of
+// the first such object, its first such triangle and the count.
 
 // Fails if the reader dropped a triangle with two equal corners.
 bool bad_geometry_none_dropped(const Scene *scene, Error *error);

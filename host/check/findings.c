@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The check fails on faults that can leave holes or wrong pixels. Examples are non-finite values,
-// triangles without area, duplicates, and leaks of closed meshes. Other findings may be intended.
+// Turns counts and measurements into findings with texts. The check fails on faults that can cause
+// holes or wrong pixels: values that are not finite, triangles without area, duplicates, and leaks
+// of closed meshes. Other findings may be intended by the author of the scene.
 #include "check/findings.h"
 
 #include "scene/camera.h"
@@ -12,17 +13,18 @@
 typedef struct {
     size_t count;  // views whose eye is inside a sphere or a closed mesh
     size_t view;   // the first one, from 1
-    size_t sphere; // that contains its eye, from 1; 0 if it is in a mesh
-    size_t object; // the mesh, if sphere is 0
+    size_t sphere; // the sphere that contains its eye, from 1; 0 for a mesh
+    size_t object; // the mesh that contains its eye, if sphere is 0
 } EnclosedEyes;
 
-// A mesh contains a point if its triangles cover more than half of all directions from there,
-// counted by orientation. Solid angles: Van Oosterom and Strackee, "The Solid Angle of a Plane
-// Triangle", 1983.
+// A mesh contains a point if the signed solid angles of its triangles, seen from the point, add up
+// to more than half of the sphere (Van Oosterom and Strackee, "The Solid Angle of a Plane
+// Triangle", 1983).
 
 #define TAU 6.283185307179586477
 
-// Corners must be farther out than this many half pictures, so that rounding hides no visible mesh.
+// A mesh is out of view only if its corners are farther from the center than this many half
+// pictures. The margin above 1 exceeds rounding errors.
 #define MARGIN 1.001
 
 static Vec3 seen_from(Vec3 eye, const Mesh *mesh, uint32_t vertex)
@@ -30,7 +32,7 @@ static Vec3 seen_from(Vec3 eye, const Mesh *mesh, uint32_t vertex)
     return vec3_normalize(vec3_sub(vec3_of_doubles(mesh->positions[vertex]), eye));
 }
 
-// Returns half of the signed solid angle.
+// Returns half of a triangle's signed solid angle.
 static double half_solid_angle(Vec3 a, Vec3 b, Vec3 c)
 {
     return atan2(vec3_dot(a, vec3_cross(b, c)),
@@ -77,7 +79,8 @@ static bool find_container(EnclosedEyes *found, const Scene *scene, const Census
     return false;
 }
 
-// clrt draws only the first of the course's six views unless asked, so the others do not count.
+// Finds the views whose eye is inside an object. Of the course's six views, only the first is
+// examined, because clrt draws the others only on request.
 static EnclosedEyes enclosed_eyes_find(const Scene *scene, const Census *census)
 {
     EnclosedEyes first = {0};
@@ -136,12 +139,12 @@ static bool is_out_of_view(const Scene *scene, const Normalization *normalizatio
     return is_out;
 }
 
-// If an edge is shorter than this number of float steps, rounding can change its length by a
-// thirtieth or more, which is visible.
+// Rounding can change the length of an edge by half a step at each end. If an edge has fewer steps
+// than this, the change is visible.
 #define FEW_STEPS 16.0
 
-// Advice names the mesh's offset or the scene's size as the cause of short edges if this cause is
-// more than this many times as large as the mesh.
+// Advice on short edges blames the mesh's offset or the scene's size only if it is more than this
+// many times as large as the mesh.
 #define MUCH 4.0
 
 static const struct {
@@ -244,8 +247,8 @@ static void add_shape(Check *check, size_t object)
         "it is outside every camera's view, so only reflections and shadows can show it");
 }
 
-// Adds at most one finding. Steps are the spacing of floats. Advice to recenter comes first,
-// because tracing cannot restore details that the file has lost.
+// Adds at most one finding of advice on an object. Advice to recenter the file comes first, because
+// tracing cannot restore details that the file has lost.
 static void add_advice(Check *check, size_t object, double scene_size)
 {
     const Features *features = &check->census.meshes[object].features;

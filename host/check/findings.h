@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measurements of a check -> findings. A finding says whether it fails the check.
+// Measurements of a check -> findings. Each finding states whether the check fails because of it.
 #pragma once
 
 #include "check/census.h"
@@ -23,8 +23,8 @@ typedef struct {
     Census census;
     const char *device;      // its name; NULL if no rays were traced
     LeakCount *leaks;        // by object; NULL if no rays were traced; owned
-    Error scale_fault;       // why the scene cannot be drawn; empty if it can
-    Error device_fault;      // why rays could not be traced; empty otherwise
+    Error scale_fault;       // the reason why the scene cannot be drawn; empty if it can
+    Error device_fault;      // the reason why no rays could be traced; empty otherwise
     ARRAY(Finding) findings; // in the order of the objects, then those of the scene
     bool is_cut;             // memory ran out, so findings are missing
     double seconds;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Prepares the mesh alone for the device, and casts rays at its edges and vertices (check/aims.h).
+// Compiles a scene that contains only the mesh, casts rays at the mesh's edges and points
+// (check/aims.h), and counts the rays that pass through.
 #include "check/leaks.h"
 
 #include <stdlib.h>
 
-// A mesh in every stage of preparation for the device, and its aims.
+// A mesh in all stages of its preparation for the device.
 typedef struct {
     Scene scene; // borrows the mesh
     CompileStages stages;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The text lists each mesh with its findings. JSON contains every count, including zeros.
+// Writes the findings of a check. The text lists each mesh with its findings. JSON contains every
+// count, even if it is 0.
 #include "check/report.h"
 
 #include "image/json_file.h"
@@ -35,7 +36,7 @@ static json_t *leaks_json(const Check *check, size_t object)
                 FIELD("hidden", leaks->hidden), FIELD("cap", json_count(LEAKS_AIMS)));
 }
 
-// Omits leaks, which "leak_test" contains.
+// Returns the counts of an object's faults. Leaks are in "leak_test" instead.
 static json_t *faults_json(const Check *check, size_t object)
 {
     MeshFault counts[FAULT_KINDS];

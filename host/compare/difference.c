@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sums each row in doubles, and then the rows, so that millions of values keep 12 exact digits.
+// Measures the difference of two pictures, checks its limits, and splits it by cause. Each row is
+// summed in doubles, and then the rows' sums are added. Sums of millions of values then keep 12
+// correct digits.
 #include "compare/difference.h"
 
 #include "base/number.h"
@@ -47,7 +49,7 @@ bool image_pair_check(ImagePair *pair, Error *error)
     return true;
 }
 
-// Updates the maximum and the counts with a pixel. Returns the pixel's sum of squared differences.
+// Adds a pixel to the maximum and the counts. Returns the pixel's sum of squared differences.
 static double add_pixel(Difference *difference, const ImagePair *pair, size_t pixel)
 {
     double squares = 0, largest = 0;
@@ -67,7 +69,7 @@ static double add_pixel(Difference *difference, const ImagePair *pair, size_t pi
     return squares;
 }
 
-// Counts pixels whose first hits differ. Compares bits, because the channel may hold integers.
+// Counts pixels with different first hits. Compares bits, because the channel may contain integers.
 static void count_hits(Difference *difference, const ImagePair *pair)
 {
     int places[2];
@@ -125,7 +127,7 @@ bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool f
     return true;
 }
 
-// Parses limits by the names that reports also use.
+// The following functions parse limits. Reports use the same names.
 
 const char *const limit_names[LIMIT_KINDS] = {"rmse", "max", "psnr", "share1", "share4", "hits"};
 
@@ -189,12 +191,13 @@ bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *diffe
     return kind == LIMIT_PSNR ? measured >= limits->values[kind] : measured <= limits->values[kind];
 }
 
-// The channels primitive, shadow and bounces describe only the ray through a pixel's center. If
-// they agree, the pixel's samples determine the cause. If both pictures have the same samples, even
-// a large difference is rounding, because rounding can change a sample's hit. Otherwise, every
+// The following functions find the cause of each pixel's difference. The channels primitive, shadow
+// and bounces describe only the ray through a pixel's center. If one of them differs, it names the
+// cause. If they agree and both pictures have the same samples, the cause is rounding, even of a
+// large difference, because rounding can change a sample's hit. If the samples differ, every
 // difference above rounding counts as coverage.
 
-// Rounding changes a color in [0, 1] by at most this much, unless it changes a hit or a shadow.
+// If rounding changes no hit and no shadow, it changes a color in [0, 1] by at most this.
 #define ROUNDING_MOST 1e-5
 
 const char *const cause_names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
@@ -216,7 +219,8 @@ typedef struct {
     int level;              // value of --max-level; -1 if not recorded
 } Side;
 
-// Returns the integer after `name` in the settings, which are JSON without blanks; -1 if none.
+// Returns the integer after `name` in the image's settings, which are JSON without blanks. Returns
+// -1 if there is none.
 static int setting_of(const StoredImage *image, const char *name)
 {
     char pattern[32];
@@ -248,7 +252,7 @@ static float side_value(const Side *side, size_t pixel, int channel)
     return image->values[pixel * image->channel_count + (size_t)side->channels[channel]];
 }
 
-// Compares bits, because channels may hold integers.
+// Compares bits, because channels may contain integers.
 static bool differ(const Side sides[2], size_t pixel, int channel)
 {
     const float a = side_value(&sides[0], pixel, channel),
@@ -266,7 +270,7 @@ static bool is_truncated(const Side sides[2], size_t pixel)
            bounces[shorter] >= (float)(sides[shorter].level - 1);
 }
 
-// Returns whether the setting that determines the sample positions is equal.
+// Returns whether both pictures have the same sample positions according to their settings.
 static bool have_same_grid(const Side sides[2])
 {
     const char *words[2];

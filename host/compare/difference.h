@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measures the difference of two pictures. Values are as stored in the files; an 8-bit value v
-// counts as v / 255. All three colors have equal weight.
+// Two pictures -> their difference. Values are compared as the files store them, and an 8-bit value
+// v counts as v / 255. All three colors have equal weight.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -70,10 +70,11 @@ bool limits_parse(Limits *limits, const char *text, Error *cause);
 // The names of limits in --fail and in reports.
 extern const char *const limit_names[LIMIT_KINDS];
 
-// Returns the measured value that the limit applies to; NAN if the files lack the required channel.
+// Returns the measured value to which the limit applies. Returns NAN if the files lack the channel
+// that it needs.
 double limit_measured(LimitKind kind, const Difference *difference);
 
-// Returns whether the measured value is within the limit. A missing value is not within any limit.
+// Returns whether the measured value is within the limit. A missing value is outside every limit.
 bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *difference);
 
 // The cause of a pixel's difference.
@@ -83,14 +84,14 @@ typedef enum {
     CAUSE_TRUNCATION, // one picture's --max-level ends its reflections sooner
     CAUSE_REFLECTION, // the reflections differ for another reason
     CAUSE_COVERAGE,   // the pictures have different samples there
-    CAUSE_ROUNDING,   // none of these: rounding, if both show the same scene
+    CAUSE_ROUNDING,   // no other cause: rounding, if both pictures show the same scene
     CAUSE_KINDS
 } CauseKind;
 
 typedef struct {
     bool known;                   // both files have the required channels
     double squares[CAUSE_KINDS];  // each cause's part of the mean square error
-    uint64_t pixels[CAUSE_KINDS]; // pixels that differ at all, by cause
+    uint64_t pixels[CAUSE_KINDS]; // pixels with any difference, by cause
 } Causes;
 
 // Splits the error of a pair by cause. image_pair_check must have accepted the pair.

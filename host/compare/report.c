@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// JSON contains shares as fractions. The text contains percent, except in the lines on limits.
+// Writes a comparison. JSON contains shares as fractions. The text contains them in percent, except
+// in the lines on limits.
 #include "compare/report.h"
 
 #include "image/json_file.h"

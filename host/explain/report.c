@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Describes each sample as JSON. The text, a paragraph for each ray with a line for each of its
-// lights, names fields of the JSON. Primitive ids equal the values of the --aov channel
-// "primitive", which count from 0.
+// Describes each sample as JSON. The text has a paragraph for each ray, with a line for each light.
+// It is made of templates that name fields of the JSON. Primitive ids equal the values of the --aov
+// channel "primitive", which count from 0.
 #include "explain/report.h"
 
 #include "image/json_file.h"
@@ -20,7 +20,8 @@ typedef struct {
     const char *path; // of the triangle's mesh; NULL for a sphere
 } PrimitiveName;
 
-// Ids number the spheres first, then the triangles, mesh after mesh.
+// Returns the name of a primitive. The ids of spheres come first, then those of triangles, mesh by
+// mesh.
 static PrimitiveName name_primitive(const Scene *scene, uint32_t id)
 {
     if (id < scene->spheres.count)
@@ -89,8 +90,8 @@ static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
     return list;
 }
 
-// The factors of the surface's color besides the lights. Shaders that lack highlights ignore the
-// material's ks.
+// Returns the factors of the surface's color besides the lights. Shaders without highlights ignore
+// the material's ks.
 static json_t *factors_json(const Scene *scene, const Material *material)
 {
     static const char *const shaders[] = {"silhouette", "matte", "blinn_phong"};
@@ -133,7 +134,7 @@ static json_t *sample_json(const ExplainReport *report, const ExplainedSample *s
         FIELD("color", vector_json(vec3_scale(vec3(steps[0], steps[1], steps[2]), 0x1p-32))));
 }
 
-// Prints the text for full or for brief reports.
+// Prints the text `full` or, in brief reports, the text `brief`.
 static void print(const ExplainReport *report, const json_t *json, const char *full,
                   const char *brief, FILE *stream)
 {
@@ -149,7 +150,7 @@ static void print_primitive(const ExplainReport *report, const json_t *primitive
         fprintf(stream, " of %s", report->is_brief && slash != NULL ? slash + 1 : path);
 }
 
-// Prints what the surface receives from a light that reaches it.
+// Prints the diffuse and specular light that the surface receives from one light.
 static void print_received(const ExplainReport *report, const json_t *light, const Light *source,
                            bool shines, FILE *stream)
 {

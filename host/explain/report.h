@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes the explanation of a pixel as text or JSON.
+// Explainer and a pixel -> the explanation as text or JSON.
 #pragma once
 
 #include "image/image_file.h"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each tile has a fixed place, because clrt writes the tiles of a whole picture row by row.
+// Copies the compressed tiles of parts into one file. The tiles of a whole picture are stored row
+// by row, so the sizes of all tiles determine each tile's place. Threads can then write tiles in
+// any order.
 #include "jobs/exr_join.h"
 
 #include "jobs/stored_tiles.h"
@@ -52,8 +54,9 @@ typedef struct {
     int output;
 } TileJoin;
 
-// Fills bytes with the tile's head and compressed data. Returns false if the tile is damaged or,
-// unless it is the last of the picture, has another size than in the first pass.
+// Fills bytes with the tile's head and compressed data. Returns false if the tile is damaged, or if
+// its size differs from that of the first pass. The size of the picture's last tile is not
+// compared.
 static bool read_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {
     const ExrJoin *join = work->join;
@@ -68,7 +71,7 @@ static bool write_tile(const TileJoin *work, const exr_chunk_info_t *tile,
                        const unsigned char *bytes)
 {
     const size_t size = sizeof(ExrTileHead) + tile->packed_size;
-    errno = ENOSPC; // for a short write, which sets no errno
+    errno = ENOSPC; // a short write sets no errno
     if (pwrite(work->output, bytes, size, (off_t)work->join->starts[tile->idx]) == (ssize_t)size)
         return true;
     work->join->write_error = errno;

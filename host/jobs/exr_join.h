@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The EXR files of parts -> the EXR file of the whole picture. Two passes over the parts copy the
-// compressed tiles: the first records the tiles' sizes, and the second checks and copies. The
-// memory needed is a few tiles, and eight bytes for each tile of the picture.
+// The EXR files of parts -> the EXR file of the whole picture. The first pass over the parts
+// records the sizes of the compressed tiles. The second pass checks and copies the tiles. Joining
+// takes memory for a few tiles, and eight bytes for each tile of the picture.
 #pragma once
 
 #include "image/exr_file.h"
@@ -22,12 +22,12 @@ bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error);
 bool exr_join_measure(ExrJoin *join, const ExrFile *file, const RenderSettings *settings,
                       Error *error);
 
-// Writes the header of the picture and the table of tiles, after the first pass. `place` holds the
-// picture's size. On failure, errno has the reason.
+// Writes the header of the picture and the table of tiles. The first pass must be complete. `place`
+// contains the picture's size. On failure, errno has the reason.
 bool exr_join_write_head(ExrJoin *join, const ImageSettings *settings, const RenderSettings *place,
                          FILE *stream);
 
-// Second pass: copies the part's tiles. Fails if writing fails, or if a tile is damaged or no
+// Second pass: copies the part's tiles. Fails if writing fails, if a tile is damaged, or if it no
 // longer fits into its place.
 bool exr_join_copy(ExrJoin *join, const ExrFile *file, const RenderSettings *settings, FILE *stream,
                    Error *error);

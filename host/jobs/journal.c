@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The journal is not synced to disk. Written records survive the end of the process. Checksums
-// detect records that a power failure left incomplete.
+// The journal is written but not synced to disk. Written records survive if the process is killed.
+// After a power failure, records may be incomplete, which checksums detect.
 #include "jobs/journal.h"
 
 #include "base/output_file.h"
@@ -29,7 +29,8 @@ static bool cannot(const Journal *journal, const char *what, Error *error)
     return error_set(error, "%s: cannot be %s: %s", journal->path, what, strerror(errno));
 }
 
-// If a process that was killed at its start left less than a head, the file gets a new head.
+// Compares the key in the file's head. A process that was killed at its start may have left an
+// incomplete head. The file then gets a new head.
 static bool check_head(const Journal *journal, const uint64_t key[2], Error *error)
 {
     Head head;
@@ -59,8 +60,8 @@ static bool is_regular(const Journal *journal)
     return fstat(fileno(journal->stream), &status) == 0 && S_ISREG(status.st_mode);
 }
 
-// On file systems without locks, flock fails with an error other than EWOULDBLOCK. There,
-// journal_claim is the only protection.
+// Locks the journal. On file systems without locks, flock fails with an error other than
+// EWOULDBLOCK. The failure is ignored, and journal_claim is the only protection.
 static bool take_lock(Journal *journal, Error *error)
 {
     journal->is_busy =
@@ -121,7 +122,8 @@ bool journal_read(Journal *journal, void *bytes, size_t size)
     return false;
 }
 
-// Fills the new file, which is locked and does not have the journal's name yet.
+// Fills the new file, which is locked and does not have the journal's name yet, with the records
+// read.
 static bool fill_file(Journal *journal, FILE *stream, Error *error)
 {
     const long end = ftell(journal->stream);

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A journal is a file of checksummed records. A long job appends its results, and a later run
 // resumes from them, as a database recovers from its log (Gray and Reuter, "Transaction
-// processing", 1993). The file's head holds a key. A run with other settings has another key, and
-// cannot resume.
+// processing", 1993). The file's head contains a key. A run with other settings has another key,
+// and cannot resume.
 //
-// Each record has its number, its size and a checksum. Reading stops at the first record that does
-// not match, because a killed process may leave part of a record. journal_claim drops the rest.
+// Each record has its number, its size and a checksum. A killed process may leave an incomplete
+// record. Reading therefore stops at the first record that does not match, and journal_claim drops
+// the rest.
 //
 // Two processes must not append to one journal. A lock prevents this on one machine, but not on
-// every network file system. journal_claim therefore moves the records into a new file under the
-// same name. A process that still has the old file can append to it without harm.
+// every network file system. journal_claim therefore copies the records into a new file under the
+// same name. A process that still has the old file open can only append to the old file.
 //
-// Invariant: all records before the first damaged one are whole and in the order of the calls.
+// Invariant: all records before the first damaged one are complete and in the order in which they
+// were added.
 #pragma once
 
 #include "base/error.h"
@@ -35,8 +37,9 @@ bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Err
 // record. All records must be read before journal_claim.
 bool journal_read(Journal *journal, void *bytes, size_t size);
 
-// Replaces the journal by a new file with the records read. journal_add requires this call. If
-// another host has lost its lock and still writes to the old file, it cannot change the new one.
+// Replaces the journal by a new file with the records read. journal_add requires this call. A
+// process on another machine that has lost its lock writes to the old file, and cannot change the
+// new one.
 bool journal_claim(Journal *journal, Error *error);
 
 bool journal_add(Journal *journal, const void *bytes, size_t size, Error *error);

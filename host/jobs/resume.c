@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Tiles finish in the order of their numbers, so a count identifies the finished tiles.
+// The journal of a picture contains the colors of its finished tiles, one record for each. Tiles
+// finish in the order of their numbers, so their count identifies the finished tiles. The journal's
+// key is a hash of everything that determines the picture and its tiles. A resumed picture
+// therefore has the same bits as an uninterrupted one.
 #include "jobs/resume.h"
 
 #include "jobs/stored_tiles.h"
@@ -106,8 +109,9 @@ static void read_journal(Resume *resume, RenderSettings *settings, const Framebu
     }
 }
 
-// Copies the tiles of a finished EXR file into framebuffer. Requires the journal's lock: without
-// it, another run may be about to write the file. An unfinished EXR file is drawn again.
+// Copies the tiles of a complete EXR file into framebuffer. Requires the journal's lock, because
+// another run might be about to write the file. If the EXR file is incomplete, the picture is drawn
+// again.
 static bool restore_stored(Resume *resume, const Provenance *own, RenderSettings *settings,
                            Framebuffer *framebuffer, Error *error)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --resume: the journal FILE.part -> the tiles that an earlier run finished. This run appends its
-// tiles to the journal. All tiles of a complete EXR file are finished.
+// The journal FILE.part -> the tiles that an earlier run finished (--resume). This run appends its
+// own tiles to the journal. If FILE is a complete EXR file, all its tiles count as finished.
 #pragma once
 
 #include "image/exr_file.h"
@@ -20,8 +20,8 @@ typedef struct {
 // Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees it.
 char *resume_journal_name(const char *output_path, Error *error);
 
-// Prepares resuming the picture at path. is_exr: the file itself stores tiles. Fails if the file
-// exists and is not a regular file.
+// Prepares to resume the picture at path. If is_exr, the picture's own file contains tiles too.
+// Fails if the file exists and is not a regular file.
 bool resume_prepare(Resume *resume, const char *path, bool is_exr, Error *error);
 
 // Opens the journal and copies the finished tiles into framebuffer. If the journal has no tiles, a

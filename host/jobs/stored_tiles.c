@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files of one picture have equal settings texts, apart from the entries on parts and tiles.
+// Reads the settings of an EXR file and copies its tiles. All files of one picture have equal
+// settings texts, except for the entries on parts and tiles.
 #include "jobs/stored_tiles.h"
 
 #include "base/processors.h"
@@ -30,7 +31,7 @@ static bool read_part(RenderSettings *settings, json_t *json)
     return true;
 }
 
-// The crop must have the image's size and lie inside the whole picture.
+// Reads the crop. Fails unless it has the image's size and is inside the whole picture.
 static bool read_place(RenderSettings *settings, json_t *json)
 {
     int width, height, edges[4] = {0};

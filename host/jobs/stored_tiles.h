@@ -21,7 +21,8 @@ typedef struct {
 bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image);
 void stored_tiles_free(StoredTiles *tiles);
 
-// Returns whether the image is complete and has these settings. Only a part's tile size counts.
+// Returns whether the image is complete and has these settings. The tile size is compared only for
+// parts.
 bool stored_tiles_are_of(const StoredImage *image, const char *settings_text, bool is_part);
 
 // Appends to layers the image's channels other than its colors. Returns false if the image lacks
@@ -36,7 +37,7 @@ bool stored_tiles_has(const StoredImage *image, const Layers *layers);
 // Lists a part's tiles for its file. The caller frees part->tiles.
 bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *error);
 
-// Works on one tile. Threads call it for several tiles at once.
+// A function that works on one tile. Threads call it concurrently for different tiles.
 typedef bool TileWork(const void *context, const Tile *tile, Error *error);
 
 // Calls work for tiles 0 to count - 1 on all processors. If some fail, returns false and the error
@@ -48,7 +49,8 @@ bool stored_tiles_run(const RenderSettings *settings, uint64_t count, TileWork *
 bool stored_tiles_find(const ExrFile *file, const Tile *tile, exr_chunk_info_t *found,
                        Error *error);
 
-// Receives tiles. framebuffer gets the colors, and layers->values the channels in layers->list.
+// The target of copied tiles. framebuffer receives the colors, and layers->values receives the
+// channels in layers->list.
 typedef struct {
     Framebuffer *framebuffer;
     Layers *layers;
