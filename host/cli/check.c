@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the scene, examines its geometry, traces rays to find leaks if there is a device, and
-// reports.
+// clrt check: reads the scene, examines its geometry, casts rays to find leaks if there is a
+// device, and writes a report.
 #include "cli/commands.h"
 
 #include "base/clock.h"
@@ -42,8 +42,8 @@ static bool trace_leaks(Check *check, Session *session, Error *error)
     return ok;
 }
 
-// A missing device is an error only if the options name a device or fp64. Otherwise the report
-// contains the other checks.
+// Casts rays to find leaks. A missing device is an error only if the options name a device or fp64.
+// Otherwise, the report contains only the other checks.
 static bool find_leaks(Check *check, Session *session, const Options *options, Error *error)
 {
     Error cause = {0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lists the files that the command line names. An option that writes a file must appear here.
+// Lists all files that the command line names, with their use as input or output. Every option that
+// names a file must appear here.
 #include "cli/commands.h"
 
 #include "jobs/resume.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The commands of clrt. They return the exit status and fill error unless they return EXIT_DONE.
-// check and compare leave error empty if they return EXIT_FAULTS.
+// The commands of clrt. Each returns the exit status, and fills error unless it returns EXIT_DONE.
+// check and compare leave error empty if they return EXIT_FAULTS, because their reports contain the
+// reason.
 #pragma once
 
 #include "base/file_plan.h"
@@ -39,8 +40,9 @@ TracingCommand check_scene;
 // clrt devices: prints the OpenCL devices as `clinfo -l` does, or writes versioned JSON.
 ExitCode device_report_write(const Options *options, Error *error);
 
-// Checks the scene for commands other than check. With --bad-geometry fail, rejects triangles
-// without area. Otherwise prints notes and the first mesh with dropped triangles, unless quiet.
+// Checks the scene for commands other than check. With --bad-geometry fail, fails if there are
+// triangles without area. Otherwise, prints the scene's notes and the first mesh with dropped
+// triangles, unless --quiet is given.
 bool check_geometry(const Options *options, const Scene *scene, Error *error);
 
 // clrt compare: reports the differences of two pictures, and draws them if the options name an
@@ -53,7 +55,8 @@ ExitCode merge_parts(const Options *options, Error *error);
 // clrt convert: writes a scene or mesh as scene text with binary PLY meshes, or as one PLY mesh.
 ExitCode convert_scene(const Options *options, Error *error);
 
-// The files of a run: the command line's, and the scene's once it is read.
+// The files of a run are those of the command line and, after the scene is read, those of the
+// scene.
 
 // Adds every file that the options name, and the files of scene unless it is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads two pictures, measures their difference and reports it. The limits of --fail determine the
-// exit status.
+// clrt compare: reads two pictures, measures their difference and reports it. The limits of --fail
+// determine the exit status.
 #include "cli/commands.h"
 
 #include "base/output_file.h"

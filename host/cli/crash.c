@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Reports a crash with the name of the library in which the program counter was. The message blames
-// only clrt itself, because a caller of the library may be at fault: abort() and damaged heaps
-// crash in the C library. LLVM installs its own handlers while it compiles a kernel. LLVM's SIGABRT
-// handler does not pass the signal on to ours. If two threads crash at once, LLVM's other handlers
-// do not restore ours. The executable therefore overrides the C library's sigaction and ignores
-// requests to replace our handlers. Only SIGFPE stays replaceable, because PoCL uses it to step
-// over divisions by zero.
+// Reports a crash with the name of the library in which it happened, found by the program counter.
+// The message blames no library, because the library's caller may be at fault. For example, abort()
+// and damaged heaps crash in the C library.
+//
+// LLVM installs its own handlers while it compiles a kernel. Its handler of SIGABRT does not call
+// ours, and its other handlers do not restore ours if two threads crash at once. The executable
+// therefore overrides the C library's sigaction and ignores requests to replace our handlers. Only
+// SIGFPE stays replaceable, because PoCL uses it to step over divisions by zero.
 #include "cli/crash.h"
 
 #include "cli/options/options.h"
@@ -80,7 +81,8 @@ static void print_message(const char *message)
     (void)written; // if standard error is closed, there is no message
 }
 
-// The first thread that gets here prints and exits; later threads wait for the exit.
+// Prints the message and ends the process. If several threads crash, the first one prints, and the
+// others wait.
 static _Noreturn void end(const char *message)
 {
     while (atomic_flag_test_and_set(&has_ended))
@@ -89,7 +91,7 @@ static _Noreturn void end(const char *message)
     _exit(EXIT_DEVICE);
 }
 
-// Only the process that called crash_watch prints. Its forks, such as readers of pictures, do not.
+// Handles a crash signal. Only the process that called crash_watch prints a message, not its forks.
 static void handle(int number, siginfo_t *info, void *context)
 {
     char line[LINE_SIZE], message[LINE_SIZE + 160];

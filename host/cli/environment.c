@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Makes reading the environment safe while another thread changes it. PoCL sets a variable in the
-// thread that opens the device, and OpenGL's libraries call getenv in the window's thread. The C
-// library frees or overwrites the array that environ points to. The executable therefore overrides
-// setenv, unsetenv and putenv: each change replaces environ by a new array, and nothing is freed.
-// Programs change few variables, so the lost memory is small.
+// Makes it safe to read the environment while another thread changes it. PoCL sets a variable in
+// the thread that opens the device, while OpenGL's libraries call getenv in the window's thread.
+// The C library's setenv frees or overwrites the array to which environ points.
+//
+// The executable therefore overrides setenv, unsetenv and putenv. Each change replaces environ by a
+// new array, and the old array is never freed. Programs change few variables, so this takes little
+// memory.
 #include <errno.h>
 #include <pthread.h>
 #include <stdbool.h>
@@ -17,7 +19,7 @@ static bool is_named(const char *entry, const char *name, size_t length)
 }
 
 // Removes the variable whose name has this length, and adds entry unless it is NULL. The first
-// element of each array points to the previous array, so that leak checkers find all of them.
+// element of each array points to the previous array, so that leak checkers can reach all arrays.
 static int replace(const char *name, size_t length, char *entry)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

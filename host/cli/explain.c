@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Explains a pixel: text is printed sample by sample, and JSON after the last sample.
+// clrt explain SCENE X,Y: explains a pixel. Text is printed after each sample, and JSON after the
+// last sample.
 #include "cli/commands.h"
 #include "cli/stages.h"
 

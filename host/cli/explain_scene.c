@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prepares a picture without drawing it. Prints the compiled features and the uploaded buffers.
+// clrt explain SCENE: prepares a picture without drawing it, and prints the compiled features and
+// the uploaded buffers.
 #include "cli/commands.h"
 #include "cli/stages.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The program: runs the command and prints its error.
+// The program clrt: parses the command line, runs the command and prints its error.
 #include "base/processors.h"
 #include "cli/commands.h"
 #include "cli/crash.h"
@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 // Limits PoCL's threads to count. If count is 0, the limit is processors_usable(), because PoCL
-// ignores the control group's quota. The user's environment variables take precedence unless count
-// is given. PoCL 3.1 and 6.0 read different variables.
+// ignores the quotas of control groups, and the user's environment variables take precedence. PoCL
+// 3.1 and 6.0 read different variables.
 static void limit_threads(uint32_t count)
 {
     char text[16];
@@ -107,8 +107,8 @@ static void *run(void *context)
 int main(int count, char **arguments)
 {
     CommandLine line = {.count = count, .arguments = arguments};
-    // With these signals ignored, a closed pipe or a file size limit makes writing fail, and clrt
-    // reports the error.
+    // Ignores these signals, so that writing to a closed pipe or beyond a limit on file sizes fails
+    // with an error, which clrt reports.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     // Sanitizers install their own handlers and check for leaks at exit.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Checks all parts, then reads them again and copies their tiles into the whole picture. The parts
-// must have the same scene, version and settings, and each part must occur once. If can_join() is
-// true, the whole picture is never in memory. Otherwise it takes memory only if all parts are
-// there.
+// clrt merge: joins the parts of a picture. A first pass checks all parts, and a second pass copies
+// their tiles into the whole picture. All parts must have the same scene, version and settings, and
+// each part must occur once. If can_join() is true, compressed tiles are copied, and the picture is
+// never in memory. Otherwise, memory for the picture is allocated only if no part is missing.
 #include "cli/commands.h"
 
 #include "base/output_file.h"
@@ -16,15 +16,15 @@
 
 typedef struct {
     const Options *options;
-    Framebuffer framebuffer; // empty if joins
+    Framebuffer framebuffer; // empty if `joins` is true
     Layers layers;
     Provenance provenance; // the first part's, with the devices of all parts
-    StoredTiles first;     // of the first part that can be opened
+    StoredTiles first;     // settings of the first part that can be opened
     const char *first_path;
     const char **paths; // by part, NULL for a missing part; the array is owned
     bool joins;         // copies compressed tiles into an EXR file instead of decoding them
     ExrJoin join;
-    bool is_checked; // all parts are checked and are there
+    bool is_checked; // the first pass is complete, and no part is missing
     Error unopened;  // the reason why a part cannot be opened
     bool is_damaged; // a part cannot be used
 } Merging;
@@ -65,8 +65,8 @@ static void note_device(Merging *merging, const StoredImage *image)
     }
 }
 
-// Parts are joined without decoding if the output is an EXR file with the parts' tile size, unless
-// a hash of the pixels is needed.
+// Returns whether parts can be joined without decoding. The output must be an EXR file with the
+// parts' tile size, and no hash of the pixels may be requested.
 static bool can_join(const Options *options, const ExrFile *file)
 {
     return image_format_takes_layers(options->format) && file->tile_width == EXR_TILE &&
@@ -90,7 +90,7 @@ static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *fil
     return exr_join_begin(&merging->join, file, error);
 }
 
-// Unless all parts are checked, records the part's tiles. Otherwise copies the tiles to the stream
+// In the first pass, records the part's tiles. In the second pass, copies the tiles to the stream
 // or, if it is NULL, decodes them.
 static bool take_tiles(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
                        FILE *stream, Error *error)
@@ -141,7 +141,7 @@ static bool read_settings(StoredTiles *tiles, const ExrFile *file, const char *p
            error_set(error, "%s: is not a part drawn with --part", path);
 }
 
-// Returns whether the file still has the part that check_part found in it.
+// Returns whether the file still contains the part that the first pass found in it.
 static bool is_checked_part(const Merging *merging, const StoredTiles *tiles, const ExrFile *file,
                             const char *path, Error *error)
 {
@@ -151,8 +151,8 @@ static bool is_checked_part(const Merging *merging, const StoredTiles *tiles, co
            error_set(error, "%s: changed while the parts were merged", path);
 }
 
-// Unless all parts are checked, checks the part and records its tiles. A part that cannot be opened
-// then counts as missing. Otherwise takes its tiles. The file may have changed since the check.
+// In the first pass, checks the part and records its tiles. A part that cannot be opened counts as
+// missing. In the second pass, copies its tiles, unless the file has changed since the first pass.
 static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *error)
 {
     ExrFile file;
@@ -210,7 +210,7 @@ typedef struct {
     Error *error; // about a part
 } Joining;
 
-// If a part cannot be used, sets errno to 0.
+// Writes the joined picture. If a part cannot be used, returns false and sets errno to 0.
 static bool write_joined(void *context, FILE *stream, Error *cause)
 {
     Joining *joining = context;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Renders a scene file to picture files.
+// clrt SCENE -o FILE: renders a scene file to picture files. The steps of a picture are to resume
+// an earlier run, draw the colors, certify them, measure their error, draw the channels, and write
+// the file.
 #include "cli/commands.h"
 
 #include "base/clock.h"
@@ -155,8 +157,7 @@ static bool write_statistics(Picture *picture, Error *error)
     return options->json_path == NULL || report_write_json(picture, options->json_path, error);
 }
 
-// Rejects an invalid SOURCE_DATE_EPOCH, and outputs that are unwritable or cannot be resumed,
-// before any work.
+// Before any work, checks SOURCE_DATE_EPOCH, and whether the outputs can be written and resumed.
 static ExitCode check_files(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
@@ -172,7 +173,7 @@ static ExitCode check_files(Picture *picture, Error *error)
                                                                                  : EXIT_SCENE;
 }
 
-// Rejects pictures that are too large for their formats.
+// Fails if a picture is too large for its format.
 static bool check_sizes(const Options *options, const RenderSettings *settings, Error *error)
 {
     const uint32_t width = settings->width, height = settings->height;

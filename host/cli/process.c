@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The handlers stay installed while clrt writes the picture, so a single signal never loses traced
-// tiles. Before the first tile, a signal ends the process, because compilation cannot be
-// interrupted.
+// Handles SIGINT and SIGTERM, and makes stacks large enough. The handlers stay installed until the
+// process ends, so a single signal never interrupts the writing of traced tiles. Before the first
+// tile, a signal ends the process, because compilation cannot be interrupted.
 #include "cli/process.h"
 
 #include <pthread.h>
@@ -35,7 +35,7 @@ static void stop(int number)
 static void take_signal(int number)
 {
     struct sigaction before;
-    // SA_RESETHAND gives the second signal its default action.
+    // With SA_RESETHAND, the second signal ends the process.
     struct sigaction action = {.sa_handler = stop, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     sigaction(number, NULL, &before);
@@ -60,7 +60,7 @@ int stop_signal(void)
     return stopped_by;
 }
 
-// RLIMIT_STACK bounds the main thread's stack and sets the default for other threads.
+// RLIMIT_STACK limits the main thread's stack and is the default size of other threads' stacks.
 #define STACK_LEAST ((rlim_t)8 << 20)
 #define STACK_SIZE  ((size_t)16 << 20)
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// On a terminal, one line is rewritten and shows the remaining time, or the time spent on loading
-// the scene or on compiling kernels. A log gets a line for every tenth of the picture, but none in
-// the first second.
+// Shows progress on standard error. On a terminal, a single line is rewritten. It shows the
+// remaining time, or the time spent so far on loading the scene or compiling kernels. A log gets a
+// line for every tenth of the picture, but none in the first second.
 #include "cli/progress.h"
 
 #include "base/clock.h"
@@ -32,7 +32,8 @@ Progress progress_begin(bool silent)
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-// The stage in the rewritten line. series counts the stages that began while none was running.
+// The stages that are running, such as compiling. Stages that overlap in time form a series and
+// share the rewritten line.
 static struct {
     unsigned running;
     uintptr_t series;
@@ -40,7 +41,7 @@ static struct {
     bool is_shown;
 } stage;
 
-// Rewrites the line. Returns false if the last stage of the series has ended.
+// Rewrites the line. Returns false if all stages of the series have ended.
 static bool show_line(uintptr_t series, unsigned seconds)
 {
     pthread_mutex_lock(&lock);

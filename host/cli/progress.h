@@ -4,7 +4,8 @@
 
 #include "session/session.h"
 
-// Observes a picture's tracing: prints progress on standard error; a signal stops the tracing.
+// The context of an observer that prints the progress of tracing on standard error, and stops it
+// after a signal.
 typedef struct {
     bool silent;
     bool terminal;    // standard error is a terminal, so one line is rewritten

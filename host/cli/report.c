@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Describes the fields of the report once. JSON holds all of them, and the text names some.
+// Describes the fields of a run's report once. JSON contains all fields, and the text names some of
+// them.
 #include "cli/report.h"
 
 #include "image/json_file.h"
@@ -258,8 +259,9 @@ bool report_write_json(const Picture *picture, const char *path, Error *error)
     return json_file_write(report_json(picture), path, error);
 }
 
-// Fills the metadata of a picture. Settings that cannot change a pixel are left out, so that they
-// do not change the file. Only parts and unfinished pictures also record their tiles.
+// The following functions fill the metadata of a picture's file. Settings that change no pixel are
+// left out, so that they do not change the file. Parts and unfinished pictures also record their
+// tiles.
 
 static json_t *stored_samples_json(const Picture *picture)
 {

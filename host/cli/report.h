@@ -5,7 +5,7 @@
 #include "cli/picture_data.h"
 #include "image/provenance.h"
 
-// Returns the name of the tree's builder as in --tune bvh, or "none" without a tree.
+// Returns the name of the tree's builder as in --tune bvh, or "none" if there is no tree.
 const char *report_tree_name(const Bvh *tree, BvhBuilder builder);
 
 // Prints the error against the reference, if one was drawn.

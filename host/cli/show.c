@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Connects the command line to the window. Builds without a window compile the second half.
+// clrt SCENE: passes the command line's settings to the window. Builds without a window compile the
+// second half of this file.
 #include "cli/commands.h"
 
 #ifdef CLRT_WITH_WINDOW
@@ -11,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-// Seconds that the process waits for its worker thread after the window has disappeared. The thread
-// may be compiling, and PoCL's files must not vanish meanwhile.
+// The seconds that the process waits for its worker thread after the window is closed. The thread
+// may be compiling, and PoCL's files must not be removed during this time.
 #define PATIENCE 10
 
 void show_write_keys(FILE *stream)

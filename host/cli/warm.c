@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Compiles the general kernels and, with a scene, its specialized kernels. With a scene,
-// "--tune specialize=always" omits the general kernels, and "specialize=never" the
-// specialized ones.
+// clrt warm [SCENE]: compiles the general kernels and, if a scene is given, the kernels specialized
+// for it. With a scene, "--tune specialize=always" omits the general kernels, and
+// "specialize=never" omits the specialized kernels.
 #include "cli/commands.h"
 #include "cli/stages.h"
 

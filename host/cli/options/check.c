@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Checks combinations of options. clrt rejects most options that would have no effect.
+// Checks combinations of options. A combination is rejected if its options exclude each other, or
+// if an option would have no effect.
 #include "cli/options/option.h"
 
 #include <string.h>
 
 #define REFINES "aa-adaptive", "error", "time"
 
-// Value-independent rules.
+// The rules that do not depend on the values of options.
 const Exclusion exclusion_table[] = {
     {{"aa", REFINES}, {NULL}},
     {{"crop", "part", "tune tile"}, {REFINES}},
@@ -17,7 +18,8 @@ const Exclusion exclusion_table[] = {
 };
 const size_t exclusion_count = sizeof exclusion_table / sizeof exclusion_table[0];
 
-// Returns the first of these names that the command line contains, or NULL. Skips the name `but`.
+// Returns the first of these names, except `but`, that the command line contains. Returns NULL if
+// it contains none.
 static const char *first_given(const Options *options, const char *const names[], const char *but)
 {
     for (int i = 0; i < EXCLUSION_NAMES && names[i] != NULL; i++)
@@ -70,7 +72,8 @@ static const char *option_of_setting(const char *setting)
     return setting;
 }
 
-// Words the rules of requests for pictures that are not in the tables.
+// Checks the request for a picture, and words the message about a rule that is in no table of this
+// file.
 static bool check_request(const Options *options, Error *error)
 {
     RequestFault fault;
@@ -81,7 +84,7 @@ static bool check_request(const Options *options, Error *error)
                      option_of_setting(fault.setting), option_of_setting(fault.other));
 }
 
-// Returns the first command that accepts the option.
+// Returns the first row of command_table that accepts the option.
 static const Command *first_taker(const Option *option)
 {
     const Command *command = command_table;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Selects the pixels and the pictures that a run draws. A pixel of a crop has the same bits as in
-// the whole picture. File numbers follow the convention of programs that convert films.
+// Parses and applies crops, and ranges of frames. File names with numbers follow the convention of
+// programs that convert films.
 #include "cli/options/options.h"
 
 #include "base/array.h"
@@ -63,7 +63,7 @@ bool frames_complete(Frames *frames, Error *error)
                          share->count);
     if (share->count > 0) {
         frames->first = first + share_begin(share, count) * frames->step;
-        share->index++; // the run ends where the next one begins
+        share->index++; // this share ends where the next one begins
         frames->last = first + (share_begin(share, count) - 1) * frames->step;
         *share = (Share){0};
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses the arguments of options. clrt rejects trailing text.
+// Parses the arguments of options. A kind of value has one parser, and values that fit no kind have
+// setters. Text after a value is an error.
 #include "cli/options/option.h"
 
 #include "base/number.h"
@@ -132,7 +133,7 @@ bool option_store(const Option *option, Options *options, const char *text, Erro
     return option->set(options, text, error);
 }
 
-// The setters of OPTION_ODD, in the order of option_table.
+// The following setters of OPTION_ODD are in the order of option_table.
 
 bool set_output(Options *options, const char *text, Error *error)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A row of the table of options, the setters that rows name, and rules about combinations of
-// options.
+// The tables of options and commands, the setters that rows of options name, and rules on
+// combinations of options. The parser, --help, the man page and the completions all use these
+// tables.
 #pragma once
 
 #include "cli/options/options.h"
@@ -87,10 +88,12 @@ const char *option_key(const Option *option);
 // Returns whether the option's argument is a file name.
 bool option_names_file(const Option *option);
 
-// Parses text and stores the value. On failure, the message names the option, or auto/N's variable.
+// Parses text and stores the value. On failure, the message names the option or, for auto/N, the
+// environment variable.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);
 
-// A way to run clrt. A command whose number of operands may differ has a row for each number.
+// A way to run clrt. A command that accepts different numbers of operands has a row for each
+// number.
 typedef struct {
     const char *name;     // "": clrt renders a scene
     const char *operands; // the words after the name, for --help
@@ -104,7 +107,7 @@ typedef struct {
 extern const Command command_table[];
 extern const size_t command_count;
 
-// Returns whether the row before has another name.
+// Returns whether this is the first row with its name.
 bool command_is_first(const Command *command);
 
 // Returns whether the command of this name accepts the option with any number of operands.
@@ -115,8 +118,8 @@ bool command_takes(const char *name, const Option *option);
 // Writes the command and its operands as a user types them.
 void command_write(const Command *command, char text[COMMAND_TEXT_SIZE]);
 
-// Options that exclude each other, regardless of their values: each of `names` and each of `others`
-// or, if there are none, any two of `names`.
+// A rule on options that exclude each other, regardless of their values. Each of `names` excludes
+// each of `others`. If there are no `others`, any two of `names` exclude each other.
 #define EXCLUSION_NAMES 4
 typedef struct {
     const char *names[EXCLUSION_NAMES], *others[EXCLUSION_NAMES]; // NULL: the rest is unused
@@ -127,9 +130,9 @@ extern const size_t exclusion_count;
 
 #define EXCLUSION_TEXT_SIZE 160
 
-// Writes the options of a row in the syntax of a command line: "[--a | --b]", of which at most one
-// may be given, or "[--a, --b | --c, --d]", of which no option of the left goes with one of the
-// right.
+// Writes the options of a row in the syntax of a command line. Of "[--a | --b]", at most one option
+// may be given. Of "[--a, --b | --c, --d]", no option on the left may be given together with one on
+// the right.
 void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE]);
 
 // Checks the options of a command and their combination. Determines the format of the picture.

@@ -13,15 +13,16 @@
 #include <stdint.h>
 #include <string.h>
 
-// "I/N": the I-th of N shares of a job. "auto/N" reads I from the environment variable in which
+// "I/N" is the I-th of N shares of a job. "auto/N" reads I from the environment variable in which
 // Slurm, AWS Batch, Kubernetes or MPI stores the task's number.
 
 typedef struct {
     uint32_t index, count; // index from 1 to count; 0, 0: the whole job
 } Share;
 
-// Parses text. Returns false if it is malformed or N is above most, and leaves error empty. Returns
-// false and fills error if the variable is missing, not a number or out of range.
+// Parses text. Returns false and leaves error empty if text is malformed or N is above most.
+// Returns false and fills error if the environment variable is missing, not a number or out of
+// range.
 bool share_parse(Share *share, const char *text, uint32_t most, Error *error);
 
 // Returns the index of the share's first item among `total` items. Shares are runs of consecutive
@@ -48,14 +49,15 @@ bool frames_parse(Frames *frames, const char *text, Error *error);
 // Returns whether --frames or --turntable is given.
 bool frames_are_many(const Frames *frames);
 
-// Without a range, selects all steps of the turntable. Reduces first and last to the share. Fails
-// if there is neither a range nor a turntable, or if there are fewer frames than shares.
+// Completes the selection of frames. If there is no range, selects all steps of the turntable. Then
+// reduces the range to the share. Fails if there is neither a range nor a turntable, or if there
+// are fewer frames than shares.
 bool frames_complete(Frames *frames, Error *error);
 
 // Returns the number of pictures.
 uint32_t frames_count(const Frames *frames);
 
-// Returns the number of the frame at position place of the sequence; place counts from 0.
+// Returns the number of the frame at index place of the sequence, from 0.
 uint32_t frames_at(const Frames *frames, uint32_t place);
 
 // Returns the path of a frame's file. The number with leading zeros replaces the last run of '#'
@@ -74,7 +76,7 @@ typedef struct {
 bool crop_parse(Crop *crop, const char *text);
 
 // Sets the crop of a picture whose size is set. Rounds fractions to the nearest pixel edge, so
-// adjacent crops neither overlap nor leave gaps.
+// neighboring crops neither overlap nor leave gaps.
 bool crop_apply(const Crop *crop, ClrtPicture *picture, Error *error);
 
 // Returns [left, top, right, bottom] of the crop, in pixels of the whole picture.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// getopt splits the command line, option.c stores the values, and check.c checks their
-// combination.
+// Command line -> Options. getopt splits the command line, option.c parses and stores the values,
+// and check.c checks their combination. Unknown options of other programs get a message with clrt's
+// words for them.
 #include "cli/options/options.h"
 
 #include "base/word.h"
@@ -97,8 +98,8 @@ static size_t option_of(int found)
     return 0;
 }
 
-// If a setting is repeated, the last value counts. A second file name is an error, because the
-// first file would not be written.
+// Records that the command line contains the option. If a setting is repeated, its last value
+// counts. A repeated file name is an error, because the first file would not be written.
 static bool mark_given(Options *options, size_t row, Error *error)
 {
     const Option *option = &option_table[row];
@@ -109,8 +110,8 @@ static bool mark_given(Options *options, size_t row, Error *error)
     return true;
 }
 
-// Returns the command that the options and operands select: among the rows with its name, the last
-// one that `count` operands suffice for, or else the first one.
+// Returns the command that the options and operands select. Of the rows with its name, this is the
+// last row that needs at most `count` operands or, if there is none, the first row.
 static const Command *find_command(const Options *options, const char *name, int count)
 {
     const unsigned picture = options->output_path != NULL ? FOR_FILE

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses shares. "auto/N" takes the share from the task number in an environment variable.
+// Parses shares, and divides items among them.
 #include "cli/options/options.h"
 
 #include "base/number.h"
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// clrt reads the first variable that is set. Ranks come last, because Slurm sets SLURM_PROCID in
-// the tasks of arrays too.
+// Of these variables, clrt reads the first one that is set. Ranks come last, because Slurm sets
+// SLURM_PROCID in the tasks of arrays too.
 static const struct {
     const char *name;
     int64_t first; // the number of the first task

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of options, in the order of --help, and the table of commands. To open a scene file
-// called like a command, users write ./NAME.
+// The table of options, in the order of --help, and the table of commands. A scene file whose name
+// is a command can be written as ./NAME.
 #include "cli/options/option.h"
 
 #include <assert.h>
