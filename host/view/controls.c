@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The effects of keys and mouse actions, which view/status_text.c lists.
+// Changes the state by keys and mouse actions. status_text.c has the list of them that users see.
 #include "view/controls.h"
 
-// These constants, except the last, are from the course's viewer.
+// All these constants except the last are those of the course's viewer.
 
 #define DEGREES_PER_PIXEL  0.25
 #define LENGTH_PER_PIXEL   0.15
@@ -14,8 +14,8 @@
 #define COURSE_DISTANCE    6.5
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// Computes perpendicular axes; the last is up. If up is z, the others are x and y, which the course
-// uses as the reference for angles.
+// Computes perpendicular axes, of which the last is up. If up is z, the others are x and y, from
+// which the course measures angles.
 static void make_axes(Vec3 axes[3], Vec3 up)
 {
     const Vec3 z = vec3_normalize(up);
@@ -64,7 +64,7 @@ static double limited(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// orbit_turn and orbit_zoom apply a mouse drag, within the course's limits.
+// orbit_turn and orbit_zoom move the camera by a mouse drag, within the course's limits.
 static void orbit_turn(Orbit *orbit, double right, double down)
 {
     orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);
@@ -82,8 +82,8 @@ static void orbit_zoom(Orbit *orbit, double down)
     set_distance(orbit, orbit->distance + LENGTH_PER_PIXEL * orbit->unit * down);
 }
 
-// Moves camera and pivot sideways by a mouse drag. The pivot follows the pointer if the window has
-// the course's height.
+// Moves camera and pivot sideways by a mouse drag. In a window of the course's height, the pivot
+// moves exactly as far as the pointer.
 static void orbit_pan(Orbit *orbit, double right, double down)
 {
     const Viewpoint view = orbit_viewpoint(orbit);

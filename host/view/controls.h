@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The window's settings as a plain struct. Events change the state, and views draw it. The state
-// depends on no window, device or clock.
+// The window's settings as a plain struct, the State. Events change the state, and views draw it.
+// Both directions need no window, device or clock, so tests can play events.
 #pragma once
 
 #include "scene/scene.h"
@@ -10,8 +10,8 @@ typedef struct {
     Vec3 pivot;       // the center of the orbit
     Vec3 look_at, up; // of the camera
     Vec3 axes[3];     // unit length; the last is up
-    // In degrees below the plane perpendicular to up; negative if the eye is above. The name is
-    // the course's.
+    // Degrees of the eye below the plane that is perpendicular to up; negative if the eye is above.
+    // The course uses this name.
     double azimuth;
     double rotation; // degrees around up
     double distance; // from the eye to the pivot
@@ -46,7 +46,7 @@ typedef struct {
     double right, down;
 } Event;
 
-// Bits of the commands that an event triggers in addition to changes of the state.
+// The bits of commands. An event triggers them in addition to changes of the state.
 enum {
     COMMAND_CAMERA = 1,
     COMMAND_SAVE = 2,
@@ -89,8 +89,8 @@ unsigned state_apply(State *state, const Event *event, const StateScene *scene);
 // If the camera turns automatically, advances its rotation by `seconds` seconds.
 void state_advance(State *state, double seconds);
 
-// Switches to a scene that was read again. A camera that has not moved takes the new file's
-// viewpoint. A camera whose viewpoint is gone takes the first viewpoint.
+// Switches to a scene that was read again. A camera that has not moved takes its viewpoint from the
+// new scene. If the new scene lacks this viewpoint, the camera takes the first one.
 void state_adopt(State *state, const StateScene *scene);
 
 // Switches to another scene and its first viewpoint.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The worker's jobs. Each job ends with a status update.
+// The worker's jobs: loading a scene, compiling it, drawing a pass, encoding colors again, and
+// explaining a pixel. Each job ends with a status update.
 #include "view/worker_inside.h"
 
 #include "base/clock.h"
@@ -8,7 +9,8 @@
 #define WAKE_STEP 0.03
 
 // For this many seconds, other requests do not stop PASS_MOVING, so that pictures of a moving
-// camera appear. Later, they do: in a large scene without a tree, such a pass may take very long.
+// camera appear at all. Afterwards, they stop the pass, which may take very long in a large scene
+// without a tree.
 #define MOVING_SECONDS 0.5
 
 // A pass in progress.
@@ -77,8 +79,8 @@ static bool tile_done(void *context, const RenderProgress *progress)
 }
 
 // Updates the measured time per sample. part is the finished fraction of the pass. The first
-// measurement replaces the guess. Later measurements count as at most twice the previous time,
-// because other processes may have slowed the picture.
+// measurement replaces the guess. Each later measurement at most doubles the time, because other
+// processes may have slowed the picture.
 static void update_sample_cost(Worker *worker, const Pass *pass, double seconds, double part)
 {
     const double samples = part * pass->width * pass->height * pass->samples * pass->samples;
@@ -122,8 +124,8 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     end_update(worker);
 }
 
-// Reports that a picture cannot be traced, and marks it as reached, so that only a different
-// request is tried.
+// Reports that a picture cannot be traced. Marks it as reached, so that the worker tries again only
+// after a different request.
 static void report_failure(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -193,7 +195,7 @@ static bool take(Worker *worker, const Job *job, Model *model, Error *error)
     return ok;
 }
 
-// Publishes the model for the window. The model's tree may still be missing (has_tree).
+// Publishes the model for the window. If has_tree is false, the model's tree is not built yet.
 static void publish(Worker *worker, Model *model, bool has_tree)
 {
     WorkerStatus *status = begin_update(worker);

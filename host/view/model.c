@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The stages of the pipeline that need no device.
+// Runs the stages of the pipeline that need no device: reading the scene, normalization, triangles
+// and tree.
 #include "view/model.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scene file -> the input of the OpenGL view and the ray-traced view: the scene, its normalized
-// triangles and their tree. Models are reference-counted, because one thread makes a model and
-// others read it.
+// Scene file -> Model: the scene, its normalized triangles and their tree. Both the OpenGL view and
+// the ray-traced view draw a model. Models are reference-counted, because one thread makes a model
+// and others read it.
 #pragma once
 
 #include "scene/scn.h"
@@ -17,7 +17,7 @@ typedef struct {
     CompileStages stages; // without a tree until it is built
 } Model;
 
-// Reads the scene or mesh at path and returns a model with one reference, or NULL on failure. The
+// Reads the scene or mesh at path. Returns a model with one reference, or NULL on failure. The
 // string path must outlive the model.
 Model *model_load(const char *path, const SceneLoadOptions *options, uint32_t threads,
                   Error *error);

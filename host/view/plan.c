@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Tracing may take only part of a frame's time, because display takes time and tracing times vary.
+// Chooses the resolution of moving pictures. Tracing may take only part of a frame's time, because
+// displaying takes time too and tracing times vary.
 #include "view/plan.h"
 
 #include "session/costs.h"
 
 #define TRACE_SECONDS (PLAN_FRAME_SECONDS * 0.6)
 
-// A tile should take little time, because a stopped picture still finishes the two tiles in flight.
+// The tracing time of a tile. It is short, because a stopped picture still finishes the two tiles
+// in flight.
 #define TILE_SECONDS  0.012
 #define TILE_LARGEST  128
 #define TILE_SMALLEST 8
@@ -21,7 +23,7 @@ static double pixel_count(const PlanRequest *request, uint32_t divisor)
     return (double)divided(request->width, divisor) * divided(request->height, divisor);
 }
 
-// Returns the smallest divisor that meets the time limit, or else the largest.
+// Returns the smallest divisor that meets the time limit, or the largest divisor if none does.
 static uint32_t moving_divisor(const PlanRequest *request)
 {
     static const uint32_t divisors[] = {1, 2, 3, 4, 6, 8, 12, 16};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Chooses the next pass, so that the camera moves smoothly and a still picture becomes sharp. The
-// first pass should fit a frame's time, if necessary at a lower resolution. The next passes trace
-// all pixels, then all samples. The last pass counts rays and tests (compare Bergman, Fuchs, Grant
-// and Spach, "Image rendering by adaptive refinement", 1986).
+// Chooses the next pass, so that the camera moves smoothly and a resting picture becomes sharp
+// (compare Bergman, Fuchs, Grant and Spach, "Image rendering by adaptive refinement", 1986). The
+// first pass should take at most a frame's time, at a lower resolution if necessary. The next
+// passes trace all pixels, and then all samples. The last pass counts rays and tests.
 #pragma once
 
 #include <stdbool.h>
@@ -28,8 +28,7 @@ typedef struct {
 
 typedef enum {
     PASS_NONE,
-    PASS_MOVING, // should fit a frame's time; camera motion does not stop it soon, so a picture
-                 // appears
+    PASS_MOVING, // should take at most a frame's time; not stopped soon if the camera moves
     PASS_FULL,   // all pixels, with one sample or with all samples
     PASS_COUNT   // the full picture again, with counters
 } PassKind;
@@ -39,7 +38,7 @@ typedef struct {
     uint32_t divisor; // one traced pixel covers divisor x divisor pixels
     uint32_t samples;
     uint32_t width, height; // of the traced picture
-    uint32_t tile;          // side of a tile in pixels, small enough to stop quickly
+    uint32_t tile;          // side of a tile in pixels; small, so that passes stop quickly
 } Pass;
 
 Pass plan_pass(const PlanRequest *request, const PlanReached *reached);

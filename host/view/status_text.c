@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The texts depend only on the arguments, so the same arguments always give the same text.
+// Writes the window's texts. A text depends only on the arguments, so callers can compare texts to
+// detect changes.
 #include "view/status_text.h"
 
 #include "scene/scn_write.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// State and figures -> the window's title, line and panel, and the output of key c.
+// State and figures -> the window's title, line and panel, and the text that key c prints.
 #pragma once
 
 #include "view/controls.h"
@@ -15,7 +15,7 @@ typedef struct {
     uint32_t width, height; // of the window, in pixels
     uint32_t samples;       // along each side of a pixel, with anti-aliasing
     uint32_t divisor;       // one traced pixel covers divisor x divisor pixels
-    bool is_finished;       // nothing remains to be done, except counting
+    bool is_finished;       // the picture is complete; counting may remain
     double progress;        // of the current pass, from 0 to 1
     double frame_seconds;   // tracing time of the latest complete picture
     bool has_counts;        // rays and tests_per_ray are known

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes new objects before it releases old objects, so that the old objects remain in use after a
-// failure.
+// Draws with a session. When the scene or the kernels change, new objects are made before old ones
+// are released. The old objects remain in use if this fails.
 #include "view/tracer.h"
 
 bool tracer_open(ViewTracer *tracer, const TracerOptions *options, Error *error)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Device, model and pass -> picture, on the tracing thread.
+// Model, camera and pass -> picture. Only the worker thread calls these functions.
 #pragma once
 
 #include "explain/report.h"
@@ -25,11 +25,11 @@ typedef struct {
 bool tracer_open(ViewTracer *tracer, const TracerOptions *options, Error *error);
 void tracer_close(ViewTracer *tracer);
 
-// Returns the settings for trees that suit the device.
+// Returns the settings of the trees that the device's kernels traverse.
 BvhSettings tracer_tree(const ViewTracer *tracer);
 
-// Switches to the model, to be traced with its tree or by brute force. On failure, the tracer keeps
-// the previous model.
+// Switches to the model. Rays then use its tree or, if uses_bvh is false, test all triangles. On
+// failure, the tracer keeps the previous model.
 bool tracer_take(ViewTracer *tracer, Model *model, bool uses_bvh, Error *error);
 
 // Compiles the kernels again from the kernel folder. On failure, the tracer keeps the previous
@@ -45,8 +45,8 @@ typedef struct {
 // Returns the settings of a pass's picture.
 RenderSettings tracer_settings(const ViewTracer *tracer, const Pass *pass);
 
-// Draws the shot into framebuffer until the observer returns false. framebuffer must have the size
-// of tracer_settings.
+// Draws the shot into framebuffer, which must have the size of tracer_settings. Stops when the
+// observer returns false.
 bool tracer_draw(ViewTracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error);
 

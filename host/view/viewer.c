@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The main loop. Events and the worker's status change the state. The loop posts the state to the
-// worker as a request, and draws changes.
+// The window's main loop. Events and the worker's status change the state. The loop posts the state
+// to the worker as a request, and redraws the window if something changed.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The loop's longest sleep in seconds. Files are checked between sleeps. A camera that has not
-// moved for this time rests.
+// The loop's longest sleep in seconds. Files are checked between sleeps. A camera also counts as
+// resting if it has not moved for this time.
 #define REST_SECONDS 0.1
 
 // Returns the samples along each side of a pixel. A moving camera is not anti-aliased, because its
@@ -74,7 +74,8 @@ bool viewer_has_keys(const Viewer *viewer)
     return viewer->settings.keys != NULL && viewer->settings.keys[0] != '\0';
 }
 
-// Returns whether keys or frames remain, so that the window must draw without events.
+// Returns whether keys remain to be played or frames remain to be shown. The window then draws
+// without waiting for events.
 static bool is_playing(const Viewer *viewer)
 {
     return viewer_has_keys(viewer) || viewer->settings.quit_after > 0;
@@ -92,9 +93,9 @@ static void play_key(Viewer *viewer)
     take_event(viewer, &event);
 }
 
-// Removes an old hint, and notices that the camera rests. Turns the camera if it turns
-// automatically. The camera waits for the traced picture of its current position, and does not turn
-// while a save is requested.
+// Updates everything that depends on time: removes an old hint, notices that the camera rests, and
+// turns a camera that turns automatically. Such a camera waits until the picture of its current
+// position is traced. It does not turn while a save is requested.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();
@@ -140,7 +141,7 @@ static void post_request(Viewer *viewer)
     worker_request(viewer->worker, request);
 }
 
-// Returns how long the loop may sleep, in seconds.
+// Returns the number of seconds that the loop may sleep.
 static double idle_seconds(const Viewer *viewer)
 {
     const bool plays = is_playing(viewer) && viewer_is_settled(viewer);
@@ -217,7 +218,7 @@ static ViewerEnd show(Viewer *viewer, Error *error)
 }
 
 // Stops tracing and frees the viewer. If the driver does not return in time, it may still use the
-// viewer, which the end of the process frees.
+// viewer. The viewer is then not freed, and the process ends.
 static void close_viewer(Viewer *viewer)
 {
     if (viewer->window.handle != NULL)
@@ -259,7 +260,8 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     canvas_open(&viewer->canvas, settings->encoding);
     const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, glfwPostEmptyEvent};
     ViewerEnd end = VIEWER_NO_DEVICE;
-    // Watching starts before the first read, so that changes during the read are detected.
+    // Starts to watch the files before they are first read, so that changes during the read are
+    // detected.
     const char *kernels = settings->tracer.session.kernel_folder;
     if (viewer_watch_files(viewer, error) &&
         watch_set(&viewer->kernel_files, &kernels, kernels != NULL, error))

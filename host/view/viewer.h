@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shows a scene file in a window, drawn by OpenGL or ray traced, until the user closes the window.
+// Scene file -> a window that shows it, drawn by OpenGL or ray traced, until the user closes the
+// window.
 #pragma once
 
 #include "image/image_file.h"

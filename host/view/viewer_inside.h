@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The viewer's data, shared by its source files. viewer.c runs the loop, viewer_follow.c takes
+// The viewer's data, which its source files share. viewer.c runs the loop, viewer_follow.c takes
 // results of the worker and changed files, and viewer_show.c draws, prints and saves.
 #pragma once
 
@@ -20,8 +20,8 @@ typedef struct {
     double latest; // clock time of the latest frame; 0 without one or if the camera has stopped
 } FrameTimes;
 
-// Prints the statistics. frames is the number of complete pictures of PASS_MOVING. coarse is how
-// many of these had fewer pixels than the window.
+// Prints the statistics. frames is the number of complete pictures of PASS_MOVING. coarse is the
+// number of those with fewer pixels than the window.
 void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream);
 void frame_times_free(FrameTimes *times);
 
@@ -29,7 +29,8 @@ void frame_times_free(FrameTimes *times);
 #define STATE_SIZE  1024
 
 typedef struct {
-    // Copies, because the worker may outlive viewer_run. keys and quit_after hold what remains.
+    // A copy, because the worker may outlive viewer_run. keys and quit_after shrink as keys are
+    // played and frames are shown.
     ViewerSettings settings;
     Window window;
     Views views;
@@ -43,7 +44,7 @@ typedef struct {
     ARRAY(char *) dropped; // paths; owned, because the worker may still read any of these files
     Watch scene_files, kernel_files;
     double polled;            // time of the latest check of these files
-    bool is_failure_followed; // the scene's folder is watched, too, because a read failed
+    bool is_failure_followed; // the scene's folder is watched too, because a read failed
     bool wants_save;
     FrameTimes frame_times;
     uint64_t explained;    // request.explains of the displayed explanation; 0 for none
@@ -58,7 +59,7 @@ typedef struct {
     bool is_dirty, quits;
 } Viewer;
 
-// Processes the worker's status. Returns false if nothing can be displayed anymore.
+// Processes the worker's status. Returns false after a fault that ends the window.
 bool viewer_follow_worker(Viewer *viewer, Error *error);
 
 // Switches to the worker's latest model.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws the picture, then the text over it. The text describes the picture's settings.
+// Draws the picture and then the text over it, prints news, and saves pictures.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
@@ -11,7 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-// Names the files after the scene, with the first free number.
+// The following functions save pictures. The files are named after the scene, with the first unused
+// number.
 
 #define NAME_SIZE 512
 
@@ -29,7 +30,7 @@ static bool is_free(const char *stem, const char *ending)
     return access(path, F_OK) != 0;
 }
 
-// Stores the scene file's name without folder and extension, and with a number.
+// Stores the name of the saved files without extension: the scene file's name and a number.
 static void write_stem(char stem[NAME_SIZE], const char *scene_path, const char *float_ending)
 {
     const char *slash = strrchr(scene_path, '/');
@@ -183,7 +184,7 @@ static void draw_text(Viewer *viewer, const Figures *figures)
     text_view_draw(&viewer->views.text, &overlay);
 }
 
-// Copies the text to shown. Returns whether the two differed.
+// Copies text to shown. Returns whether they differed before.
 static bool is_news(char shown[STATE_SIZE], const char text[STATE_SIZE])
 {
     const bool differs = strcmp(text, shown) != 0;
@@ -253,8 +254,8 @@ bool viewer_draw(Viewer *viewer, Error *error)
     return true;
 }
 
-// Saves the displayed picture and, under the canvas's lock, the traced picture. In the OpenGL view,
-// or without a traced picture, the displayed picture replaces the traced one.
+// Saves the displayed picture and the traced picture, which is read under the canvas's lock. In the
+// OpenGL view, or if there is no traced picture, the displayed picture is saved twice.
 static bool save(Viewer *viewer, const Framebuffer *shown)
 {
     char state[STATE_SIZE];

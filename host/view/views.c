@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Surfaces also hide the lines behind them in the ray-traced view. For lines, OpenGL first draws
-// the scene, and the traced picture then replaces the colors, but not the depth.
+// Draws a frame by OpenGL. Surfaces must also hide the lines behind them in the ray-traced view. If
+// there are lines, OpenGL therefore first draws the scene. The traced picture then replaces the
+// colors, but not the depth.
 #include "view/views.h"
 
 #include "image/image_file.h"

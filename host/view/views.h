@@ -26,7 +26,7 @@ typedef struct {
     const Model *model;
     bool has_tree; // the model's tree is built
     Canvas *canvas;
-    Viewpoint camera; // the picture's camera; a traced picture may lag behind the state
+    Viewpoint camera; // camera of the displayed picture, which may lag behind the state
     uint32_t width, height;
     Encoding encoding;
 } Frame;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A file's signature is a hash of its modification time, size and inode.
+// Compares the files' signatures at each poll. A file's signature is a hash of its modification
+// time, size and inode. A folder's signature is the sum of its files' signatures.
 #include "view/watch.h"
 
 #include <dirent.h>
@@ -32,7 +33,8 @@ static uint64_t signature_of_folder(const char *folder)
     return signature;
 }
 
-// Returns a signature for missing files, too, so that their creation is a change.
+// Returns the signature of a file or folder. A missing file has a signature too, so its creation is
+// a change.
 static uint64_t signature_of_path(const char *path)
 {
     struct stat status;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Detects changed files by polling, which also works for editors that replace files and for network
-// file systems.
+// Detects changed files by polling. Unlike notifications of the system, polling also works with
+// editors that replace files and on network file systems.
 #pragma once
 
 #include "base/array.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads letters as characters instead of keys, so that every keyboard layout works. GLFW's
-// callbacks find the Window by GLFW's user pointer.
+// Opens a window by GLFW, and converts GLFW's callbacks to events. Letters are read as characters
+// instead of keys, so that every keyboard layout works. The callbacks find the Window by GLFW's
+// user pointer.
 #include "view/window.h"
 
 #include <epoxy/gl.h>
@@ -42,7 +43,8 @@ static void add_event(GLFWwindow *handle, Event event)
         window->events[window->event_count++] = event;
 }
 
-// Held keys repeat if they change a value step by step. Other keys switch something.
+// Adds the event of a typed character. Keys that change a value step by step repeat while they are
+// held. Other keys are switches, and do not repeat.
 static void take_character(GLFWwindow *handle, unsigned character)
 {
     const Window *window = glfwGetWindowUserPointer(handle);
@@ -65,7 +67,8 @@ static int find_key(int key, int code, int modifiers)
     return name != NULL && (name[0] == 's' || name[0] == 'q') ? name[0] : 0;
 }
 
-// Keys without a character do not repeat while held, except arrows.
+// Adds the event of a key without a character. Of these keys, only arrows repeat while they are
+// held.
 static void take_key(GLFWwindow *handle, int key, int code, int action, int modifiers)
 {
     Window *window = glfwGetWindowUserPointer(handle);
@@ -173,7 +176,7 @@ static void listen(Window *window)
     glfwGetCursorPos(window->handle, &window->mouse_x, &window->mouse_y);
 }
 
-// Shrinks the size to fit the screen, and keeps the aspect ratio.
+// If the size exceeds the screen, shrinks it and keeps the aspect ratio.
 static void fit_screen(uint32_t *width, uint32_t *height)
 {
     int x, y, room_x = 0, room_y = 0;

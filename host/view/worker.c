@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chooses the next job by comparing the request with the finished work.
+// The worker's thread. It waits for a difference between the request and the finished work, chooses
+// the next job from this difference (next_kind), and runs the job without the lock (jobs.c).
 #include "view/worker_inside.h"
 
 #include <stdlib.h>
@@ -28,7 +29,7 @@ static JobKind next_kind(const Worker *worker, const Pass *pass)
         return JOB_TAKE;
     if (request->explains != done->explains)
         return JOB_EXPLAIN;
-    // A new gain encodes the latest picture again, even if more passes remain.
+    // If the gain has changed, encodes the latest picture again before the remaining passes.
     return request->is_traced && request->gain != done->gain && pass->kind != PASS_MOVING
                ? JOB_ENCODE
                : JOB_PASS;

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A thread that reads scenes and traces pictures, so that the window need not wait. The window
-// posts requests and polls the status. The two threads also share the canvas and published models,
-// and nothing else.
+// posts requests and polls the status. Besides these, the two threads share only the canvas and
+// published models.
 //
-// A request is not a queue of commands but the whole picture that the window wants now. The worker
-// compares the request with its finished work, and chooses the next job from the difference. A
-// later request replaces an earlier one, so a fast mouse never makes the worker lag. After each
-// finished tile, the worker compares again, and stops a pass that nobody needs.
+// A request is not a queue of commands. It describes the whole picture that the window needs now.
+// The worker compares the request with its finished work, and chooses the next job from the
+// difference. A later request replaces an earlier one, so the worker does not lag behind a fast
+// mouse. After each finished tile, the worker compares again, and stops a pass that is no longer
+// needed.
 //
-// Counters in the request, such as `loads`, ask for work that leaves no other trace. The status
-// holds the same counters, and equal counters mean that the work is done.
+// Some work leaves no difference to compare, for example reading a changed file again. The request
+// counts such work in members like `loads`, and the status has the same members for finished work.
+// Equal counters mean that the work is done.
 //
 // Invariant: one mutex guards request, status and model, and no thread holds it during long work.
 #pragma once
@@ -47,7 +49,7 @@ typedef struct {
     uint64_t models;     // number of published models
     bool has_tree;       // the latest model's tree is built
     const char *busy;    // the current operation; empty while tracing or idle
-    WorkerRequest done;  // completed loads, renewals and explains; uses_bvh, camera and gain in use
+    WorkerRequest done;  // finished loads, renewals and explains; current uses_bvh, camera and gain
     PlanReached reached;
     double progress;                    // finished fraction of the current pass
     double frame_seconds;               // tracing time of the latest complete picture
@@ -75,7 +77,7 @@ void worker_poll(Worker *worker, WorkerStatus *status);
 // Returns the latest model with a reference, which the caller releases, or NULL.
 Model *worker_model(Worker *worker);
 
-// Returns whether the request is fulfilled: nothing but PASS_COUNT is left to do.
+// Returns whether the request is finished, except perhaps for PASS_COUNT.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
 // Stops and frees the worker. If the worker does not stop within this many seconds, worker_stop

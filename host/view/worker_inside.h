@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The worker's data, shared by its source files. worker.c chooses jobs, and jobs.c runs them.
+// The worker's data, which its source files share. worker.c chooses jobs, and jobs.c runs them.
 #pragma once
 
 #include "view/worker.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A pass fills the layer that does not hold the latest complete picture.
+// The canvas has two layers. One contains the latest complete picture, and a pass fills the other.
 #include "view/draw/canvas.h"
 
 #include <stdlib.h>

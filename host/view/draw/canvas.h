@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Passes pictures from the tracing thread to the window's thread: the latest complete picture, and
-// the tiles of the picture in progress. The tracing thread writes a tile, then counts it under the
-// lock. The window's thread holds the lock while it reads counted tiles.
+// the tiles of the picture in progress.
+//
+// Invariant: the tracing thread first writes a tile and then counts it under the lock. The window's
+// thread reads only counted tiles, and holds the lock meanwhile.
 #pragma once
 
 #include "image/image_file.h"
@@ -38,8 +40,8 @@ Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidd
 // Encodes the new tiles up to tiles_done, with colors multiplied by gain, and then counts them.
 void canvas_add_tiles(Canvas *canvas, Layer *layer, uint64_t tiles_done, double gain);
 
-// Ends a picture. If it is whole, its layer becomes the latest complete picture; otherwise the
-// layer becomes empty.
+// Ends a picture. If is_whole, its layer becomes the latest complete picture. Otherwise, the layer
+// becomes empty.
 void canvas_end(Canvas *canvas, Layer *layer, bool is_whole);
 
 // Encodes the latest complete picture again, with colors multiplied by gain. No other picture may

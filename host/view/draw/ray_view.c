@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Uploads only new tiles. A picture with the target's size is drawn without filtering.
+// Copies the canvas's layers into textures and draws them. Only new tiles are uploaded. A picture
+// with the target's size is drawn without filtering.
 #include "view/draw/ray_view.h"
 
 bool ray_view_open(RayView *view, Error *error)

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
+// Copies a model into OpenGL buffers and draws it. Triangles are drawn as meshes, spheres by a ray
+// cast in each pixel, and boxes and normals as lines.
 #include "view/draw/scene_view.h"
 
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Triangles share vertices as in the meshes. Each object takes one draw call.
+// The following functions draw triangles. They share vertices as in the meshes, and each object
+// takes one draw call.
 
 typedef struct {
     float position[3];
@@ -82,8 +85,9 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
     glBindVertexArray(0);
 }
 
-// Computes each sphere's position relative to the eye in fp64 for every frame. In float, the eye's
-// height above a ground sphere of radius 1e9 would be lost.
+// The following functions draw spheres. For every frame, the position of each sphere relative to
+// the eye is computed in fp64. Float would lose the eye's height above a ground sphere of radius
+// 1e9.
 
 // Floats per sphere: center, radius, and the material's three vectors. The material's unused float,
 // at HEIGHT_PLACE, holds the eye's height above the sphere.
@@ -144,7 +148,7 @@ void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, co
     lens_apply(lens, view->drawing.program);
     light_apply(scene, &model->normalization, tone, view->drawing.program);
     drawing_fill(&view->drawing, 1, view->numbers.data, SPHERE_NUMBERS * count * sizeof(float));
-    // Draws back faces, because they cover the sphere even if the eye is inside the cube.
+    // Draws only back faces, which cover the sphere even if the eye is inside the cube.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
     glDrawArraysInstanced(GL_TRIANGLES, 0, CUBE_FACE_VERTICES, (GLsizei)count);
@@ -153,7 +157,7 @@ void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, co
     glBindVertexArray(0);
 }
 
-// Draws each box as an instance of a cube's edges or of a cube's diagonal.
+// The following functions draw each box as an instance of a cube's edges, or of a cube's diagonal.
 
 bool line_view_open(LineView *view, bool is_diagonal, Error *error)
 {
@@ -221,7 +225,8 @@ void boxes_free(Boxes *boxes)
     *boxes = (Boxes){0};
 }
 
-// Half of the course's 0.15, because normalization halves the course's scenes.
+// The length of a normal. It is half of the course's 0.15, because normalization halves the
+// course's scenes.
 #define LINE_LENGTH 0.075
 
 static bool add_line(Boxes *lines, Vec3 start, Vec3 normal, Error *error)

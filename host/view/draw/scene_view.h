@@ -15,7 +15,7 @@ bool triangle_view_load(const Drawing *view, const Model *model, Error *error);
 void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens,
                         const Tone *tone);
 
-// Spheres, exact in every pixel.
+// Draws spheres that are exact in every pixel.
 typedef struct {
     Drawing drawing;
     ARRAY(float) numbers; // of all spheres, in OpenGL's layout
@@ -29,7 +29,7 @@ bool sphere_view_load(SphereView *view, const Model *model, Error *error);
 
 void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, const Tone *tone);
 
-// Boxes, or their diagonals, in one color.
+// Draws boxes, or their diagonals, in one color.
 typedef struct {
     Drawing drawing;
     bool is_diagonal;
@@ -42,7 +42,7 @@ bool line_view_open(LineView *view, bool is_diagonal, Error *error);
 void line_view_load(LineView *view, const Box *boxes, size_t count);
 void line_view_draw(const LineView *view, const Lens *lens, const float color[3]);
 
-// Boxes and lines for LineView: Bvh -> the boxes at one of its levels; Model -> its normals.
+// The boxes that a LineView draws: those of one level of a Bvh, or a model's normals as diagonals.
 typedef ARRAY(Box) Boxes;
 
 // Returns the number of levels of inner nodes.

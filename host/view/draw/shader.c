@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Uses GLSL 1.40, which OpenGL 3.1 to 4.6 accept in all profiles.
+// Compiles shaders, and sets the uniforms of lights and cameras. The shaders use GLSL 1.40, which
+// OpenGL 3.1 to 4.6 accept in all profiles.
 #include "view/draw/shader.h"
 
 #include <string.h>
@@ -133,15 +134,15 @@ void cube_fill_edges(const Drawing *drawing)
     fill_cube(drawing, corners, CUBE_EDGE_VERTICES + 2, 0);
 }
 
-// The camera's steps are half a pixel, so half the picture's width has as many steps as the width
-// has pixels.
+// The following functions convert a camera. Its step is half a pixel, so half the picture's width
+// has as many steps as the width has pixels.
 
-// In normalized coordinates, where the triangles' box is 1 to 2 long. All nearer points have depth
-// 0, so the one drawn last is visible.
+// The smallest distance with a depth above 0, in normalized coordinates, where the triangles' box
+// is 1 to 2 long. Of points that are nearer, the one drawn last is visible.
 #define NEAREST 0.01f
 
-// Stores step's direction, scaled so that its dot product with points on the picture's edge at
-// depth 1 is 1.
+// Stores the direction of step with a length that makes its dot product with points on the
+// picture's edge at distance 1 equal to 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = vec3_of_floats(step);
@@ -174,7 +175,7 @@ void lens_apply(const Lens *lens, GLuint program)
     glUniform2f(glGetUniformLocation(program, "size"), lens->width, lens->height);
 }
 
-// Converts a scene's lights and materials to the shaders' layout.
+// The following functions convert a scene's lights and materials to the shaders' layout.
 
 static int store_lights(float lights[LIGHT_LIMIT][4], float colors[LIGHT_LIMIT][3],
                         const Scene *scene, const Normalization *normalization)

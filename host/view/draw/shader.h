@@ -13,7 +13,8 @@
 extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_picture[],
     shader_text[];
 
-// An attribute of a shader. Buffer 0 has attributes per vertex, buffer 1 attributes per instance.
+// An attribute of a shader. Buffer 0 contains attributes per vertex, and buffer 1 attributes per
+// instance.
 typedef struct {
     const char *name;
     int buffer;
@@ -58,10 +59,11 @@ void shader_set_vector(GLuint program, const char *name, const float v[3]);
 void cube_fill_faces(const Drawing *drawing);
 void cube_fill_edges(const Drawing *drawing);
 
-// The scene's lights and materials -> the uniforms of shaders/light.glsl.
+// These declarations convert the scene's lights and materials to the uniforms of
+// shaders/light.glsl.
 
-// The most lights that OpenGL shows. The course's viewer has eight, because it uses OpenGL's fixed
-// pipeline.
+// The largest number of lights that OpenGL shows. The course's viewer shows eight, the limit of
+// OpenGL's fixed pipeline.
 #define LIGHT_LIMIT 64
 
 // The conversion of colors for the window.
@@ -78,7 +80,7 @@ void light_apply(const Scene *scene, const Normalization *normalization, const T
 // reflectivity.
 void light_store_material(float vectors[3][4], const Material *material);
 
-// The camera of the rays -> the projection with which OpenGL draws the same picture.
+// The projection with which OpenGL draws the same picture as the rays of a camera.
 typedef struct {
     CameraData camera; // in normalized coordinates; a step is half a pixel
     Vec3 eye;          // in normalized coordinates, in fp64

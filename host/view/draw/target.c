@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The target has two framebuffers. A linear blit to half the size averages the larger framebuffer
-// into the smaller one.
+// The target has two framebuffers. OpenGL draws into the first. If it is larger, a linear blit to
+// half the size averages it into the second, which is displayed.
 #include "view/draw/target.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An offscreen picture, larger than the window if anti-aliased. The window's own buffer would lose
-// pixels that other windows cover.
+// An offscreen picture. It is larger than the window if it is anti-aliased. The window's own buffer
+// is not used, because pixels that other windows cover would be undefined in saved pictures.
 #pragma once
 
 #include "image/framebuffer.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// stb_truetype draws an installed font into a texture. Text is laid out with smaller and smaller
-// fonts until it fits the window.
+// Draws text by a texture of characters, which stb_truetype makes from an installed font. The
+// layout of a text is repeated with a smaller font until it fits the window.
 #define STB_TRUETYPE_IMPLEMENTATION
 #include "view/draw/text_view.h"
 
@@ -19,7 +19,8 @@
 #define TEXTURE_SIDE 14   // a texture of this width and height holds all characters
 #define FOLDER       "/usr/share/fonts/truetype/"
 
-// Fixed paths spare a dependency on fontconfig. tools/setup installs the first font.
+// The fonts that are tried. Fixed paths avoid a dependency on fontconfig. tools/setup installs the
+// first font.
 static const char *const font_paths[] = {
     FOLDER "dejavu/DejaVuSans.ttf", FOLDER "liberation/LiberationSans-Regular.ttf",
     FOLDER "noto/NotoSans-Regular.ttf", FOLDER "freefont/FreeSans.ttf"};
@@ -110,7 +111,7 @@ void text_view_close(TextView *view)
     *view = (TextView){0};
 }
 
-// If memory runs out, text is missing.
+// Adds a character's rectangle to the text to draw. If memory runs out, the character is missing.
 static void add_quad(TextView *view, const stbtt_aligned_quad *quad, const float color[4])
 {
     static const int places[6] = {0, 1, 2, 2, 1, 3};
@@ -131,7 +132,7 @@ typedef struct {
     TextView *view;
     float size;   // of the font, in pixels
     float x, y;   // of the upper left corner
-    float right;  // where lines end
+    float right;  // the right end of lines
     float widest; // the largest x so far
     bool draws;   // whether to draw characters, or only to measure them
     const float *color;
@@ -171,7 +172,7 @@ static void put_words(Pen *pen, const char *text, const char *end)
     }
 }
 
-// Returns where the line's first column ends: at two blanks, or at the line's end.
+// Returns the end of the line's first column: two blanks, or the end of the line.
 static const char *column_end(const char *line)
 {
     const char *end = line + strcspn(line, "\n"), *gap = strstr(line + strspn(line, " "), "  ");
@@ -245,8 +246,8 @@ static float draw_text(TextView *view, const char *text, const TextOverlay *over
     return pen.y;
 }
 
-// Removes the phrase after the last comma, repeatedly, and then characters, until the text fits
-// this width at size 1.
+// Shortens the text until it fits this width at size 1. Repeatedly removes the phrase after the
+// last comma and, if no comma is left, single characters.
 static void shorten(const Font *font, char *text, float width)
 {
     static const char dots[] = "...";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The camera of the rays as a projection without a far plane. Depth is 1 - nearest / distance.
+// Projects points like the camera of the rays, without a far plane. Depth is 1 - nearest /
+// distance.
 uniform vec3 eye, forward;
 uniform vec3 clip_x, clip_y;          // across the picture, from -1 to 1 at distance 1
 uniform vec3 right_step, down_step;   // half a pixel at distance 1

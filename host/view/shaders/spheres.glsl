@@ -21,9 +21,9 @@ void main()
 flat in vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
 out vec4 color;
 
-// Returns the distance to the nearest hit in front of the eye, or a negative number without a hit.
-// The root of smaller magnitude is computed from the other root and the eye's height, which avoids
-// cancellation for large spheres.
+// Returns the distance to the nearest hit in front of the eye, or a negative number if there is
+// none. The root of smaller magnitude is computed from the other root and the eye's height above
+// the sphere. This avoids cancellation for large spheres.
 float meeting(vec3 direction)
 {
     vec3 center = sphere_shown.xyz;
