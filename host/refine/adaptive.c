@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each pass marks cells in parallel, subdivides the marked cells in order, and traces their samples
-// as one list. The next pass examines the new groups.
+// Each pass marks cells in parallel, subdivides the marked cells in order, and traces all new
+// samples as one list. The next pass examines only the new groups of cells and their neighbors.
 #include "refine/adaptive.h"
 
 #include "refine/contrast.h"
@@ -11,16 +11,16 @@
 // The number of new samples of a subdivided cell.
 #define NEW_SAMPLES (GROUP_CELLS - 1)
 
-// Bisection of a seam stops at this fraction of the threshold. The fraction is small because
-// halving an interval takes one sample, but subdividing a cell takes eight.
+// The bisection of a seam stops at this fraction of the threshold. The fraction is small, because
+// halving an interval takes only one sample. Subdividing a cell takes eight.
 #define SEAM_PART 0.17f
 
-// A pass's list contains eight samples per new group, in the order of the groups, and then one per
-// seam that needs a sample.
+// The list of a pass contains eight samples for each new group, in the order of the groups. One
+// sample for each seam that needs one follows.
 
 #define GROUPS_OF_TASK 512
 
-// The groups from first on, with eight places and samples each, or the places of all pixels.
+// The list of samples for the groups from `first` on, or for all pixels.
 typedef struct {
     RefineTree *tree;
     uint32_t first;
@@ -62,7 +62,7 @@ static bool is_whole(const Adaptive *adaptive)
     return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
 }
 
-// Traces the groups from `first` on and the samples that seams need. If the observer stops
+// Traces the samples of the groups from `first` on and of the listed seams. If the observer stops
 // the pass, removes these groups.
 static bool trace_pass(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
                        const RenderObserver *observer, Error *error)
@@ -97,7 +97,7 @@ static bool trace_pass(Adaptive *adaptive, uint32_t first, const SeamSearch *sea
     return ok;
 }
 
-// Each task lists the pixels of one row of blocks.
+// Lists the pixels of one row of blocks.
 static void list_pixels(void *context, uint32_t first, uint32_t end)
 {
     (void)end;

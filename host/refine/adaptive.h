@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Adaptive anti-aliasing: one sample per pixel, then more where neighbors differ or parts are thin
-// (the idea is Whitted's, "An improved illumination model for shaded display", 1980).
+// Adaptive anti-aliasing takes one sample per pixel, and then more where neighbors differ or parts
+// are thin. The idea is from Whitted, "An improved illumination model for shaded display", 1980.
 //
 // Each pixel is the root of a tree of cells (refine_tree.h). A cell is subdivided if its color
-// differs too much from a neighbor's (contrast.h), or if a part too thin for the samples may cross
-// it (thin_parts.h). Inside subdivided pixels, bisection locates edges more cheaply than further
-// subdivision (seam.h).
+// differs too much from a neighbor's (contrast.h). It is also subdivided if a triangle or sphere
+// crosses it that may be too thin for the samples (thin_parts.h). Inside subdivided pixels,
+// bisection locates edges with fewer samples than further subdivision (seam.h).
 //
 // A pass selects all its cells before it traces any of them, so that the samples form one large
 // list for the device.
@@ -24,7 +24,7 @@ typedef struct {
     ThreadPool *pool;   // borrowed
     FrameData frame;
     RefineTree tree;
-    ThinParts thin_parts; // their cells are always subdivided
+    ThinParts thin_parts; // cells that are always subdivided
     uint64_t samples;     // taken so far
 } Adaptive;
 
@@ -43,7 +43,7 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
                    Error *error);
 
 // Subdivides cells whose contrast exceeds the threshold, and cells with thin parts, down to the
-// last level. Stops if the observer returns false. The caller may refine at most once.
+// last level. Stops when the observer returns false. The caller may call this function only once.
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Threads list the cells to subdivide, and one thread subdivides them in order.
+// Threads list the cells to subdivide, each for its own range of pixels or groups. One thread then
+// subdivides the listed cells, range by range.
 #include "refine/contrast.h"
 
 #include <stdlib.h>
@@ -20,8 +21,9 @@ typedef struct {
     CutList *lists;                  // of each range
 } Marking;
 
-// Color differences between pixels count twice, because different surfaces may have similar colors
-// by chance. Differences inside pixels count half, because seams locate the edges.
+// Sets the limits by level. Color differences between pixels count twice, because different
+// surfaces may have similar colors by chance. Differences inside pixels count half, because seams
+// locate the edges there.
 static void set_limits(Marking *marking)
 {
     float fraction = 1;
@@ -33,8 +35,8 @@ static void set_limits(Marking *marking)
     marking->limits[REFINE_LEVELS] = INFINITY;
 }
 
-// Lists a cell if it has thin parts, or if a difference from a neighbor exceeds the cell's limit.
-// Also lists larger neighbors whose difference from the cell exceeds the neighbor's limit.
+// Lists a cell if it has thin parts, or if its difference from a neighbor exceeds the cell's limit.
+// Also lists a larger neighbor if its difference from the cell exceeds the neighbor's limit.
 static bool mark_cell(const Marking *marking, const CellName *name, const uint32_t place[2],
                       CutList *list)
 {
@@ -63,7 +65,8 @@ static const SampleData *pixel_sample(const RefineTree *tree, uint32_t x, uint32
     return &tree->pixels[refine_tree_place(tree, x, y)];
 }
 
-// At the picture's edge, a pixel is its own neighbor.
+// Returns whether a pixel differs from a neighbor by more than the limit. At the picture's edge, a
+// pixel is its own neighbor.
 static bool pixel_differs(const RefineTree *tree, uint32_t x, uint32_t y, float limit)
 {
     const SampleData *sample = pixel_sample(tree, x, y);

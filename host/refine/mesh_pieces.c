@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Uses a union-find over vertices. Each vertex refers to a vertex with a lower index in its piece;
-// the root refers to itself.
+// Joins vertices into pieces by union-find. Each vertex refers to a vertex with a lower index in
+// its piece, and the root refers to itself.
 #include "refine/mesh_pieces.h"
 
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static bool is_small(uint32_t triangles)
 }
 
 // Computes the start of each piece, indexed by its root, and the ends of all pieces. Small pieces
-// come first and have one common end.
+// come first and are merged into one piece, so they have one common end.
 static void lay_out(MeshPieces *pieces, const uint32_t *sizes, uint32_t *starts, size_t count)
 {
     uint32_t next = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Divides a mesh into pieces: sets of triangles connected by shared vertices. All sets of fewer
-// than PIECE_TRIANGLES triangles are merged into one piece, because triangles of some files share
+// Mesh -> its pieces, which are sets of triangles connected by shared vertices. All sets of fewer
+// than PIECE_TRIANGLES triangles are merged into one piece, because in some files triangles share
 // no vertices.
 #pragma once
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The part of a convex polygon between two horizontal lines is convex. In each row, the polygon
-// therefore touches consecutive cells, from its smallest to its largest x between the row's edges.
+// Clips triangles, and finds the cells of a row that a polygon touches. The part of a convex
+// polygon between two horizontal lines is convex. In each row, the polygon therefore touches
+// consecutive cells, from its smallest to its largest x between the row's edges.
 #include "refine/outline.h"
 
 #include "refine/refine_tree.h"
@@ -59,8 +60,9 @@ static double perimeter_of(const Outline *outline)
     return perimeter;
 }
 
-// The area of a triangle is half its perimeter times its inradius. The area of any other convex
-// polygon is between this product and twice this product.
+// Compares the inradius, which follows from the area. The area of a triangle is half its perimeter
+// times its inradius. The area of any other convex polygon is between this product and twice this
+// product.
 bool outline_is_thinner(const Outline *outline, double diameter)
 {
     if (outline->box.high[0] - outline->box.low[0] < diameter ||
@@ -70,8 +72,8 @@ bool outline_is_thinner(const Outline *outline, double diameter)
     return (outline->count == 3 ? 4 : 2) * area < diameter * perimeter_of(outline);
 }
 
-// Computes the smallest and the largest x of the polygon where y is in [low, high]. Returns false
-// if the polygon has no point there.
+// Computes the smallest and the largest x of the polygon's points with y in [low, high]. Returns
+// false if the polygon has no such point.
 static bool find_extent(const Outline *outline, double low, double high, double extent[2])
 {
     extent[0] = INFINITY;
@@ -117,14 +119,15 @@ CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t
     return cells_sampled(extent[0], extent[1], grid, 0);
 }
 
-// Clips in homogeneous coordinates (x * depth, y * depth, depth), by a plane at the eye and four
-// planes around the picture. After the division by depth, all coordinates are therefore bounded.
+// The following functions clip triangles in homogeneous coordinates (x * depth, y * depth, depth).
+// The clipping planes are one at the eye and four around the picture. After the division by depth,
+// all coordinates are therefore bounded.
 
 #define PLANES 5
 #define MARGIN (2 * REFINE_GRID)
-#define NEAR   1e-30 // tiny beside the triangles' box, whose longest side is 1 to 2
+#define NEAR   1e-30 // tiny compared with the triangles' box, whose longest side is 1 to 2
 
-// Returns a value that is negative if the point is beyond the plane.
+// Returns a negative number if the point is beyond the plane.
 static double inside_by(const Projection *projection, Vec3 point, int plane)
 {
     switch (plane) {
@@ -228,7 +231,8 @@ static double limited(double value, double size)
     return value > -MARGIN ? (value < size + MARGIN ? value : size + MARGIN) : -MARGIN;
 }
 
-// Clips a triangle that is partly outside, which is rare. Returns false if nothing remains.
+// Clips a triangle that is partly outside. Such triangles are rare. Returns false if nothing
+// remains.
 static bool cut_outline(const Projection *projection, const uint32_t vertices[3], Outline *outline)
 {
     Polygon polygon = {.count = 3};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Convex polygons in the picture. The functions find the cells that a polygon touches and the cell
-// centers that it contains, and test its thickness. The unit of length is a cell of the last level.
+// Triangles -> convex polygons in the picture. The functions find the cells that a polygon touches
+// and the cell centers that it contains, and test its thickness. The unit of length is a cell of
+// the last level.
 #pragma once
 
 #include "base/thread_pool.h"
@@ -83,7 +84,7 @@ static inline CellRange box_sampled(const OutlineBox *box, const CellGrid *grid,
 double outline_signed_area(const Outline *outline);
 
 // Returns whether no disk of the given diameter fits into the polygon. For polygons with more than
-// three corners, may also return true if the largest disk is up to twice as wide.
+// three corners, the result may also be true if the largest disk is up to twice as wide.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
 // outline_touched returns the cells of a row that the polygon touches. outline_near does the same
@@ -93,8 +94,8 @@ CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t
 CellRange outline_near(const Outline *outline, const CellGrid *grid, uint32_t row, double reach);
 CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row);
 
-// The projection of a mesh into the picture. Triangles are clipped to the picture and a margin of
-// two pixels.
+// The following declarations project a mesh into the picture. Triangles are clipped to the picture
+// and a margin of two pixels.
 
 typedef struct {
     float x, y;       // in cells of the last level; 0 if the point is outside
@@ -104,7 +105,7 @@ typedef struct {
 typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
-    Vec3 eye, right, down, forward; // dot products with right and down: in cells at depth 1
+    Vec3 eye, right, down, forward; // right and down give coordinates in cells at depth 1
     double width, height;           // of the picture, in cells of the last level
     ProjectedPoint *points;         // of the mesh's vertices
 } Projection;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Groups refer to each other by index, because the array moves when it grows. The integer sums are
-// those of render.cl.
+// Subdivides cells and sums their colors. Groups refer to each other by index, because the array
+// moves when it grows. Colors are summed as integers in the same units as in kernels/render.cl.
 #include "refine/refine_tree.h"
 
 #include <stdlib.h>
@@ -107,8 +107,8 @@ void refine_tree_uncut(RefineTree *tree, uint32_t first)
     tree->groups.count = first;
 }
 
-// Adds the colors of a group's cells, corrected by the group's seams. Instead of a subdivided cell,
-// adds its group.
+// Adds the colors of a group's cells, corrected by the group's seams. For a subdivided cell, adds
+// the colors of its own group instead.
 static void add_group(const RefineTree *tree, uint32_t number, ColorSum sum)
 {
     const CellGroup *group = &tree->groups.data[number];
@@ -128,7 +128,7 @@ static void add_group(const RefineTree *tree, uint32_t number, ColorSum sum)
     }
 }
 
-// Returns the number of samples that a group and its subdivisions have added.
+// Returns the number of samples that a group and the groups below it have added.
 static uint32_t count_added(const RefineTree *tree, uint32_t number)
 {
     const CellGroup *group = &tree->groups.data[number];

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A picture's samples in a tree of cells. A cell is a square with a sample at its center, for
 // example a pixel. Refinement subdivides a cell into a group of 3 x 3 cells. The middle cell keeps
-// the sample, so that no sample is wasted. A group of 2 x 2 would move all centers.
+// the sample, so no sample is wasted. In a group of 2 x 2 cells, no center would coincide with the
+// old one.
 //
 // Four levels divide a pixel into 81 x 81 cells. A place is a cell of the last level, so all
 // positions are integers, and cells of different levels find their neighbors exactly.
@@ -62,11 +63,11 @@ bool refine_tree_find(const RefineTree *tree, const uint32_t place[2], CellName 
 
 const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name);
 
-// Subdivides a cell, unless it is subdivided already. Appends a group in which only the middle cell
-// has a sample.
+// Subdivides a cell, unless it is subdivided already. The new group's middle cell has the cell's
+// sample, and the other cells have none yet.
 bool refine_tree_cut(RefineTree *tree, const CellName *name, Error *error);
 
-// Removes the groups from first on. None of their cells may be subdivided.
+// Removes the groups from `first` on. None of their cells may be subdivided.
 void refine_tree_uncut(RefineTree *tree, uint32_t first);
 
 // Returns the side of a level's cells, in cells of the last level.

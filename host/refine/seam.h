@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // A seam is the place where colors change abruptly along a line of samples, for example between two
-// surfaces. Bisection locates a seam with one sample per bit; subdividing takes eight for 1.6 bits.
+// surfaces. Bisection locates a seam with one sample for each bit of its position. Subdividing
+// cells takes eight samples for 1.6 bits.
 //
-// A seam begins as a gap between two different samples of a line. A sample in the middle of the
-// interval resembles one end, and then replaces it. If the sample resembles neither end, another
-// surface lies between them, and the seam becomes two. Once the remaining error is small enough,
-// the colors of the line's cells are corrected as if the change were in the interval's middle.
+// A seam begins as a gap between two different samples of a line. If a sample in the middle of the
+// gap resembles one end, it replaces this end, and the gap is halved. If the sample resembles
+// neither end, another surface is between them, and the seam becomes two. When the remaining error
+// is small enough, the colors of the line's cells are corrected as if the change were in the middle
+// of the remaining gap.
 //
-// Invariant: `low` resembles the first end and `high` the last one, so the change is between them.
+// Invariant: the sample at `low` resembles the first end, and the sample at `high` resembles the
+// last end. The change is therefore between them.
 #pragma once
 
 #include "scene/scene.h"
@@ -37,7 +40,7 @@ typedef struct {
     uint8_t line;               // index in the group, 0 to 2
     uint8_t from, to;           // the interval to which the seam applies
     uint8_t low, high;          // positions of the nearest samples before and after the seam
-    uint8_t assumed;            // the end whose sample lies beyond the line; SEAM_ENDS: none
+    uint8_t assumed;            // the end whose sample is beyond the line, or SEAM_ENDS if neither
     uint8_t samples;            // taken to locate the seam
 } Seam;
 
@@ -58,15 +61,15 @@ float seam_contrast(const Seam *seam);
 // Returns whether another sample may narrow the interval, and stores the sample's place.
 bool seam_asks(const Seam *seam, uint32_t place[2]);
 
-// Updates the seam with the requested sample. Returns whether the sample splits the seam, because
-// it resembles neither end. In that case, the caller must add *rest as the next seam.
+// Updates the seam with the requested sample. Returns true if the sample resembles neither end and
+// splits the seam. The caller must then add *rest as the next seam.
 bool seam_take(Seam *seam, const SampleData *sample, Seam *rest);
 
 // Colors in steps of 2^-32, multiplied by twice the cell's area.
 typedef uint64_t ColorSum[3];
 
-// Adds a seam's corrections to the color sums of a group's cells. The initial sums must assume one
-// color per cell.
+// Adds a seam's corrections to the color sums of a group's cells. Before the first correction, each
+// cell's sum must be its sample's color times its area.
 void seam_correct(const Seam *seam, const SampleData cells[], ColorSum sums[]);
 
 static inline uint64_t seam_color_steps(float color)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The lines of a group run along the axis with the larger color differences, so that they cross
-// color edges. Three lines locate a straight edge.
+// Finds seams on the three lines of each group. The lines are the rows or the columns, whichever
+// have the larger color differences, so that lines cross color edges. Seams on three lines describe
+// a straight edge.
 #include "refine/seam_search.h"
 
 #include <stdlib.h>
@@ -9,12 +10,12 @@
 #define LINE_SAMPLES (GROUP_SIDE + 2)
 #define LINE_GAPS    (LINE_SAMPLES - 1)
 
-// The smallest color change that forms a seam on one surface, such as between faces of a cube.
+// The smallest color change of a seam on one surface, for example between two faces of a cube.
 #define LEAST_STEP (1 / 256.0f)
 
 // A row or a column of a group.
 typedef struct {
-    uint32_t group, stride, number; // stride from cell to cell; number 0 to 2
+    uint32_t group, stride, number; // stride: from cell to cell; number: 0 to 2
     uint32_t start[2];              // place in the picture
     const SampleData *samples[LINE_SAMPLES];
 } GroupLine;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the seams of a refined picture, and lists the seams that need samples.
+// New groups of cells -> their seams, and the seams that need another sample.
 #pragma once
 
 #include "refine/refine_tree.h"
@@ -7,14 +7,15 @@
 // The seams that need a sample.
 typedef struct {
     ARRAY(uint32_t) asked; // indices in ascending order
-    uint32_t seen;         // seams with a lower index are listed, or precise enough
+    uint32_t seen;         // all seams with lower indices are in `asked` or precise enough
 } SeamSearch;
 
-// Adds the seams of groups from first on, except on the last level. All groups must have samples.
+// Adds the seams of the groups from `first` on, except on the last level. All cells of these groups
+// must have samples.
 bool seam_search_open(RefineTree *tree, uint32_t first, Error *error);
 
-// Lists the seams that a sample may narrow and whose contrast exceeds the threshold. Examines only
-// listed and new seams.
+// Lists the seams whose contrast exceeds the threshold and that another sample may narrow. Examines
+// only seams that are new or were listed before.
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);
 
 // Updates the listed seams with their samples.

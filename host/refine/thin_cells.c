@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Only pixels with a slot have room for cells, and only at the levels that are searched. Bit i of a
-// mask with a margin stands for the pixel's cell i - MARGIN.
+// Stores cells as a bit mask for each row of a pixel. Only pixels with a slot have masks, and only
+// at the levels that are searched. In a mask with a margin, bit i stands for the pixel's cell i -
+// MARGIN.
 #include "refine/thin_cells.h"
 
 #include <string.h>

@@ -15,8 +15,8 @@ typedef struct {
     uint32_t count;                      // of slots; slots are numbered from 1
     ARRAY(uint32_t) rows[REFINE_LEVELS]; // by level, then slot: a mask of cells for each row
     uint64_t cuts[REFINE_LEVELS];        // cells to subdivide, by level
-    uint32_t most;                       // levels to search
-    uint32_t levels;                     // number of levels with subdivisions
+    uint32_t most;                       // number of levels to search
+    uint32_t levels;                     // number of levels at which cells are subdivided
 } ThinParts;
 
 // The input of the search.
@@ -79,7 +79,7 @@ uint32_t thin_parts_affordable(const ThinParts *parts);
 // Returns the cells of a pixel at a level, and `margin` cells around them.
 CellGrid thin_parts_grid(const ThinParts *parts, uint32_t pixel, uint32_t level, uint32_t margin);
 
-// Whether a piece is wide at a cell depends on samples up to this many cells away.
+// The test whether a piece is wide at a cell reads samples up to this many cells away.
 #define MARGIN     2
 #define LOCAL_ROWS (REFINE_GRID / 3 + 2 * MARGIN)
 

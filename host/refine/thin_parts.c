@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Finds the cells around thin spheres, and combines them with those of thin_triangles.c.
 #include "refine/thin_parts.h"
 
 #include "refine/thin_cells.h"
@@ -7,8 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// A disk whose diameter is at least the cells' diagonal contains the center of a cell. At the last
-// level, this diagonal is a 57th of a pixel. Smaller spheres may be missed.
+// A disk contains the center of a cell if its diameter is at least the cells' diagonal. At the last
+// level, this diagonal is a 57th of a pixel. Samples may miss smaller spheres.
 
 #define HALF_DIAGONAL 0.70710678
 
@@ -69,8 +70,8 @@ static bool is_thin(const SphereOutline *outline, uint32_t level)
     return outline->diameter < 2 * HALF_DIAGONAL * refine_tree_cell_side(level);
 }
 
-// If level is negative, gives slots to the pixels of a thin sphere. Otherwise adds the sphere's
-// cells of this level.
+// If level is negative, gives slots to the pixels that a thin sphere touches. Otherwise, adds the
+// sphere's cells of this level.
 static void visit_sphere(ThinParts *parts, const FrameData *frame, const SphereData *sphere,
                          int level)
 {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Searches piece by piece. Threads first record which pixels' samples the piece contains. Where
-// the piece is not wide (thin_parts.h), they list each pixel's thin triangles. They then search
-// these pixels level by level, with a mask of cells for each row. The results are sets, which do
-// not depend on the order of work.
+// Searches piece by piece, in three steps. Threads first record the pixels whose samples the piece
+// contains. They then list the thin triangles of each pixel at which the piece is not wide
+// (thin_parts.h). At last they search these pixels level by level, with a mask of cells for each
+// row.
+//
+// Invariant: all results are sets, so they do not depend on the order of work.
 #include "refine/thin_triangles.h"
 
 #include "refine/mesh_pieces.h"
@@ -23,14 +25,14 @@ typedef struct {
     uint32_t first, end;
 } PixelRun;
 
-// A piece with more than PAIRS_MOST pairs and more than PAIRS_OF_PIXEL per pixel of the picture is
-// searched only at level 0, to save memory. A thin triangle counts as AROUND pairs in each pixel
-// where it makes the piece thin.
+// To save memory, a piece is searched only at level 0 if it has more than PAIRS_MOST pairs and more
+// than PAIRS_OF_PIXEL pairs per pixel of the picture. The number of pairs is estimated: a thin
+// triangle counts as AROUND pairs in each pixel at which it makes the piece thin.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 #define AROUND         9
 
-// The result of a range of triangles.
+// The pairs of a range of triangles, or the error that ended the search.
 typedef struct {
     ARRAY(PixelTriangle) pairs;
     Error error;
@@ -92,7 +94,7 @@ static bool is_covered(const ThinSearch *search, uint32_t column, uint32_t row)
                                 memory_order_relaxed) == search->number;
 }
 
-// Returns whether the piece is wide at a pixel. Along each axis, tests near corners first.
+// Returns whether the piece is wide at a pixel. Near corners are tested first on each axis.
 static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
 {
     static const int steps[4] = {-1, 0, -2, 1};
@@ -111,7 +113,8 @@ static bool thin_outline(const ThinSearch *search, uint32_t triangle, Outline *o
     return projection_outline(&search->projection, triangle, outline) && thin_at_level(outline, 0);
 }
 
-// Lists the pixels in which a triangle makes the piece thin, once per piece, and counts the pairs.
+// Lists the pixels in which a triangle makes the piece thin, each only once per piece, and counts
+// the pairs.
 static bool list_touched(ThinSearch *search, uint32_t triangle, PairList *list)
 {
     const CellGrid grid = pixels_of(search);
@@ -137,7 +140,8 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, PairList *list)
     return true;
 }
 
-// Lists the triangle for each thin pixel whose area or margin it touches.
+// Adds a pair for each pixel at which the piece is thin and whose area or margin the triangle
+// touches.
 static bool list_near(ThinSearch *search, uint32_t triangle, PairList *list)
 {
     const double reach = MARGIN * (double)refine_tree_cell_side(1);
@@ -229,7 +233,7 @@ static bool find_runs(ThinSearch *search, Error *error)
     return true;
 }
 
-// Returns a mask of a row's cells: those with subdivided parents.
+// Returns a mask of the row's cells whose parents are subdivided.
 static uint32_t allowed_cells(const uint32_t *parents, uint32_t row, uint32_t scale)
 {
     uint32_t allowed = 0;
@@ -291,7 +295,7 @@ static bool add_pixels(ThinSearch *search, Error *error)
     return true;
 }
 
-// Searches the thin pixels for smaller cells.
+// Adds smaller cells, level by level, in the pixels at which the piece is thin.
 static bool add_cells(ThinSearch *search, Error *error)
 {
     ThinParts *parts = search->parts;
