@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The kernels of --aov, except certainty (certify.cl), write each pixel's hit and its cost. They
-// use the search of trace.cl. They are compiled after render.cl, and only if requested.
+// The kernels of the channels of --aov, except certainty (certify.cl). trace_paths writes the first
+// hit of each pixel's center, and count_tests writes the cost of each pixel. Both follow rays by
+// paths_step of trace.cl. They are compiled after render.cl, and only if requested.
 
 static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface *surface, Mask met)
 {
@@ -19,7 +20,7 @@ static inline UInt lights_reaching(const Tracer *tracer, const Surface *surface,
     return lights;
 }
 
-// PathData, one per lane.
+// The members of PathData, with one path in each lane.
 typedef struct {
     Real3 point, normal;
     Real depth;
@@ -93,8 +94,9 @@ kernel void trace_paths(TRACER_ARGUMENTS, global PathData *paths)
         }
 }
 
-// Fills tallies with TALLY_KINDS counts per pixel of the tile: the cost of all its samples. Each
-// ray is traced alone, because the rays of a packet share tests that belong to no single pixel.
+// Fills tallies with TALLY_KINDS counts per pixel of the tile, summed over all its samples. Each
+// ray is traced alone, because the rays of a packet share tests, which then belong to no single
+// pixel.
 kernel void count_tests(TRACER_ARGUMENTS, global uint *tallies)
 {
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Repeats the operations on which all pictures depend. host/device/arithmetic.c compares the
-// results with the host's, bit by bit. The kernel follows render.cl, which forbids contraction.
+// Computes each operation on which all pictures depend. host/device/arithmetic.c compares the
+// results with the host's, bit by bit. The kernel is compiled after render.cl, which forbids
+// contraction.
 
 // Each case has three operands. results receives a word for each operation, in the host's order.
 kernel void repeat_arithmetic(global const float *cases, global uint *results)

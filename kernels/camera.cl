@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The rays of a pinhole camera (host/scene/camera.h).
+// Computes the rays of a pinhole camera (host/scene/camera.h). The integers x and y are exact in
+// Real, and two fma compute each component, so every device computes the same rays.
 #ifndef CLRT_CAMERA_CL
 #define CLRT_CAMERA_CL
 #include "ray.cl"
 
-// x and y are positions in the whole picture, in halves of a sub-pixel.
+// Returns the ray through a position in the whole picture. x and y count halves of a sub-pixel.
 static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask active)
 {
     const Real across = to_real(to_int(x) - (int)(frame->width * frame->samples));
@@ -19,7 +20,8 @@ static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask
     return (Ray){eye, direction, NOTHING, NOTHING, RAY_CAMERA, active};
 }
 
-// sample_x and sample_y count sub-pixels across the whole picture.
+// Returns the ray through the center of a sub-pixel. sample_x and sample_y count sub-pixels of the
+// whole picture.
 static inline Ray camera_ray(const FrameData *frame, UInt sample_x, UInt sample_y, Mask active)
 {
     return camera_ray_toward(frame, 2 * sample_x + 1, 2 * sample_y + 1, active);

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The kernel of --aov certainty decides each pixel's ray tree again with ray cones
-// (certify_cone.cl). A pixel is certified if no rounding of the fp32 tracer could change a
-// decision. It is repaired if that holds only for the fp64 tracer, whose color it then gets. All
-// other pixels are open. The kernel is compiled after render.cl with CLRT_FP64, and only if
-// requested.
+// The kernel of --aov certainty. A tracer makes decisions: which primitive a ray hits first, and
+// which lights reach the hit point. The kernel repeats the decisions of each pixel's ray tree with
+// ray cones, which contain the exact ray and the tracer's rounded ray (certify_cone.cl). A decision
+// is certain if it holds for the whole cone.
+//
+// A pixel is certified if all its decisions are certain for the fp32 tracer. If they are certain
+// only for the fp64 tracer, the pixel is repaired: it gets the color of the fp64 tracer. All other
+// pixels are open. The kernel is compiled after render.cl with CLRT_FP64, and only if requested.
+//
+// Invariant: an answer of YES or NO is proved. Whenever a bound does not suffice, the answer is
+// UNKNOWN and the pixel is not certified.
 #include "certify_surface.cl"
 
-// The decisions so far, as a tracer in real arithmetic would make them.
+// The decisions so far. A tracer in real arithmetic would make the same.
 typedef struct {
     uint first_id, lit, signature; // as in CertaintyMark
 } Decisions;
@@ -34,7 +40,7 @@ static inline LightVisibility certify_light(const Tracer *tracer, const Uncertai
     return blocked == ANSWER_YES ? SIGHT_BLOCKED : SIGHT_CLEAR;
 }
 
-// Decides which lights reach the surface. Returns false if one of these decisions is not certain.
+// Decides which lights reach the surface. Returns false if a decision is not certain.
 static inline bool decide_lights(const Tracer *tracer, const UncertainSurface *surface, Real u,
                                  Decisions *decisions)
 {
@@ -53,7 +59,7 @@ static inline bool decide_lights(const Tracer *tracer, const UncertainSurface *s
     return true;
 }
 
-// Makes the decisions of a sample's ray tree. Returns false if one of them is not certain.
+// Makes the decisions of a sample's ray tree. Returns false if a decision is not certain.
 static inline bool decide(const Tracer *tracer, uint2 sample, Real u, Decisions *decisions)
 {
     RayCone ray = camera_cone(tracer->frame, sample, u);
@@ -98,8 +104,8 @@ static inline Certainty decide_pixel(const Tracer *tracer, uint2 pixel, Decision
     return certainty;
 }
 
-// marks holds one mark per pixel of the tile. pixels holds one color per pixel; only repaired
-// pixels are written. The range is padded to whole work-groups.
+// Writes one mark per pixel of the tile to marks, and the colors of repaired pixels to pixels. The
+// range of work-items is padded to whole work-groups.
 kernel void certify_tile(TRACER_ARGUMENTS, global float *pixels, global CertaintyMark *marks)
 {
     Tally tally = {0};

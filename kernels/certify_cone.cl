@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT
-// A ray cone holds two rays: the exact ray on the stored scene, and the ray of a tracer with unit
-// roundoff u. If all rays of the cone lead to one decision, with all errors of the tracer's tests
-// included, no rounding can change this decision.
+// A ray cone contains two rays: the exact ray on the stored scene, and the ray of a tracer with
+// unit roundoff u. If all rays of the cone lead to one decision, even with all errors of the
+// tracer's tests, no rounding can change this decision.
 //
 // The bounds are computed in fp64, for a tracer in fp32 (u = 2^-24) or in fp64 (u = 2^-53).
-// OWN_ROUNDOFF covers the rounding of this program for either u. The bounds require two things:
+// OWN_ROUNDOFF covers the rounding of the bounds themselves. docs/numerics.md derives the bounds as
+// B1 to B15. They require two things:
 //  - The tracer's device rounds float operations correctly.
 //  - No rounding error of a product in fp32's edge functions underflows (B3). This holds if no
-//    sheared coordinate of a corner is nonzero and smaller than 2^-51, in the normalized frame. The
-//    kernel does not check this. Otherwise, only triangles seen edge-on may differ (B10).
-// docs/numerics.md derives the bounds as B1 to B15. A camera ray is fma(x, right, fma(y, down,
-// forward)). camera_rounding repeats fp32's rounding. fp64's two roundings are below
-// u (|inner| + |outer|) per component. A shadow ray ends within u of its length from the light.
-// Whether a light is before or behind a face depends only on stored numbers (side_of).
+//    sheared coordinate of a corner is nonzero and smaller than 2^-51, in normalized coordinates.
+//    The kernel does not check this. Otherwise, only triangles seen edge-on may differ (B10).
+//
+// A camera ray is fma(x, right, fma(y, down, forward)). For fp32, camera_rounding repeats the
+// rounding. For fp64, the two roundings are below u (|inner| + |outer|) per component. A shadow ray
+// ends within u of its length from the light.
 #ifndef CLRT_CERTIFY_CONE_CL
 #define CLRT_CERTIFY_CONE_CL
 
 #define OWN_ROUNDOFF 0x1p-53
 
-// A point known within bounds. On a triangle it is at most `slide` from `point` along the plane and
-// at most `lift` off the plane. On a sphere it is at most `lift` from `point`.
+// A point with bounds on its error. The exact point and the tracer's point are at most `slide` from
+// `point` along the triangle's plane, and at most `lift` off the plane. On a sphere, they are at
+// most `lift` from `point`.
 typedef struct {
     Real3 point;
     Real3 face; // unit normal of the triangle's plane
@@ -75,8 +77,8 @@ static inline void set_axis(RayCone *ray, Real3 along)
     ray->tilt = sqrt(x * x + y * y) + 2.0f * ray->spread;
 }
 
-// Returns whether the tracer searches along the ray (intersect.cl) and the cone is narrow enough to
-// decide anything.
+// Returns whether the tracer searches along the ray (intersect.cl), and the cone is narrow enough
+// for any decision.
 static inline bool is_usable(const RayCone *ray)
 {
     return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0x1p-8f && ray->around < 0x1p-5f;
@@ -120,7 +122,8 @@ static inline Real camera_rounding(const CameraData *camera, Real3 direction, fl
     return length_of(difference(rounded, direction));
 }
 
-// `sample` is camera_ray's sample_x and sample_y. Doubling the lengths covers fp64's rounding.
+// Returns the cone of a camera ray. `sample` contains the arguments sample_x and sample_y of
+// camera_ray. The factor 2 in `own` covers the rounding of fp64.
 static inline RayCone camera_cone(const FrameData *frame, uint2 sample, Real u)
 {
     const Ray ray = camera_ray(frame, sample.x, sample.y, true);

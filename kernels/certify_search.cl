@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Finds the certain first hit of a ray cone, and whether anything certainly blocks a point from a
-// light. Boxes grow by the cone's radius at their farthest corner, and by at least 129u of this
-// corner's distance. 18u of these cover the rest of the blur, and 111u a distance error (B12). For
-// new rays, they also grow by behind_of. The axis is then inside a box before any possible hit of a
-// triangle in it, even if rounding puts the hit behind the origin.
+// Finds the certain first hit of a ray cone, and whether a primitive certainly blocks a shadow ray.
+// The search follows only the cone's axis, through boxes that have grown to cover the cone.
+//
+// A box grows by the cone's radius at its farthest corner, and by at least 129u of this corner's
+// distance. 18u cover the rest of the blur, and 111u cover a distance error (B12). For rays that
+// leave a surface, boxes also grow by behind_of, because rounding may put a hit behind the origin.
+// The axis then enters a box before any possible hit of a triangle in it.
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL
 #include "certify_sphere.cl"
@@ -46,7 +48,8 @@ static inline Real growth_at(const RayCone *ray, Real far)
            behind_of(ray);
 }
 
-// Returns 1 / direction. Raises a direction below 2^-60, by less than the rounding.
+// Returns 1 / direction. A direction below 2^-60 is first raised to 2^-60, which changes less than
+// rounding does.
 static inline Real inverse_of(Real direction)
 {
     return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);
@@ -63,8 +66,8 @@ static inline ConeSearch search_in_cone(const RayCone *ray)
                         .blocked = ANSWER_NO};
 }
 
-// Nothing beyond the nearest certain hit can be first. Nothing beyond another possible hit can
-// certainly be first.
+// Returns the depth beyond which the search may stop. Nothing beyond the nearest certain hit can be
+// the first hit. Nothing beyond another possible hit can be first with certainty.
 static inline Real cone_reach(const ConeSearch *search)
 {
     if (search->ray->kind == RAY_SHADOW)
@@ -76,7 +79,8 @@ typedef struct {
     Real low[3], high[3];
 } Box;
 
-// Returns where the cone enters a box, INFINITY if it does not enter before `reach`.
+// Returns the depth at which the axis enters the grown box, or INFINITY if it does not enter before
+// `reach`.
 static inline Real box_entry(const ConeSearch *search, const Box *box, Real reach)
 {
     Real low[3], high[3], far = 0.0f, enter = 0.0f, leave = reach;
@@ -106,8 +110,8 @@ static inline Real child_entry(const ConeSearch *search, global const BvhPair *n
     return box_entry(search, &box, reach);
 }
 
-// Each triangle's own box is tested before the triangle. The result then does not depend on the
-// boxes of the tree, and every tree finds the same hit.
+// Returns box_entry for the triangle's own box, which is tested before the triangle. The result
+// then does not depend on the boxes of the tree, so every tree gives the same result.
 static inline Real triangle_entry(const ConeSearch *search, global const TriangleData *triangle,
                                   Real reach)
 {
@@ -146,8 +150,8 @@ static inline Candidate leaf_candidate(const Tracer *tracer, const RayCone *ray,
     return certainly_misses_coincident(&corners, ray) ? candidate_none() : candidate;
 }
 
-// A triangle that coincides with the nearest hit may win by its id but does not change the
-// distance.
+// Adds a triangle to the nearest hit. If the triangle coincides with the nearest hit, it may
+// replace the id, but the depths stay.
 static inline void add_triangle(const Tracer *tracer, ConeSearch *search, uint index,
                                 const Candidate *candidate)
 {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Ray cone against sphere. sphere.cl computes with sums of two floats. For unit roundoff u, the
-// error of its discriminant radius^2 - distance^2 is below 64 u^2 (distance + radius) (|f| +
-// radius + |center|). Here f leads from the center to the origin. The error of its foot of the
-// perpendicular is below 64 u^3 |f|^2. Moving the ray aside by distance_doubt has a larger effect
-// than either error, and than the error of sphere_power. All other terms of a distance have a
-// relative error below 8u (B15).
+// Decides whether a ray cone hits a sphere, and at which depths.
+//
+// sphere.cl computes with sums of two floats. For unit roundoff u, the error of its discriminant
+// radius^2 - distance^2 is below 64 u^2 (distance + radius) (|f| + radius + |center|), where f
+// leads from the center to the origin. The error of its foot of the perpendicular is below 64 u^3
+// |f|^2. Moving the ray aside by distance_doubt has a larger effect than both errors together, and
+// than the error of sphere_power. All other terms of a distance have a relative error below 8u
+// (B15).
 #ifndef CLRT_CERTIFY_SPHERE_CL
 #define CLRT_CERTIFY_SPHERE_CL
 #include "certify_triangle.cl"
@@ -14,7 +16,7 @@ typedef struct {
     Real radius;
 } PlainSphere;
 
-// The stored sums have 48 bits, which fit into one double.
+// Returns the sphere in doubles. The stored sums have 48 bits, which fit into one double.
 static inline PlainSphere plain_sphere(global const SphereData *data)
 {
     const Sphere sphere = sphere_at(data);
@@ -22,7 +24,8 @@ static inline PlainSphere plain_sphere(global const SphereData *data)
                          sphere.radius.high};
 }
 
-// Bounds the tracer's error as above. This program's own error is at most 2^-49 of `sizes`.
+// Bounds the tracer's error as described at the top. The error of fp64 here is at most 2^-49 of
+// `sizes`.
 static inline Real distance_doubt(Real u, Real apart, const PlainSphere *sphere)
 {
     const Real sizes = apart + sphere->radius + length_of(sphere->center);
@@ -60,10 +63,13 @@ static inline Range rounded_range(const RayCone *ray, Range range, Real shift)
                    range.high + factor * fabs(range.high) + shift};
 }
 
-// Turning the line by the spread moves the point closest to the center aside by spread * |middle|,
-// and along the line by spread * distance. The nearer wall is at (|f|^2 - radius^2) / (|middle| +
-// half the chord), and the numerator does not depend on the direction. The tracer uses this
-// quotient, too. A nearby wall of a huge sphere is thus as certain as a small sphere's.
+// Returns the depths at which the cone's rays enter and leave the sphere. Turning a line by the
+// spread moves its point closest to the center aside by spread * |middle|, and along the line by
+// spread * distance.
+//
+// The depth of the nearer wall is (|f|^2 - radius^2) / (|middle| + half the chord), where the
+// numerator does not depend on the direction. The tracer uses this quotient too. A nearby wall of a
+// huge sphere is therefore as certain as a wall of a small sphere.
 static inline Chord chord_of(const RayCone *ray, const PlainSphere *sphere)
 {
     const Real3 f = difference(sphere->center, ray->origin);
@@ -94,7 +100,7 @@ static inline Chord chord_of(const RayCone *ray, const PlainSphere *sphere)
     return chord;
 }
 
-// A ray that starts inside hits the far wall.
+// Returns the sphere as a candidate for the first hit. A ray that starts inside hits the far wall.
 static inline Candidate sphere_candidate(const Chord *chord)
 {
     if (chord->met == ANSWER_NO || chord->leave.high < 0.0f)

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Turns a certain hit of a ray cone into a surface. Its point and normals carry bounds on the
-// deviation of the tracer's values from the exact ones. The file also computes the cones that leave
-// the surface.
+// A certain hit of a ray cone -> a surface, and the cones of the rays that leave it. The surface's
+// point and normals have bounds on the difference between the tracer's values and the exact values.
 #ifndef CLRT_CERTIFY_SURFACE_CL
 #define CLRT_CERTIFY_SURFACE_CL
 #include "certify_search.cl"
 
-// A surface with bounds on its deviations. The doubt of a unit vector bounds the chord between the
-// tracer's vector and the exact one.
+// A surface with bounds on its errors. The doubt of a unit vector bounds the distance between the
+// tracer's vector and the exact vector.
 typedef struct {
     UncertainPoint end;
     Real3 normal, face, toward_viewer; // as in Surface
@@ -20,14 +19,15 @@ typedef struct {
     Real area;        // twice the triangle's area, or less
 } UncertainSurface;
 
-// Bounds the turn of a vector of this length whose end moves by `doubt`.
+// Bounds the distance that a unit vector moves if its vector has this length and an error of
+// `doubt`.
 static inline Real turn_of(Real doubt, Real length)
 {
     return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
 }
 
-// Interpolates the normal by the weights. Sliding along the triangle changes a weight by the
-// length of the slide divided by the altitude of the weight's corner.
+// Interpolates the normal by the weights. If the point slides along the triangle, a weight changes
+// by the slide divided by the altitude of the weight's corner.
 static inline void interpolate_normal(UncertainSurface *surface, const Corners *normals,
                                       Real3 weights, const Corners *corners, Real u)
 {
@@ -52,7 +52,8 @@ static inline void face_viewer(UncertainSurface *surface)
     surface->face = negative3(surface->face);
 }
 
-// Records a lower bound on the distance between the edges and the point, which may slide.
+// Records a lower bound on the distance between the edges and the point. The bound allows for the
+// point's slide.
 static inline void note_room(UncertainSurface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -111,8 +112,9 @@ static inline UncertainSurface uncertain_triangle(const Tracer *tracer, const Ra
     return surface;
 }
 
-// The point is projected onto the sphere, as in the tracer. A certain hit has a certain wall: the
-// near one for an origin outside, the far one for an origin inside (certify_sphere.cl).
+// Returns the surface of a sphere. The point is projected onto the sphere, as in the tracer. The
+// wall of a certain hit is known: it is the near wall for an origin outside, and the far wall for
+// an origin inside (certify_sphere.cl).
 static inline UncertainSurface uncertain_sphere(const Tracer *tracer, const RayCone *ray,
                                                 const Nearest *nearest)
 {
@@ -205,8 +207,8 @@ static inline Answer certify_normal_facing(const UncertainSurface *surface, cons
     return cosine > 0.0f ? ANSWER_YES : ANSWER_NO;
 }
 
-// Corners and lights are stored values. Only rounding can leave it undecided on which side of the
-// triangle the light lies.
+// Returns whether the triangle's face faces the light. Corners and lights are stored values, so the
+// result is unknown only if rounding could change it.
 static inline Answer certify_face_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
     const UncertainPoint light = {to_light->goal.point, surface->face, 0.0f, 0.0f};
@@ -227,9 +229,10 @@ static inline Answer certify_facing(const UncertainSurface *surface, const RayCo
     return surface->from_behind && normal == ANSWER_YES ? ANSWER_NO : normal;
 }
 
-// The ray is mirrored at the face wherever ray_reflected does so. The two reflections agree at the
-// face's horizon. Near the horizon either may apply, and their difference counts as doubt. A
-// sphere's face is parallel to its normal, so its rays are not mirrored again.
+// Returns the cone of a reflected ray. As in ray_reflected, a ray that would enter the face is
+// mirrored out at the face. The mirrored and the unmirrored direction are equal if the ray lies in
+// the face's plane. Near this plane, either may apply, and their difference is added to the doubt.
+// A sphere's face is parallel to its normal, so its rays are never mirrored out.
 static inline RayCone reflected_cone(const UncertainSurface *surface, const RayCone *before)
 {
     const Real u = before->u + OWN_ROUNDOFF;

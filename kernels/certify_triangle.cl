@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Ray cone against triangle: a certain hit with its depth, a certain miss, or an unknown result.
+// Decides whether the rays of a cone hit a triangle: certainly, with bounds on the depth, certainly
+// not, or unknown.
+//
+// The triangle is projected into the frame of the cone's axis. The blur of a corner bounds its
+// shift, as seen along any ray of the cone, together with the tracer's rounding. If the axis passes
+// all edges by more than the blur, all rays of the cone pass the edges on the same side. A hit near
+// the ray's start also depends on the side of the triangle's plane on which the start lies
+// (side_of).
 #ifndef CLRT_CERTIFY_TRIANGLE_CL
 #define CLRT_CERTIFY_TRIANGLE_CL
 #include "certify_cone.cl"
 
 typedef enum { ANSWER_NO, ANSWER_UNKNOWN, ANSWER_YES } Answer;
 
-// A hit lies at a depth within [low, high] along the ray, including the tracer's rounding.
+// A possible hit. Its depth along the ray is within [low, high], even with the tracer's rounding.
 typedef struct {
     Answer met;
     Real low, high;
@@ -20,7 +27,7 @@ typedef struct {
     Real size;   // upper bound of the corners' distances
     Real sides;  // sum of the lengths of the two edges at the first corner
     bool clear;  // the axis passes all edges by more than the blur
-    bool inside; // clear, and the axis passes inside all edges
+    bool inside; // clear is set, and the axis passes inside all edges
     bool faces;  // the visible side is certain
     bool inner;  // the mesh's back is visible
     bool broad;  // the triangle is broad enough to compute its plane
@@ -87,11 +94,12 @@ static inline Real slope_of(const ProjectedTriangle *projected)
     return sqrt(x * x + y * y) / fabs(projected->edges.determinant);
 }
 
-// A hit lies within the blur of the axis. Its depth lies between the depths of the corners. The
-// plane's slope limits how far this depth is from that of the axis's own hit. A broad triangle is
-// more than 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the plane by
-// less than half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this.
-// 26 u of the size cover the distance (B11).
+// Returns bounds on the depth of a hit. The hit is within the blur of the axis, and its depth is
+// between the depths of the corners. For a broad triangle, the plane's slope also limits the
+// difference between this depth and the depth of the axis's own hit. A broad triangle is more than
+// 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the plane by less than
+// half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this. 26 u of the size cover the
+// rounding of the distance (B11).
 static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 {
     const Corners *c = &projected->corners;
@@ -113,11 +121,11 @@ static inline Real margin_of(const ProjectedTriangle *projected, Real u)
     return 70.0f * (u + OWN_ROUNDOFF) * projected->size;
 }
 
-// Returns the side of a triangle's plane on which a point certainly lies: 1 in front, -1 behind, 0
+// Returns the side of a triangle's plane on which a point certainly is: 1 in front, -1 behind, or 0
 // if unknown. A nonzero result agrees with real arithmetic and with height_over. The error of
-// height_over is below 12u n.|apart| + 12u E |apart|. Its threshold is also below the bound
-// `rounding`, which is therefore doubled. The error of is_before_face (shade.cl), whose unit vector
-// adds 4u n.|apart|, stays within the bound, too.
+// height_over is below 12u n.|apart| + 12u E |apart|, and so is its threshold. The bound `rounding`
+// is therefore doubled. It also covers is_before_face (shade.cl), whose unit vector adds an error
+// of 4u n.|apart|.
 static inline int side_of(const Corners *corners, const UncertainPoint *uncertain, Real u)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -138,8 +146,8 @@ static inline int side_of(const Corners *corners, const UncertainPoint *uncertai
     return height > 0.0f ? 1 : -1;
 }
 
-// Bounds how far a new ray may start beyond a triangle that stops it, Search::behind. The length of
-// a direction is at most the square root of 3 times its longest component (B12).
+// Bounds Search::behind, the distance by which a new ray may start beyond a triangle that stops it.
+// The length of a direction is at most the square root of 3 times its longest component (B12).
 static inline Real behind_of(const RayCone *ray)
 {
     if (ray->kind == RAY_CAMERA)
@@ -169,7 +177,8 @@ static inline Candidate reflected_candidate(const RayCone *ray, const ProjectedT
     return candidate;
 }
 
-// For hits closer to the eye than this, the tracer may treat the eye as a surface point.
+// For hits that are closer to the eye than this, the tracer may test the eye like the start of a
+// ray that leaves a surface.
 #define AT_EYE 0x1p-15f
 
 static inline Candidate camera_candidate(const RayCone *ray, const ProjectedTriangle *projected,
@@ -189,7 +198,8 @@ static inline Candidate camera_candidate(const RayCone *ray, const ProjectedTria
     return candidate;
 }
 
-// A triangle with both ends of the ray on one side does not block it.
+// Returns the triangle as a candidate that blocks a shadow ray. A triangle does not block the ray
+// if both ends of the ray are on one side of its plane.
 static inline Candidate shadow_candidate(const RayCone *ray, const ProjectedTriangle *projected,
                                          int side, int light_side)
 {
@@ -225,9 +235,9 @@ static inline Candidate triangle_candidate(const RayCone *ray, global const Tria
     return shadow_candidate(ray, &projected, side, side_of(&corners, &ray->goal, 0.0f));
 }
 
-// Coincident triangles have the same stored corners (shared.h). A ray hits both at the same
-// distance, bit for bit. If the ray certainly hits nothing before them, the lower id wins. A ray
-// that leaves one of them starts in the plane of the other and does not hit it.
+// The following functions handle coincident triangles, which have the same stored corners
+// (shared.h). A ray hits both at the same distance, bit for bit, and the lower id wins. A ray that
+// leaves one of them starts in the plane of the other, and does not hit it.
 static inline bool is_same_corner(global const float *a, global const float *b)
 {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
@@ -240,11 +250,13 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
            is_same_corner(one->c, two->c);
 }
 
-// Returns whether a ray that leaves a triangle certainly misses a coincident one. It does if
-// height_over returns zero for the ray's start. Then hits_neighbor compares the triangles and finds
-// neither in front of the other. The height of an edge over its own plane is below 6u n.|edge|,
-// less than height_over allows. Here n is the tracer's normal, and n.|v| is the sum of the
-// products' magnitudes. The computed height of the start is the sum of these errors:
+// Returns whether a ray that leaves a triangle certainly misses a coincident triangle. It does if
+// height_over returns zero for the ray's start. hits_neighbor then compares the triangles and finds
+// neither in front of the other, because the height of an edge over its own plane is below 6u
+// n.|edge|, less than height_over allows. Here n is the tracer's normal, and n.|v| is the sum of
+// the products' magnitudes.
+//
+// The computed height of the start is the sum of these errors:
 //  - The start is a weighted sum of corners, which all have the height n.a over the origin. Its
 //    weights add up to 1 within 4u, which gives 4u |n.a|. Rounding the sum adds 3u n.|corner|.
 //  - Moving the start into the triangle adds u n.|start| and 2u n.|way|.

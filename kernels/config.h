@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The switches that specialize a program. The first group describes the scene and whether the
-// kernels count (host/accel/flat.c). Plain `if`s test these constants, and the optimizer removes
-// unused features. The defaults make the general program, which renders every scene.
+// The switches that specialize a program. The kernels test these constants by plain `if`, and the
+// optimizer removes unused features. The defaults make the general program, which renders every
+// scene. The first group describes the scene, and whether the kernels count (host/accel/flat.c).
 #ifndef CLRT_CONFIG_H
 #define CLRT_CONFIG_H
 

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Finds all triangles that rays cross. A triangle counts if it owns the ray (edges_own), so that a
-// ray through an edge or vertex crosses a surface once. The number of crossings of a closed surface
-// therefore shows whether the ray starts inside. The file is compiled after render.cl, and only if
-// requested. One work-item follows one ray.
+// Finds all triangles that rays cross. By the parity of their number, callers decide whether a ray
+// starts inside a closed surface: it does if the number is odd.
+//
+// A ray through an edge or a vertex hits several triangles that share it. It would cross the
+// surface several times there, and the parity would be wrong. Therefore only triangles that own the
+// ray count. edges_own decides as if the ray were moved by an infinitely small distance in a fixed
+// direction (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
+//
+// Invariant: a ray that crosses a closed surface at an edge or vertex is owned by an odd number of
+// the triangles there, and a ray that only touches the surface by an even number.
+//
+// A work-item follows one ray through the same tree as the other searches, but never stops before
+// the ray's limit. The file is compiled after render.cl, and only if requested.
 
 // The crossings of a ray: their number, and the nearest `room` ones in order of distance and id.
 typedef struct {
@@ -140,8 +149,8 @@ static inline void cross_triangles(const Tracer *tracer, const Ray *along, Real 
 }
 #endif
 
-// Stores the number of crossings of each ray in counts, and the nearest `room` crossings in hits,
-// room entries for each ray.
+// Stores the number of crossings of each ray in counts. Stores the nearest `room` crossings of each
+// ray in hits, which has `room` entries for each ray.
 kernel void find_crossings(const FrameData frame, global const SphereData *spheres,
                            global const Node *nodes, global const Triangles *triangles,
                            global const RayData *rays, uint count, uint room, global HitData *hits,

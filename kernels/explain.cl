@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The kernel of clrt explain SCENE X,Y traces one sample with the functions of trace(). A single
-// work-item traces it in its first lane and records the path (shared.h). The kernel is compiled
-// after render.cl, and only if requested.
+// The kernel of clrt explain SCENE X,Y. A single work-item traces one sample in its first lane, by
+// the same functions as trace(), and records the path in the format of shared.h. The kernel is
+// compiled after render.cl, and only if requested.
 
 typedef struct {
     global Scalar *values; // LEVEL_VALUES for each level, then LIGHT_VALUES for each of its lights
@@ -38,7 +38,7 @@ static inline void note_count(const Notes *notes, uint place, UInt value)
     notes->words[place] = ((const uint *)&value)[0];
 }
 
-// Bounds the error of t at a triangle hit, by the bound of the depth (triangle.inc.cl).
+// Bounds the error of t at a triangle hit by the bound on the depth's error (triangle.inc.cl).
 static inline Real triangle_error(const Tracer *tracer, const Ray *ray, UInt index)
 {
     const Corners corners = fetch_corners(tracer, index);
@@ -57,11 +57,11 @@ static inline Real size_of3(Real3 v)
     return size.x + size.y + size.z;
 }
 
-// Bounds the error of t at a sphere hit from the residual of |origin + t * direction - center|^2 -
-// radius^2. The residual is 0 at both roots; elsewhere it is |direction|^2 times the product of the
-// distances to them. The nearer root is therefore within the square root of |residual| /
-// |direction|^2. Where the ray does not graze, it is also within twice a Newton step. The bound
-// adds 64 units of two-float rounding for the residual.
+// Bounds the error of t at a sphere hit by the residual |origin + t * direction - center|^2 -
+// radius^2. The residual is |direction|^2 times the product of the distances from t to both roots.
+// The nearer root is therefore within the square root of |residual| / |direction|^2. If the ray
+// does not graze the sphere, the root is also within twice a Newton step. The bound adds 64 units
+// of two-float rounding to the residual.
 static inline Real sphere_error(const Tracer *tracer, const Ray *ray, UInt index, Real t)
 {
     const Sphere sphere = fetch_sphere(tracer, index);
@@ -84,7 +84,7 @@ static inline Real hit_error(const Tracer *tracer, const Ray *ray, const Hit *hi
     return triangle_error(tracer, ray, hit->index);
 }
 
-// Records a light's contribution to the surface, as shade computes it.
+// Records the contribution that shade() computes for a light.
 static inline void note_light(const Notes *notes, const Tracer *tracer, uint index,
                               const Lighting *lighting)
 {
@@ -159,9 +159,9 @@ static inline Real3 trace_noting(const Tracer *tracer, Ray ray, const Notes *not
     return path_color(tracer, path);
 }
 
-// Traces the sample at a column and row of the picture's sample grid. values and words hold
-// max_level levels. result receives the color in steps of 2^-32 and the background's weight in it;
-// count receives the number of levels.
+// Traces the sample at a column and row of the picture's sample grid. values and words have room
+// for max_level levels. result receives the color in steps of 2^-32 and the background's weight in
+// it. count receives the number of levels.
 kernel void explain_sample(TRACER_ARGUMENTS, uint column, uint row, global Scalar *values,
                            global uint *words, global Scalar *result, global uint *count)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the scene data of a hit, lane by lane. If all lanes need the same record, one read serves
-// them all. This is the common case for large triangles and for materials.
+// Reads the scene's data for the hits of a packet, lane by lane. If all lanes need the same record,
+// it is read only once. This is the common case for large triangles and for materials.
 #ifndef CLRT_FETCH_CL
 #define CLRT_FETCH_CL
 #include "ray.cl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ray's hit, and how ties between hits are decided.
+// A ray's hit, and the rule that decides between hits at equal distances.
 #ifndef CLRT_HIT_CL
 #define CLRT_HIT_CL
 #include "numeric.cl"
@@ -11,8 +11,9 @@ typedef struct {
     UInt id, index;
 } Hit;
 
-// Equal distances go to the lowest id, regardless of the order of the tests. Triangles at almost
-// equal distances are ordered by order.cl before.
+// Returns whether a primitive at t precedes the best hit. At equal distances, the lowest id wins,
+// so the order of the tests does not matter. For triangles at almost equal distances, order.cl
+// decides instead.
 static inline Mask hit_precedes(Real t, UInt id, const Hit *best)
 {
     return t < best->t || (t == best->t && id < best->id && t < INFINITY);

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Finds a ray's nearest hit, the smallest (distance, id) of all primitives. For a shadow ray, finds
-// whether any primitive blocks it.
+// Finds the nearest hit of a ray, or any primitive that blocks a shadow ray. Spheres are all tested
+// first. Triangles are then searched by the tree for which the program is compiled.
+//
+// Invariant: the nearest hit is the smallest pair (distance, id) of all primitives, with the
+// distances of triangles ordered by order.cl. It does not depend on the tree or on the other rays.
 #ifndef CLRT_INTERSECT_CL
 #define CLRT_INTERSECT_CL
 #include "pair.cl"
 #include "regroup.cl"
 #include "sphere.cl"
 
-// Only a reflected ray can hit the sphere on which it starts, and only from inside.
+// Returns the distance to the sphere on which the ray starts. Only a reflected ray can hit it
+// again, and only from inside.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
 {
     if (plain_kind(ray->kind) != RAY_REFLECTED || !any_lane(is_own))
@@ -82,9 +86,9 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
         intersect_triangles(tracer, rays, searching, count, hits);
 }
 
-// Finds whether a primitive lies between a shaded point and the light, for each shadow ray. If
+// Finds for each shadow ray whether a primitive is between the shaded point and the light. If
 // nothing blocks a ray, its hit has the id NOTHING, and t is the limit of the search. If the light
-// lies on a primitive, within the error of a distance, this primitive does not block the ray.
+// is on a primitive, within the error of a distance, this primitive does not block the ray.
 static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
     Mask searching[PACKETS];

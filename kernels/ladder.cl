@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The kernel of error and time goals turns requests for samples of pixels into sums over these
-// samples. It is compiled after render.cl, and only if requested.
+// The kernel of error and time goals: requests for samples of pixels -> the sums of these samples.
+// It is compiled after render.cl, and only if requested.
 
-// Samples per work-item. If the limit were this number of requests, a work-item could take 1024
+// The samples of a work-item. With a limit on requests instead, a work-item could take 1024
 // samples, and short lists would leave cores idle.
 #define ITEM_SAMPLES (BLOCK * BLOCK)
 
@@ -22,13 +22,14 @@ typedef struct {
 #define LANE_NUMBER (LANE_Y * PACKET_WIDTH + LANE_X)
 #endif
 
-// Bit `bit` of each number, times value.
+// Returns bit `bit` of each number, times value.
 static inline UInt times_bit(UInt number, uint bit, uint value)
 {
     return (number >> bit & 1) * value;
 }
 
-// Coordinates of the first 16 points of Sobol's sequence (host/refine/ladder.h).
+// These functions return coordinates of the first 16 points of Sobol's sequence
+// (host/refine/ladder_requests.h).
 static inline UInt point_x(UInt point)
 {
     return times_bit(point, 0, 512) | times_bit(point, 1, 256) | times_bit(point, 2, 128) |
@@ -140,9 +141,10 @@ static inline void add_packet(global PixelSums *sums, PixelSums *sum, Real3 colo
     }
 }
 
-// Writes the sums of requests first to end - 1, which have equal sample counts, to the same
-// elements of sums. A work-item serves requests for ITEM_SAMPLES samples, or one request for more.
-// It writes tallies at its first request, and only if statistics are compiled in.
+// Writes the sums of requests first to end - 1 to the elements of `sums` with the same indices. All
+// requests have equal sample counts. A work-item serves requests for ITEM_SAMPLES samples in total,
+// or one larger request. It writes its tally at its first request, and only if statistics are
+// compiled in.
 kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
                          uint end, global PixelSums *sums, global uint *tallies)
 {

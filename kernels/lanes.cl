@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The tracer's number types: Real, Mask and UInt. With binary nodes they are a Scalar, an int and a
-// uint: a work-item traces one ray, and every function reads as scalar code. With wide nodes they
-// are vectors with one ray per lane. Comparisons then return -1 or 0 per lane, and && || ! and ?:
-// select per lane. Both forms compile the same source, so they compute the same bits.
+// The tracer's number types: Real, Mask and UInt. With binary nodes, they are a Scalar, an int and
+// a uint. A work-item then traces one ray, and every function is scalar code. With wide nodes, they
+// are vectors with one ray per lane. Comparisons then return -1 or 0 in each lane, and && || ! and
+// ?: work lane by lane.
+//
+// Invariant: both forms are compiled from the same source, so they compute the same bits.
 //
 // For vectors, && || and ?: evaluate both sides in all lanes. Every lane therefore needs valid
 // indices on both sides, and neither side may have side effects. A scalar branch on any_lane()
@@ -14,8 +16,8 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// Vectors wider than the processor's registers are passed in memory. Only functions of this program
-// call each other, so the calling convention does not matter.
+// Clang warns that vectors wider than the processor's registers are passed in memory. Only
+// functions of this program call each other, so the calling convention does not matter.
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wpsabi"
 #endif
@@ -45,7 +47,7 @@ typedef float Scalar;
 #define LN2_LOW          (-0x1.05c610p-29f)
 #endif
 
-// As many lanes as the target's registers hold, unless the host sets the number.
+// The number of lanes is set by the host, or is the number of floats in the target's registers.
 #if !CLRT_WIDE_NODES
 #undef CLRT_LANES
 #define CLRT_LANES 1
@@ -67,7 +69,8 @@ typedef float Scalar;
 #define OVERLOAD
 #endif
 
-// The compiler's own inlining decisions cost up to a sixth of the speed here.
+// These attributes decide about inlining. With the compiler's own decisions, pictures take up to a
+// sixth longer.
 #define NOT_INLINE    __attribute__((noinline))
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 
@@ -111,9 +114,9 @@ typedef UInt Bits;
 #define to_long FOR_LANES(convert_ulong)
 #endif
 
-// Returns one bit for each true lane. x86 has an instruction for this. The fallback masks each
-// lane with its bit and combines the lanes by a tree of ORs. Without the instruction, a whole
-// picture takes a fifth longer.
+// Returns one bit for each true lane. x86 has an instruction for this, without which a whole
+// picture takes a fifth longer. The fallback masks each lane with its bit and combines the lanes by
+// a tree of ORs.
 static inline uint OVERLOAD lane_bits(int mask)
 {
     return mask != 0;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The arithmetic of the tracer's decisions. Contraction is off and every fma is explicit. A
-// picture depends only on + - * / sqrt fma rint, conversions, comparisons and integers, so every
-// device that rounds these correctly computes the same bits.
+// The arithmetic of the tracer: vectors, powers, logarithms and exponentials. OpenCL's own
+// functions for these may differ in their last bits between devices.
+//
+// Invariant: contraction is off, and every fma is explicit. A picture depends only on + - * / sqrt
+// fma rint, conversions, comparisons and integers. Every device that rounds these correctly
+// computes the same bits.
 #ifndef CLRT_NUMERIC_CL
 #define CLRT_NUMERIC_CL
 #include "lanes.cl"
@@ -95,7 +98,7 @@ static inline bool any_lane(Mask mask)
     return lane_bits(mask) != 0;
 }
 
-// Returns v scaled to length 1; zero stays zero. A power of two is divided out first, which is
+// Returns v scaled to length 1, or zero if v is zero. First divides v by a power of two, which is
 // exact. The sum of squares then neither overflows nor underflows for lengths from 2^-100 to 2^100.
 static inline Real3 unit_vector(Real3 v)
 {
@@ -111,8 +114,9 @@ static inline Real unless_tiny(Real power)
     return power < 0x1p-100f ? 0.0f : power;
 }
 
-// Returns base^exponent by squaring: bit-reproducible, at a twentieth of the cost of pow. base
-// lies in [0, 1]. Powers below 2^-100 become zero, so devices that flush denormals agree.
+// Returns base^exponent for a base in [0, 1]. Squaring gives the same bits on every device, in a
+// twentieth of the time of pow. Powers below 2^-100 become zero, so devices that flush denormals
+// agree.
 static inline Real integer_power(Real base, UInt exponent)
 {
     Real result = 1.0f;
@@ -144,8 +148,8 @@ static inline Real log_series(Real s)
     return fma(series, s, RATIO(2.0f, 3.0f));
 }
 
-// Returns log(1 + x) for x in (-1, 0], through 2 atanh(x / (2 + x)). Dividing out a power of two
-// leaves a remainder in [3/4, 3/2), for which the series is short.
+// Returns log(1 + x) = 2 atanh(x / (2 + x)) for x in (-1, 0]. If x is far from 0, 1 + x is first
+// divided by a power of two. The quotient is in [3/4, 3/2), for which a short series suffices.
 static inline Real log_one_plus(Real x)
 {
     const Mask is_far = x < -0.25f;

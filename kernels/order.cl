@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Orders triangles that a ray hits at almost equal distances. The edge tests decide exactly about
-// the sheared corners (triangle.inc.cl). Neighbors share these corners, so the triangles that a ray
-// hits form one surface: the stored one, with each corner moved by rounding. A Nearness is
-// the distance to this surface with twice the bits of t. It depends only on the ray and on the
-// triangle's corners. docs/numerics.md proves that rays then stay inside closed surfaces.
+// Orders triangles that a ray hits at almost equal distances. t has an error, so t alone could
+// order two triangles wrongly. A ray could then hit the farther one and leave a closed surface.
+//
+// The edge tests decide exactly about the sheared corners (triangle.inc.cl), and neighbors share
+// these corners. For a ray, all triangles therefore form one surface: the stored surface, with each
+// corner moved by the rounding of the shear. A Nearness is the distance to this surface with twice
+// the bits of t. docs/numerics.md proves that rays then stay inside closed surfaces.
+//
+// Invariant: a Nearness depends only on the ray and on the triangle's corners, and not on the order
+// of the tests.
 #ifndef CLRT_ORDER_CL
 #define CLRT_ORDER_CL
 #include "fetch.cl"
 #include "search.cl"
 
-// Where the ray hits an edge or a corner exactly, all triangles there have the same t. The slopes
-// then decide for the triangle that is nearest to a point a little beside the ray.
+// If the ray hits an edge or a corner exactly, all triangles there have the same t. The slopes then
+// select the triangle that a ray would hit first if it passed a little beside the edge or corner.
 typedef struct {
     TwoFloat t;
     Real lowest; // at a corner: the least slope of t away from the ray in the triangle; else 0
@@ -35,8 +40,8 @@ static inline TwoFloat two_quotient(TwoFloat a, TwoFloat b)
     return two_sum_ordered(high, rest.high / b.high);
 }
 
-// Returns the depth at which the axis hits the edge. It depends only on the edge's ends, which the
-// host sorts, so all triangles at this edge get the same bits.
+// Returns the depth at which the ray hits the edge. The depth depends only on the edge's ends, in
+// the host's order, so all triangles at this edge get the same bits.
 static inline TwoFloat edge_depth(Real3 first, Real3 second)
 {
     const Mask by_x = fabs(second.x - first.x) >= fabs(second.y - first.y);
@@ -54,7 +59,7 @@ static inline TwoFloat inner_depth(const Corners *s)
     return two_quotient(depths, two_add(two_add(u, v), w));
 }
 
-// Returns how fast the depth grows from the edge toward the third corner, across the edge.
+// Returns the slope of the depth in the triangle, perpendicular to the edge and away from it.
 static inline Real slope_across(Real3 first, Real3 second, Real3 third)
 {
     const Real x = second.x - first.x, y = second.y - first.y, squared = fma(x, x, y * y);
@@ -70,8 +75,8 @@ static inline Real slope_along(Real3 first, Real3 second)
     return (second.z - first.z) / sqrt(fma(x, x, y * y));
 }
 
-// Returns the least slope from the corner `first` into the triangle: of an edge or, if it lies
-// between the edges, of the steepest way down.
+// Returns the least slope of the depth from the corner `first` into the triangle. The steepest
+// descent has this slope if it leads into the triangle. Otherwise, one of the two edges has it.
 static inline Real slope_around(Real3 first, Real3 second, Real3 third)
 {
     const Real3 p = difference(second, first), q = difference(third, first);
@@ -89,8 +94,8 @@ static inline Corners corners_chosen(Mask first, const Corners *a, const Corners
                      choose3(first, a->c, b->c)};
 }
 
-// Returns the corners in another order. A ray that hits an edge exactly hits the one from a to b,
-// which are in the host's order. A ray that hits a corner exactly hits a.
+// Returns the corners in another order. If the ray hits an edge exactly, it is the edge from a to
+// b, whose ends are in the host's order. If the ray hits a corner exactly, it is a.
 static inline Corners corners_from_edge(const Corners *s, const Edges *edges, Mask *at_corner)
 {
     const Mask on_u = edges->u == 0.0f, on_v = edges->v == 0.0f, on_w = edges->w == 0.0f;
@@ -135,7 +140,7 @@ static NOT_INLINE Nearness nearness_of(const Tracer *tracer, const Ray *ray, UIn
     return nearness;
 }
 
-// Returns whether a is nearer than b. `else_nearer` decides between equals.
+// Returns whether a is nearer than b. If both are equal, returns else_nearer.
 static inline Mask is_nearer(const Nearness *a, const Nearness *b, Mask else_nearer)
 {
     const Mask same_high = a->t.high == b->t.high;
@@ -154,8 +159,8 @@ static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index
     return is_nearer(&own, &other, 0);
 }
 
-// Returns whether a triangle precedes the best hit. In the given lanes, the best hit must be a
-// triangle, too.
+// Returns whether a triangle precedes the best hit, in the given lanes. There, the best hit must be
+// a triangle too.
 static NOT_INLINE Mask triangle_is_nearer(const Search *search, const Hit *triangle,
                                           const Hit *best, Mask lanes)
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Traces arrays of rays with the search that renders pictures. clrt check and the library cast such
-// rays. The file is compiled after render.cl, and only if requested.
+// Traces arrays of rays with the searches that render pictures, for clrt check and the library.
+// Neighbors in an array may be random rays, for which beams are slow. Packets of rays that differ
+// too much are therefore traced ray by ray. The file is compiled after render.cl, and only if
+// requested.
 
 // Reads a lane's ray for each of the CLRT_LANES rays from `start` on. Rays past the count are
 // inactive.
@@ -25,9 +27,8 @@ static inline Mask begin_search(const Tracer *tracer, const Ray *ray, Hit *hit)
 }
 
 #if CLRT_PACKET
-// Beams of rays whose origins or directions differ more than this are slower than single rays: for
-// random rays at 5, 82 and 1300 thousand triangles, single rays save about 45, 35 and 40 % of the
-// time.
+// If origins or directions differ by more than this, beams are slower than single rays. For random
+// rays at 5, 82 and 1300 thousand triangles, single rays save about 45, 35 and 40 % of the time.
 #define LARGEST_SPREAD 0.5f
 
 static inline Real3 first_real3(Real3 v, Mask among)

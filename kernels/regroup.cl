@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Groups the rays of a work-item into beams. Bounds cull only if directions share their signs, so
-// the rays of each octant form a beam of their own. Rays from partly filled packets are collected
-// in full packets, and their hits move back to the original lanes (compare Boulos et al., "Packet-
-// based Whitted and distribution ray tracing", 2007).
+// Groups the rays of a work-item into beams (compare Boulos et al., "Packet-based Whitted and
+// distribution ray tracing", 2007).
 //
 // Camera rays fill their packets. After a reflection or at the edge of a shadow, only some lanes of
-// a packet are active, and neighbors may point into different octants. A packet costs as much with
-// one active lane as with all of them.
+// a packet are active, and neighbors may point into different octants. But a packet takes as long
+// with one active lane as with all lanes, and bounds cull only if directions share their signs. The
+// rays of each octant are therefore collected from partly filled packets into full packets, which
+// form a beam. Afterwards, their hits are copied back to the original lanes.
 //
-// Invariant: a ray's hit does not depend on the rays beside it, because beams only cull, and every
-// lane accepts triangles by the same operations. Grouping therefore changes no bit of the picture.
+// Invariant: a ray's hit does not depend on the other rays, because beams only cull, and every lane
+// accepts triangles by the same operations. Grouping therefore changes no bit of the picture.
 #ifndef CLRT_REGROUP_CL
 #define CLRT_REGROUP_CL
 #include "beam.cl"
@@ -29,8 +29,8 @@ static inline UInt compressed(UInt v, uint bits)
                                                        (LaneRegister)as_int16(v), (ushort)bits));
 }
 
-// Inverse of compressed(): moves the first lanes of v back to the lanes selected by `bits`. The
-// other lanes come from `rest`.
+// Inverts compressed(): moves the first lanes of v back to the lanes selected by `bits`. The other
+// lanes come from `rest`.
 static inline UInt expanded(UInt v, uint bits, UInt rest)
 {
     return as_uint16(__builtin_ia32_expandsi512_mask((LaneRegister)as_int16(v),
@@ -53,8 +53,8 @@ static inline UInt expanded(UInt v, uint bits, UInt rest)
 }
 #endif
 
-// Words of a ray in a list: its origin, its direction, the id and index of the primitive it starts
-// on, and its hit's distance, id and index.
+// The words of a ray in a list: its origin, its direction, the id and index of the primitive on
+// which it starts, and the distance, id and index of its hit.
 enum {
     WORD_ORIGIN = 0,
     WORD_DIRECTION = 3,
@@ -232,7 +232,7 @@ static inline bool are_one_beam(const Ray *rays, const uint *wanted, uint count)
     return all == ALL_LANES && sign_bits(as_real(differing)) == 0;
 }
 
-// Finds the hits of rays that fill a beam. They are not moved.
+// Finds the hits of rays that fill a beam. They need not be moved.
 static inline void search_full(const Tracer *tracer, const Ray *rays, Hit *hits)
 {
     Beam beam;
@@ -294,8 +294,8 @@ static inline bool take_octant(Ungrouped *rays, RayGroup *group)
     return true;
 }
 
-// Takes the next group: an octant with at least `smallest` rays. If no such octant is left, takes
-// all remaining rays, and each searches alone.
+// Takes the next group, which is an octant with at least `smallest` rays. If no such octant is
+// left, takes all remaining rays, each of which searches alone.
 static inline bool take_group(Ungrouped *rays, uint smallest, RayGroup *group)
 {
     while (take_octant(rays, group)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel of adaptive anti-aliasing samples listed places instead of a tile. It is compiled
-// after render.cl, and only if requested.
+// The kernel of adaptive anti-aliasing: a list of places in the picture -> their colors and
+// signatures. It is compiled after render.cl, and only if requested.
 
 static inline void store_sample(global SampleData *sample, const Real3 *color, UInt signature,
                                 uint lane)
@@ -25,9 +25,10 @@ static inline Places places_listed(global const uint *places, uint start, uint e
     return (Places){x, y, number < end && x != NOTHING};
 }
 
-// Samples places first to end - 1 into the same elements of samples. A place is two coordinates in
-// sub-pixels; x = NOTHING skips the place. A work-item takes ITEM_SAMPLES consecutive places.
-// Tallies are written at the first place of each beam, and only if statistics are compiled in.
+// Samples the places first to end - 1, and stores the results in the elements of samples with the
+// same indices. A place consists of two coordinates in sub-pixels, and is skipped if x is NOTHING.
+// A work-item takes ITEM_SAMPLES consecutive places. Tallies are written at the first place of each
+// beam, and only if statistics are compiled in.
 kernel void trace_samples(TRACER_ARGUMENTS, global const uint *places, uint first, uint end,
                           global SampleData *samples, global uint *tallies)
 {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Ray-sphere intersection in two-float arithmetic: values are unevaluated sums high + low of 48
-// bits (106 if Real is double). Single floats lose the discriminant of far, small and huge spheres
-// to cancellation: for a ground sphere of radius 1e7, the error is 18 %. Two-float arithmetic
-// avoids this without fp64. Roots follow Haines, Guenther and Akenine-Moeller (Ray Tracing Gems,
-// chapter 7); sums and products follow Knuth and Dekker.
+// Intersects rays and spheres in two-float arithmetic. A value is an unevaluated sum high + low of
+// 48 bits (106 if Real is double). In single floats, the discriminant of far, small and huge
+// spheres would be lost to cancellation. For a ground sphere of radius 1e7, the error would be 18
+// %. Two-float arithmetic avoids this without fp64.
+//
+// The roots follow Haines, Guenther and Akenine-Moeller (Ray Tracing Gems, chapter 7). The sums and
+// products follow Knuth and Dekker.
 #ifndef CLRT_SPHERE_CL
 #define CLRT_SPHERE_CL
 #include "numeric.cl"
@@ -19,7 +21,7 @@ static inline TwoFloat two_sum(Real a, Real b)
     return (TwoFloat){sum, (a - (sum - part)) + (b - part)};
 }
 
-// Returns the result of two_sum if |a| >= |b|.
+// Returns two_sum(a, b) in fewer operations. Requires |a| >= |b|.
 static inline TwoFloat two_sum_ordered(Real a, Real b)
 {
     const Real sum = a + b;
@@ -125,9 +127,9 @@ static inline TwoFloat3 two_stepped(TwoFloat3 f, Real step, Real3 d)
                        two_add(f.z, two_scale(s, d.z))};
 }
 
-// Returns the discriminant divided by |d|^2: radius^2 minus the squared distance of the center to
-// the line. s only needs to be near the foot of the perpendicular, because the last term corrects
-// the error.
+// Returns the discriminant divided by |d|^2, which is radius^2 minus the squared distance between
+// the center and the line. s only needs to be near the foot of the perpendicular, because the last
+// term corrects its error.
 static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, TwoFloat rr)
 {
     const TwoFloat3 foot = two_stepped(f, s, d);
@@ -135,9 +137,10 @@ static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, Tw
     return two_add(rr, two_negate(two_length_squared(foot))).high + along * along / dd;
 }
 
-// Returns |f|^2 - radius^2, the product of the origin's distances to both walls on the line through
-// the center. On a sphere of radius 1e9, squares of 48 bits would give a height of 1 an error of
-// 6e-6. The largest component z of f therefore enters as the product (z - radius) (z + radius).
+// Returns |f|^2 - radius^2, which is the product of the origin's distances to both walls along the
+// line through the center. At height 1 over a sphere of radius 1e9, squares of 48 bits would cause
+// an error of 6e-6. The largest component z of f is therefore used in the product (z - radius) (z +
+// radius).
 static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 {
     const Mask z_first = fabs(f.z.high) >= max(fabs(f.x.high), fabs(f.y.high));
@@ -149,10 +152,10 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
     return two_add(two_add(two_square(x), two_square(y)), beyond).high;
 }
 
-// Returns whether plain floats already prove that the line misses the sphere. Their error is below
-// 16 units of rounding of the squares of all lengths involved (B15); 64 are allowed. Most spheres
-// then need no exact test. Testing three spheres exactly for all rays takes half of a picture's
-// time.
+// Returns whether plain floats already prove that the line misses the sphere. The error of this
+// test is below 16 units of rounding of the squares of all lengths (B15), and the test allows 64
+// units. Most spheres then need no exact test. If all rays tested three spheres exactly, this would
+// take half of a picture's time.
 static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center =
@@ -165,8 +168,8 @@ static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
     return apart > 64.0f * UNIT_ROUNDOFF * squares;
 }
 
-// Returns the smallest t > 0 at which origin + t * direction hits the sphere in the wanted lanes,
-// INFINITY if it misses. A ray from inside hits the far wall.
+// Returns the smallest t > 0 at which origin + t * direction hits the sphere, or INFINITY if the
+// ray misses or its lane is not wanted. A ray from inside hits the far wall.
 static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
 {
     const Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
@@ -204,8 +207,8 @@ static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Re
                     two_add(on.z, sphere->center.z).high);
 }
 
-// Returns the distance for a ray that starts on this sphere. The near root is zero by construction.
-// The chord to the far wall counts if it is longer than the origin's error and 128u of the radius.
+// Returns the distance for a ray that starts on this sphere, whose near root is zero. The ray hits
+// the far wall if the chord is longer than the origin's error and than 128u of the radius.
 static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;

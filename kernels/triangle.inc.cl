@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Watertight ray-triangle intersection: the triangle is sheared into the ray's frame, and the
-// signs of three edge functions decide (Woop, Benthin and Wald, JCGT 2(1) 2013). Neighbors share
-// the sheared vertices bit for bit. Kahan's difference of products gives each shared edge its exact
-// sign in both triangles, so no ray passes between them.
+// Watertight ray-triangle intersection. The triangle is sheared so that the ray becomes the axis z,
+// and the signs of three edge functions decide whether the ray passes inside (Woop, Benthin and
+// Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013).
+//
+// Invariant: no ray passes between two triangles that share an edge. Both compute the same bits for
+// the two sheared ends of the edge. Kahan's difference of products then gives the edge function its
+// exact sign in both triangles.
 //
 // numeric.cl includes this file up to twice: for one triangle against one ray or a packet of rays,
-// and for eight triangles against one ray. The file expects the number types Real, Mask and UInt,
-// and OVERLOAD (lanes.cl). It defines the functions and the types Real3, Shear, Corners, Edges,
-// TriangleTest, Meeting and SurfaceRay. The second inclusion has to rename these types by macros.
+// and for eight triangles against one ray. The file needs the number types Real, Mask and UInt, and
+// OVERLOAD (lanes.cl). It defines functions and the types Real3, Shear, Corners, Edges,
+// TriangleTest, Meeting and SurfaceRay. The second inclusion must rename these types by macros.
 #include "vector.inc.cl"
 
 // The shear that turns the ray into the axis z. z is the longest axis of the direction; x and y
@@ -49,7 +52,8 @@ static inline Edges OVERLOAD edges_of(const Corners *sheared)
     return edges;
 }
 
-// A zero has either sign, so a ray through an edge hits both triangles.
+// Returns whether the ray passes inside all edges. A zero counts as either sign, so a ray through
+// an edge hits both triangles.
 static inline Mask OVERLOAD edges_contain(const Edges *edges)
 {
     const Real smallest = min(min(edges->u, edges->v), edges->w);
@@ -58,16 +62,17 @@ static inline Mask OVERLOAD edges_contain(const Edges *edges)
 }
 
 // Returns whether an edge function counts as positive. If the ray meets the edge from p to q
-// exactly, a ray infinitely near to it decides, moved along x and even less along y (Edelsbrunner
-// and Muecke, "Simulation of simplicity", 1990).
+// exactly, the ray is moved by an infinitely small distance along x, and by an even smaller one
+// along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
 static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
 {
     const Mask beside = p.y > q.y || (p.y == q.y && q.x > p.x);
     return edge > 0.0f || (edge == 0.0f && beside);
 }
 
-// Returns whether the triangle owns the ray. If a ray passes through an edge or vertex, an odd
-// number of the triangles around it own the ray if it crosses their surface, else an even number.
+// Returns whether the triangle owns the ray. If the ray passes through an edge or vertex, an odd
+// number of the triangles there own the ray if it crosses their surface, and otherwise an even
+// number.
 static inline Mask OVERLOAD edges_own(const Corners *sheared, const Edges *edges)
 {
     const Real3 a = sheared->a, b = sheared->b, c = sheared->c;
@@ -89,8 +94,8 @@ static inline Real OVERLOAD triangle_depth(const Corners *sheared, const Edges *
                fma(edges->v * r, sheared->b.z, (edges->w * r) * sheared->c.z));
 }
 
-// Bounds the error of the reported depth along z. It is at most 14 u of the largest depth
-// (docs/numerics.md, B4); this bound is larger.
+// Bounds the error of triangle_depth. The error is at most 14 u of the largest depth
+// (docs/numerics.md, B4), and this bound is larger.
 static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 {
     const Real depth = max(max(fabs(s->a.z), fabs(s->b.z)), fabs(s->c.z));
@@ -99,8 +104,9 @@ static inline Real OVERLOAD triangle_depth_error(const Corners *s)
     return 18.0f * UNIT_ROUNDOFF * (depth + across);
 }
 
-// Returns whether the hit is so close to the origin that rounding may decide whether it is in
-// front or behind. Coordinates are at most 1, which bounds the depth's error by 2^-17 (B4).
+// Returns whether the hit is so close to the origin that only rounding may decide whether it is in
+// front of or behind the origin. Coordinates are at most 1, so the error of the depth is at most
+// 2^-17 (B4).
 static inline Mask OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
 {
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
@@ -130,12 +136,14 @@ typedef struct {
     Real t;
     Mask front; // the ray comes from the triangle's stored front
     Mask inner; // the ray comes from the back of the mesh's triangle
-    Mask near;  // surface_ray_distance decides whether the ray stops
-    Real clear; // otherwise: the distance at which the ray stops, INFINITY if it passes
+    Mask near;  // surface_ray_distance must decide whether the ray stops
+    Real clear; // if not near: the distance at which the ray stops, INFINITY if it passes
 } Meeting;
 
-// `marks` has the triangles' flags. One-sided triangles do not stop rays on their inner side. Only
-// the first triangle near the eye is doubtful, but every triangle for rays that leave a surface.
+// Returns the distances, and whether surface_ray_distance must decide. `marks` contains the
+// triangles' flags. One-sided triangles do not stop rays on their inner side. For rays from the
+// eye, only triangles within rounding of the eye are near. For rays that leave a surface, every
+// triangle is.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {
@@ -156,10 +164,10 @@ static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt m
     return met;
 }
 
-// Returns a point's height over the triangle's front, multiplied by the normal's length, or zero if
-// rounding leaves the side undecided. Near a triangle, the height is far more precise than the
-// depth of a ray from afar. The bound adds the errors of the products, of the normal and of the
-// point. The point's error is `blur` units of rounding of its coordinates.
+// Returns a point's height over the triangle's front, multiplied by the normal's length. Returns
+// zero if rounding could change the sign. Near a triangle, this height is far more precise than the
+// depth of a ray from afar. The error bound adds the errors of the products, of the normal and of
+// the point. The point's error is `blur` units of rounding of its coordinates.
 static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, float blur)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -176,24 +184,28 @@ static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, flo
 // The error of a surface point, in units of rounding of its coordinates (B7).
 #define POINT_BLUR 16.0f
 
-// The state of a ray that leaves a surface, beside its direction.
+// A ray that leaves a surface, and its relation to a triangle.
 typedef struct {
     Real3 point;  // of the surface
     Mask front;   // it comes from the triangle's stored front
     Mask inner;   // it comes from the back of the mesh's triangle
-    Real behind;  // how far the start may be beyond a triangle that stops the ray
+    Real behind;  // rounding may put the start this far beyond a triangle that stops the ray
     float length; // as a distance t: 1 up to a light, else INFINITY
     float blur;   // error of the point, as in height_over: 0 for the eye, which is stored
 } SurfaceRay;
 
-// Returns the distance at which the ray stops on a triangle, INFINITY if it passes. t is the
-// triangle's distance, known within `error`. Near the ray's start, t is only rounding, and every
-// point's neighbors would mirror and shadow it. The ray therefore stops only if its surface point
-// is certainly on the side that the ray comes from. On the inner side, which only two-sided
-// triangles show, convex neighbors meet this condition, too. There t must also be certain, except
-// for the eye, which is on no surface. A triangle on which the light lies, within the error of t,
-// does not shadow the ray. in_doubt receives the lanes whose rays may pass only because of
-// rounding. In a valley, rounding can also put the start beyond the neighbor that stops the ray.
+// Returns the distance at which the ray stops on a triangle, or INFINITY if it passes. t is the
+// triangle's distance, with an error of at most `error`.
+//
+// Near the ray's start, t is only rounding, and the neighbors of every point would reflect and
+// shadow it. The ray therefore stops only if its surface point is certainly on the side from which
+// the ray comes. On the inner side, which only two-sided triangles show, convex neighbors meet this
+// condition too. There, t must also be certainly positive, except for the eye, which is on no
+// surface. If the light is on a triangle, within the error of t, this triangle does not shadow the
+// ray.
+//
+// in_doubt receives the lanes whose rays may pass only because of rounding. In a valley, rounding
+// can also put the start beyond the neighbor that stops the ray.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Mask *in_doubt)
 {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Vectors of three Reals, and exact signs. triangle.inc.cl includes this file and lists the types
-// that must be defined.
+// Vectors of three Reals, and differences of products with exact signs. triangle.inc.cl includes
+// this file, and lists the types that must be defined.
 
 typedef struct {
     Real x, y, z;
 } Real3;
 
-// Returns a * b - c * d within 1.5 ulp, hence with the exact sign (Kahan; Jeannerod, Louvet and
-// Muller, "Further analysis of Kahan's algorithm for the accurate computation of 2x2
-// determinants", 2013).
+// Returns a * b - c * d by Kahan's algorithm, with an error of at most 1.5 ulp and therefore with
+// the exact sign (Jeannerod, Louvet and Muller, "Further analysis of Kahan's algorithm for the
+// accurate computation of 2x2 determinants", 2013).
 static inline Real OVERLOAD difference_of_products(Real a, Real b, Real c, Real d)
 {
     const Real cd = c * d;

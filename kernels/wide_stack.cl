@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The stack of children of wide nodes. A node's children are pushed farthest first. The number of
-// children hit and the nearest one are unpredictable, and so is every branch on them. A sorting
-// network (Batcher, "Sorting networks and their applications", 1968) has no branches. Compared to
-// insertion sort, it saves 17, 10 and 1 % of the time for pictures of a million, 122 thousand and 6
-// thousand triangles.
+// The traversal stack of the wide tree. The children of a node that a ray hits are pushed in the
+// order of their entry distances, the farthest first.
+//
+// Processors cannot predict which children a ray hits and which is nearest, so every branch on this
+// would be slow. A sorting network has no branches (Batcher, "Sorting networks and their
+// applications", 1968). Compared with insertion sort, it saves 17, 10 and 1 % of the time for
+// pictures of a million, 122 thousand and 6 thousand triangles.
 #ifndef CLRT_WIDE_STACK_CL
 #define CLRT_WIDE_STACK_CL
 #include "ray.cl"
 
 #if CLRT_WIDE_NODES
 
-// A tree level leaves at most WIDE - 1 pending children, and each store writes WIDE entries.
+// Each level of the tree leaves at most WIDE - 1 children on the stack, and each push writes WIDE
+// entries.
 #define WIDE_STACK_SIZE (BVH_MAX_DEPTH * (WIDE - 1) + 2 * WIDE)
 
 // The children of a node are adjacent, the nearest on top.
@@ -29,17 +32,17 @@ static inline uint lowest_bit(uint bits)
 #endif
 }
 
-// Returns the entry distances as integers that sort in reverse; the bits of nonnegative floats
-// sort like the floats. Children not hit come last. The lowest bits hold the child's index, which
-// shortens the distance by less than 2^-20 of itself.
+// Returns the entry distances as integers that sort in reverse order. The bits of nonnegative
+// floats sort like the floats. Children that are not hit come last. The lowest bits hold the
+// child's index, which shortens the distance by less than 2^-20 of itself.
 static inline uint8 entry_order(float8 entry, int8 met)
 {
     const uint8 place = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
     return ~((as_uint8(entry) & 0x7ffffff8u) | place) | ~as_uint8(met);
 }
 
-// Steps of the network. exchanged_N compares each element with the one whose index is its own XOR
-// N, and moves the smaller value to the lower index.
+// The steps of the network. exchanged_N compares each element i with element i XOR N, and moves the
+// smaller value to the lower index.
 static inline uint8 exchanged_1(uint8 v)
 {
     const uint8 low = min(v, v.s10325476), high = max(v, v.s10325476);
@@ -96,8 +99,8 @@ static inline uint4 sorted_four(uint4 v)
     return (uint4)(low.s0, high.s1, low.s2, high.s3);
 }
 
-// Only one node in twenty has more than four children hit. Up to four are moved together, so that
-// half a network sorts them.
+// Sorts the children that are hit. Only one node in twenty has more than four of them. Four or
+// fewer are first moved together, so that half a network sorts them.
 static inline uint8 orders_sorted(uint8 order, uint met)
 {
     typedef int Register __attribute__((vector_size(32)));
