@@ -10,8 +10,8 @@
 
 #include <stdio.h>
 
-// A command that traces. The caller has opened the session's cache, and later frees scene, which
-// receives the scene that the options name.
+// A command that traces. The command reads the scene that the options name into *scene. The caller
+// has opened the session's cache, and frees the scene afterwards.
 typedef ExitCode TracingCommand(const Options *options, Session *session, Scene *scene,
                                 Error *error);
 
@@ -61,8 +61,8 @@ ExitCode convert_scene(const Options *options, Error *error);
 // Adds every file that the options name, and the files of scene unless it is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
 
-// Fails if an output would replace an input or another output. main calls it before any work;
-// stage_start and check_scene call it again when the scene's meshes are known.
+// Fails if an output would replace an input or another output. main calls it before any work.
+// stage_start and check_scene call it again when the scene's files are known.
 bool command_files_check(const Options *options, const Scene *scene, Error *error);
 
 // Writes the text of --help.

@@ -27,8 +27,8 @@ static json_t *count_reason(uint32_t count)
     return count > 0 ? json_sprintf("%u of them", count) : json_string("there are none");
 }
 
-// Describes a kernel feature that can be omitted at compile time. General programs also contain
-// features that the scene does not need.
+// Describes a kernel feature that can be omitted when the kernels are compiled. General programs
+// also contain features that the scene does not need.
 static json_t *part_json(const char *name, bool is_needed, bool is_special, json_t *reason)
 {
     return JSON(FIELD("name", name), FIELD("needed", is_needed),
@@ -109,7 +109,8 @@ static json_t *report_json(const Options *options, const Session *session, const
                   FIELD("uploaded_bytes", arrays_json(&form->flat)));
 }
 
-// Prints the features with these properties below the heading, if there are any.
+// Prints the heading and the features with these properties, or nothing if there are no such
+// features.
 static void write_parts(const json_t *parts, const char *heading, bool is_needed, bool is_compiled)
 {
     for (size_t i = 0; i < json_array_size(parts); i++) {

@@ -75,7 +75,7 @@ static bool trace_layers(Picture *picture, Error *error)
     return ok;
 }
 
-// Computes the channels besides the colors. If the picture was stopped, all their values are zero.
+// Computes the channels besides the colors. If the picture was stopped, the channels stay zero.
 static bool draw_layers(Picture *picture, Error *error)
 {
     const Options *options = picture->options;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The data of a picture that clrt renders to a file.
+// The data of a picture that clrt renders to a file. The steps of cli/picture.c fill them, and
+// reports read them.
 #pragma once
 
 #include "cli/stages.h"
@@ -24,20 +25,21 @@ typedef struct {
     const char *path;       // of the output file
     uint32_t view;          // from 1
     double turned;          // the turntable's angle in degrees
-    double truncation;      // bound on the color error caused by max_level
+    double truncation;      // bound on the error of colors that max_level causes
     Framebuffer framebuffer;
-    Framebuffer film; // the frames of an animated file, below each other; empty without one
+    Framebuffer film; // all frames of an animated file, in a column; empty for other files
     MeasuredReference reference;
     Layers layers;          // the channels besides the colors
     CertaintyMap certainty; // empty without --aov certainty
     Resume resume;          // empty without --resume
     int stopped_by;         // the signal that stopped the picture, or 0
-    double start, moment;   // of the command; the end of the previous frame, or start
+    double start;           // the time at which the command began
+    double moment;          // the time at which the previous frame ended; at first, start
 
     // For reports.
     const SceneForm *form; // the scene for the picture's kernels
     PictureResult drawn;
-    bool complete; // with all channels
+    bool complete; // all colors and channels are drawn
     StageSeconds stages;
     double certainty_seconds, write_seconds, total_seconds;
     double frame_seconds[REPEAT_MAX]; // one entry per repetition

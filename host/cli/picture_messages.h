@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What clrt prints about a picture, besides reports.
+// The messages about a picture, besides reports.
 #pragma once
 
 #include "cli/picture_data.h"
@@ -17,6 +17,7 @@ void picture_print_beginning(const Picture *picture);
 // Sets the moment to the current time.
 void picture_print_end(Picture *picture);
 
-// Fill error for a picture that misses its goal or is stopped, and return the exit status.
+// These functions fill error for a picture that misses its goal or is stopped, and return the exit
+// status.
 ExitCode picture_fail_goal(const Picture *picture, Error *error);
 ExitCode picture_fail_stopped(const Picture *picture, Error *error);

@@ -269,7 +269,7 @@ static json_t *stored_samples_json(const Picture *picture)
                                                   : json_count(picture->request.settings.samples);
 }
 
-// Test counts depend on the tree; colors do not.
+// Adds the tree's builder if the file contains counts of tests, which depend on the tree.
 static void add_tree(json_t *json, const Picture *picture)
 {
     if (!aov_needs(picture->options->aovs, AOV_NEEDS_TESTS))

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Runs the stages from options and a scene file to a session that is ready to draw. All commands
+// that trace use them.
 #include "cli/stages.h"
 
 #include "base/clock.h"
@@ -12,8 +14,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// The default side of a part's tiles. They are smaller than a picture's, so that each part has more
-// tiles and all parts take about equal time.
+// The default side of a part's tiles. They are smaller than the tiles of a whole picture. Each part
+// then has more tiles, and all parts take about the same time.
 #define PART_TILE 64
 
 double stage_lap(double *moment)
@@ -41,9 +43,9 @@ static void show_loading(const Options *options, bool begins)
         progress_show_loading(begins);
 }
 
-// The name of a scene on standard input, in messages. It has no slash, so paths of meshes are
-// relative to the current folder. Only the program reads "-" as standard input; to the library, "-"
-// is a file name.
+// The name in messages of a scene on standard input. It has no slash, so paths of meshes are
+// relative to the current folder. In the library, "-" is an ordinary file name, because only the
+// program reads standard input.
 #define INPUT_NAME "standard input"
 
 bool stage_read(Scene *scene, const Options *options, Error *error)

@@ -7,7 +7,7 @@
 #include "session/picture.h"
 
 typedef struct {
-    double parse, load, build; // of the scene's text, of its meshes, and of the tree and the arrays
+    double parse, load, build; // of the text, of its meshes, and of the tree and the arrays
 } StageSeconds;
 
 // Returns the seconds since *moment, and sets *moment to the current time.
@@ -35,11 +35,12 @@ ExitCode stage_start(Session *session, Scene *scene, const Options *options, Sta
 bool stage_request(SessionPicture *request, const Options *options, const Scene *scene,
                    Error *error);
 
-// Returns the session's scene for the kernels of pictures, or NULL. Builds the tree and flattens
-// the scene into arrays at the first call.
+// Returns the session's scene for the kernels of pictures, or NULL on failure. The first call
+// builds the tree and the scene's arrays.
 const SceneForm *stage_build(Session *session, const Options *options, Error *error);
 
-// Waits for the device, chooses the kernels for device, scene and work, and calls stage_build. Adds
-// its time to seconds->build. work may be NULL. Returns the exit status.
+// Waits for the device, chooses the kernels for the device, the scene and the work, and calls
+// stage_build. Adds the time of stage_build to seconds->build. work may be NULL. Returns the exit
+// status.
 ExitCode stage_prepare(Session *session, const Options *options, const SessionWork *work,
                        StageSeconds *seconds, Error *error);

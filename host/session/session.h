@@ -14,7 +14,8 @@
 #include "render/renderer.h"
 #include "session/geometry.h"
 
-// The embedded kernels draw the same picture with all settings of equal wanted.precision.
+// All settings with the same wanted.precision draw the same picture, unless kernel_folder replaces
+// the kernels.
 typedef struct {
     ClrtSettings wanted;       // wanted.size is not used
     const char *kernel_folder; // replaces the embedded kernels; may be NULL
