@@ -33,8 +33,7 @@ typedef struct {
     CertaintyMap certainty; // empty without --aov certainty
     Resume resume;          // empty without --resume
     int stopped_by;         // the signal that stopped the picture, or 0
-    double start;           // the time at which the command began
-    double moment;          // the time at which the previous frame ended; at first, start
+    double start, moment;   // when the command began, and when the previous frame ended (or start)
 
     // For reports.
     const SceneForm *form; // the scene for the picture's kernels
