@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Formats --help with names on the left and wrapped texts on the right. Of a text in the table of
-// options, --help shows the part before the first semicolon. The man page shows the whole text.
+// Formats --help with names on the left and wrapped texts on the right. --help shows a text of the
+// table of options up to the first semicolon. The man page shows the whole text.
 #include "cli/commands.h"
 
 #include "cli/options/option.h"

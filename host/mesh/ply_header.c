@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Header lines -> elements and their properties, in one pass. Of the elements and properties that a
-// mesh uses, none may occur twice.
+// Header lines -> elements and their properties, in one pass. The elements and properties that a
+// mesh uses may each occur only once.
 #include "mesh/ply_reader.h"
 
 #include "base/number.h"

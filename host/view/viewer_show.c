@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws the picture and then the text over it, prints news, and saves pictures.
+// Draws the picture and then the text over it, prints changes of the state, and saves pictures.
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"

@@ -130,9 +130,9 @@ extern const size_t exclusion_count;
 
 #define EXCLUSION_TEXT_SIZE 160
 
-// Writes the options of a row in the syntax of a command line. Of "[--a | --b]", at most one option
-// may be given. Of "[--a, --b | --c, --d]", no option on the left may be given together with one on
-// the right.
+// Writes the options of a row in the syntax of a command line. "[--a | --b]" means that at most one
+// of the options may be given. "[--a, --b | --c, --d]" means that no option on the left may be
+// given together with one on the right.
 void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE]);
 
 // Checks the options of a command and their combination. Determines the format of the picture.

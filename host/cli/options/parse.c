@@ -110,8 +110,8 @@ static bool mark_given(Options *options, size_t row, Error *error)
     return true;
 }
 
-// Returns the command that the options and operands select. Of the rows with its name, this is the
-// last row that needs at most `count` operands or, if there is none, the first row.
+// Returns the command that the options and operands select. Several rows may have its name. The
+// last row that needs at most `count` operands is selected or, if there is none, the first row.
 static const Command *find_command(const Options *options, const char *name, int count)
 {
     const unsigned picture = options->output_path != NULL ? FOR_FILE

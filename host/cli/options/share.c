@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Of these variables, clrt reads the first one that is set. Ranks come last, because Slurm sets
+// clrt reads the first of these variables that is set. Ranks come last, because Slurm sets
 // SLURM_PROCID in the tasks of arrays too.
 static const struct {
     const char *name;

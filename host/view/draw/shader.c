@@ -138,7 +138,7 @@ void cube_fill_edges(const Drawing *drawing)
 // has as many steps as the width has pixels.
 
 // The smallest distance with a depth above 0, in normalized coordinates, where the triangles' box
-// is 1 to 2 long. Of points that are nearer, the one drawn last is visible.
+// is 1 to 2 long. Nearer points all have depth 0, so the one drawn last is visible.
 #define NEAREST 0.01f
 
 // Stores the direction of step with a length that makes its dot product with points on the
