@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The simplest search, for GPUs and for fp64: one ray traverses the binary tree.
+// The simplest search, for GPUs and for fp64. One ray traverses the binary tree depth first, and
+// enters the nearer child first. A stack holds the children that are still to be entered, with
+// their distances.
+//
+// Invariant: a child is skipped only if the ray misses its box, or enters it beyond search_reach.
+// Both are conservative (search.cl), so the hit is the same as without a tree.
 #ifndef CLRT_PAIR_CL
 #define CLRT_PAIR_CL
 #include "accept.cl"
@@ -31,7 +36,8 @@ static inline void intersect_slabs(global const BvhPair *node, const Search *sea
     *leave = min(min(far_x, far_y), min(far_z, (Real2)(reach)));
 }
 
-// Reading the components by axis makes the permutation free.
+// Returns a corner relative to the ray's origin, with components in the order of the shear. Reading
+// them by axis makes this order free.
 static inline Real3 corner_relative(global const float *corner, const Search *search)
 {
     return real3_of(corner[search->axes.x] + search->backward.x,
@@ -54,7 +60,8 @@ static inline void intersect_range(const Search *search, uint2 range, Hit *best)
     }
 }
 
-// The stack stores children as 2 * node + child, with the distance at which the ray enters them.
+// The stack of children to enter. A child is stored as 2 * node + child, with the distance at which
+// the ray enters it.
 typedef struct {
     uint child[BVH_STACK_SIZE];
     Real entry[BVH_STACK_SIZE];

@@ -6,13 +6,13 @@
 
 typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 
-// Returns the kind without RAY_ANY_HIT, which only kinds in programs with CLRT_RAYS may have.
+// Returns the kind without RAY_ANY_HIT. Only programs with CLRT_RAYS have kinds with this bit.
 static inline RayKind plain_kind(RayKind kind)
 {
     return CLRT_RAYS ? (RayKind)(kind & ~RAY_ANY_HIT) : kind;
 }
 
-// Returns whether the ray ends at the first hit that a search finds.
+// Returns whether rays of this kind end at any hit.
 static inline bool ends_at_any_hit(RayKind kind)
 {
     return kind == RAY_SHADOW || kind != plain_kind(kind);
@@ -21,7 +21,7 @@ static inline bool ends_at_any_hit(RayKind kind)
 // origin + t * direction. A shadow ray runs from the shaded point at t = 0 to the light at t = 1.
 typedef struct {
     Real3 origin, direction;
-    UInt own;       // id of the primitive it starts on, which it hits again only inside a sphere
+    UInt own;       // id of the primitive on which it starts, or NOTHING
     UInt own_index; // index of that primitive if it is a triangle, else NOTHING
     RayKind kind;
     Mask active; // lanes that have a ray
@@ -79,8 +79,8 @@ typedef struct {
     Tally *tally;
 } Tracer;
 
-// The first arguments of all kernels but trace_rays, in the order in which the host sets them.
-// TRACER makes a Tracer of these arguments.
+// The first arguments of all kernels that shade or follow paths, in the order in which the host
+// sets them. TRACER makes a Tracer of these arguments.
 #define TRACER_ARGUMENTS                                                                           \
     const FrameData frame, global const PointLight *lights, global const Material *materials,      \
         global const SphereData *spheres, global const Node *nodes,                                \

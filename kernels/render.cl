@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The rendering kernel. With binary nodes, a work-item renders one pixel of a tile. With wide
 // nodes, it renders a block of BLOCK x BLOCK pixels, PACKETS packets at a time.
+//
+// Invariant: colors are rounded to integer steps of 2^-32 and summed as integers. A pixel's color
+// therefore does not depend on the order of its samples, or on how pixels are assigned to
+// work-items.
 #include "trace.cl"
 
 #if CLRT_LANES == 1
@@ -70,8 +74,8 @@ static inline void add_colors(ColorSum *sum, Real3 color)
     sum->blue += to_long(color.z);
 }
 
-// Computes the mean colors of pixels. A single sample needs no sum: the division of a sum costs
-// more than tracing a simple scene.
+// Computes the mean colors of pixels. A single sample is not summed, because dividing a sum would
+// take longer than tracing a simple scene.
 static inline void pixel_colors(const Tracer *tracer, const Places pixels[PACKETS],
                                 Real3 colors[PACKETS])
 {
@@ -120,7 +124,7 @@ static inline void store_row(global float *pixels, float4 red, float4 green, flo
     vstore4((float4)(blue.z, red.w, green.w, blue.w), 2, pixels);
 }
 
-// Stores the packet if it lies entirely inside the tile, and returns whether it does.
+// Stores the packet if it is entirely inside the tile. Returns whether it is.
 static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 *color,
                               global float *pixels)
 {
@@ -198,9 +202,9 @@ static NOT_INLINE void render_beam(const Tracer *tracer, uint2 beam, const Outpu
                      i == 0 ? tracer->tally : &none, output);
 }
 
-// pixels holds tile_width * tile_height colors of three floats, rows from the top. tallies holds
-// TALLY_KINDS counts per pixel, written only if statistics are compiled in. The range is padded to
-// whole work-groups.
+// Renders a tile. pixels receives tile_width * tile_height colors of three floats, top row first.
+// tallies receives TALLY_KINDS counts per pixel, if statistics are compiled in. The range of
+// work-items is padded to whole work-groups.
 kernel void render_tile(TRACER_ARGUMENTS, global float *pixels, global uint *tallies)
 {
     const Output output = {pixels, tallies};

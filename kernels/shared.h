@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The types and constants that host and kernels share. This file compiles as C17 and as OpenCL C,
-// with the same memory layout in both. Members are float, uint and ulong, arrays of these, and
-// structs. The size of every struct is a multiple of 8 bytes, which keeps array elements aligned.
-// tests/kernel measures the layout on the device. All positions are in the normalized frame
+// The types and constants that host and kernels share. All positions are in normalized coordinates
 // (host/scene/normalize.h).
+//
+// Invariant: this file compiles as C17 and as OpenCL C, with the same memory layout. Members are
+// float, uint and ulong, arrays of these, and structs. The size of every struct is a multiple of 8
+// bytes, which keeps array elements aligned. tests/kernel measures the layout on the device.
 #ifndef CLRT_SHARED_H
 #define CLRT_SHARED_H
 
@@ -16,21 +17,25 @@ typedef uint64_t ulong;
 #define CLRT_SAME_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type);
 #endif
 
-// The id of no primitive. Ids number spheres in file order, then triangles in file order.
+// The id that stands for no primitive. Spheres have the first ids, in file order, and triangles the
+// next, in file order.
 #define NOTHING 0xffffffffu
 
-// Entries of the traversal stack. Depth-first descent keeps one pending sibling per level, and
-// also pushes the child that it enters next. Builders limit trees to BVH_MAX_DEPTH levels.
+// The number of entries in the traversal stack. Depth-first descent keeps one pending sibling per
+// level, and also pushes the child that it enters next. Builders limit trees to BVH_MAX_DEPTH
+// levels.
 #define BVH_MAX_DEPTH  62
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
-// Boxes grow and origins move by this factor of their largest coordinate: 256 units of 2^-24.
-// A triangle that triangle.inc.cl accepts lies within 22 units of the ray (B8 of docs/numerics.md),
-// and the slab arithmetic adds 4 (B9). If division is only accurate to 2.5 ulp, these become 34
-// and 8. A hit can be behind the ray's start: its error bound is at most 54, and Search::behind is
-// 256 units of the origin. The 256 count as 128, because the box there has the origin's
-// coordinates, too. The sum is at most 34 + 8 + 54 + 128 = 224. search_reach (search.cl) covers
-// hits beyond the best one. In measurements, doubling the slack costs nothing.
+// Boxes grow and origins move by this factor of their largest coordinate, which is 256 units of
+// 2^-24. A triangle that triangle.inc.cl accepts is within 22 units of the ray (B8 of
+// docs/numerics.md), and the slab arithmetic adds 4 (B9). If division is only accurate to 2.5 ulp,
+// these become 34 and 8.
+//
+// A hit can be behind the ray's start, by its error bound of at most 54 units, and by
+// Search::behind, which is 256 units of the origin. The 256 count as 128, because a box there has
+// the origin's coordinates, and both move. The sum is at most 34 + 8 + 54 + 128 = 224. search_reach
+// (search.cl) covers hits beyond the best one. In measurements, doubling the slack costs nothing.
 #define BVH_SLACK 0x1p-16f
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG } Shader;
@@ -68,10 +73,10 @@ typedef struct {
 CLRT_SAME_SIZE(SphereData, 48)
 
 // A triangle for the intersection test. The array is in leaf order. The host sorts the corners by
-// their coordinates. Triangles with the same three corners therefore store the same bits,
-// regardless of the corners' order in the file. Every kernel computes t from only the ray and these
-// bits, by the same operations, so these triangles have equal t. The flags only decide whether a
-// ray hits a triangle. The lowest id wins among the triangles hit.
+// their coordinates, so triangles with the same three corners store the same bits, regardless of
+// the corners' order in the file. Every kernel computes t from only the ray and these bits, by the
+// same operations, so a ray hits such triangles at equal t. The flags only decide whether it hits
+// them at all, and the lowest id wins.
 typedef struct {
     float a[3];
     uint id;
@@ -94,9 +99,9 @@ typedef struct {
 } CornerNormals;
 CLRT_SAME_SIZE(CornerNormals, 48)
 
-// An inner node holds the boxes of both children, axis by axis as {low, high} planes. One read
-// therefore serves the tests of both. A child with a count is a leaf: triangles
-// [first, first + count). A child without a count is the inner node `first`. A missing child has an
+// An inner node. It contains the boxes of both children, axis by axis as {low, high} planes, so one
+// read serves the tests of both. If a child's count is above 0, the child is a leaf with the
+// triangles [first, first + count). Otherwise, it is the inner node `first`. A missing child has an
 // inverted box, which no ray enters.
 typedef struct {
     float planes[3][2][2]; // [axis][low, high][child], grown by BVH_SLACK
@@ -111,7 +116,8 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // Refinement lists the pixels' centers in squares of this side, so that neighbors share packets.
 #define PACKET_SIDE 4
 
-// Children of a wide node, and triangles of a block: one 256-bit vector of floats.
+// The number of children of a wide node, and of triangles in a block. Their floats fill a vector of
+// 256 bits.
 #define WIDE 8
 
 // An inner node of the wide tree, with its children's boxes side by side. One instruction tests a
@@ -181,7 +187,8 @@ CLRT_SAME_SIZE(SampleData, 16)
 #define REQUEST_SAMPLES 16
 
 // A request for samples of a pixel: 1 at its center, or the first 4 or REQUEST_SAMPLES points of a
-// sequence. The points' coordinates are XORed with the two digits of offset in base LADDER_GRID.
+// sequence. Each coordinate of a point is XORed with one of the two digits of `offset` in base
+// LADDER_GRID.
 typedef struct {
     uint x, y;
     uint offset;
@@ -189,8 +196,8 @@ typedef struct {
 } PixelRequest;
 CLRT_SAME_SIZE(PixelRequest, 16)
 
-// Sums over these samples: of colors in steps of 2^-32, and of the squares of all three channels
-// in steps of 2^-48.
+// Sums over the samples of a request. Colors are in steps of 2^-32, and the squares of all three
+// channels in steps of 2^-48.
 typedef struct {
     ulong colors[3];
     ulong squares;
@@ -205,8 +212,8 @@ typedef enum {
     CERTAINTY_KINDS
 } Certainty;
 
-// The result of certify.cl for a pixel: its certainty and, unless it is open, the decisions of its
-// last sample.
+// The result of certify.cl for a pixel: its certainty and the decisions of its last sample. If the
+// pixel is open, the decisions are not meaningful.
 typedef struct {
     uint certainty; // a Certainty
     uint first_id;  // of the camera ray's hit, or NOTHING
@@ -255,7 +262,7 @@ typedef struct {
 } RayData;
 CLRT_SAME_SIZE(RayData, 40)
 
-// This bit of a kind of rays lets the rays end at any hit, as shadow rays do.
+// Rays whose kind has this bit end at any hit, like shadow rays.
 #define RAY_ANY_HIT 4
 
 typedef struct {
@@ -297,7 +304,7 @@ typedef enum {
     LIGHT_BEHIND, // the shading normal is turned away from it
     LIGHT_SEEN,
     LIGHT_BLOCKED,
-    LIGHT_BEHIND_FACE // the face is turned away from it, the shading normal is not
+    LIGHT_BEHIND_FACE // the face is turned away from it, but the shading normal is not
 } LightState;
 
 #endif

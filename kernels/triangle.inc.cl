@@ -141,9 +141,9 @@ typedef struct {
 } Meeting;
 
 // Returns the distances, and whether surface_ray_distance must decide. `marks` contains the
-// triangles' flags. One-sided triangles do not stop rays on their inner side. For rays from the
-// eye, only triangles within rounding of the eye are near. For rays that leave a surface, every
-// triangle is.
+// triangles' flags. One-sided triangles do not stop rays on their inner side. All triangles are
+// near for rays that leave a surface, but only those within rounding of the eye for rays from the
+// eye.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {

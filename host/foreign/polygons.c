@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+// Assimp takes at least n * n steps for a polygon of n corners. The code here adds up these squares
+// and compares the sum with a limit.
 #include "foreign/polygons.h"
 
-// Assimp triangulates a polygon of n corners in n * n steps or more. The sum of the squares may be
-// at most this. One polygon may have 30,000 corners, which take about five seconds.
+// The largest sum of n * n over a model's polygons of n corners. A single polygon may have 30,000
+// corners, which take about five seconds.
 #define STEPS_MOST 900000000.0
 
 typedef struct {

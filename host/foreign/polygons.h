@@ -9,6 +9,6 @@
 // Returns false if the scene's polygons take too long to triangulate.
 bool polygons_check_scene(const struct aiScene *scene, Error *error);
 
-// The same for the text of an OBJ file, before Assimp reads it: Assimp 5.4 takes n * n steps or
-// more to read a face of n corners.
+// Returns false if the polygons of an OBJ file take too long. This check reads the file's text
+// before Assimp does, because Assimp 5.4 takes at least n * n steps to read a face of n corners.
 bool polygons_check_obj(const File *file, Error *error);

@@ -7,7 +7,7 @@
 struct Worker {
     WorkerSetup setup;
     pthread_t thread;
-    pthread_mutex_t mutex; // guards the members from request to stops
+    pthread_mutex_t mutex; // guards request, status, model and stops
     pthread_cond_t changed;
     WorkerRequest request;
     WorkerStatus status;
