@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Accepts triangles as hits, in every search. A packet's rays are tested against one triangle; a
-// packet of one lane is a single ray of pair.cl. wide.cl tests a single ray against a block and
-// takes the same decisions for one lane. Doubtful cases are rare and leave the common path: a
-// triangle within rounding of the ray's start (stops_on_neighbor), and triangles whose distances
-// differ only by rounding (triangle_is_nearer).
+// Decides whether a triangle becomes the best hit, in every search. pair.cl and packet.cl test one
+// triangle against one ray or a packet of rays. wide.cl tests one ray against a block of triangles,
+// and takes the same decisions for one lane.
+//
+// Two cases are doubtful. They are rare, so their code is out of line: a triangle within rounding
+// of the ray's start (stops_on_neighbor), and triangles whose distances differ only by rounding
+// (triangle_is_nearer).
+//
+// Invariant: the decision depends only on the ray, the triangle and the best hit so far. The best
+// of several triangles does not depend on the order in which they are tested.
 #ifndef CLRT_ACCEPT_CL
 #define CLRT_ACCEPT_CL
 #include "order.cl"
@@ -27,15 +32,16 @@ static inline Sides sides_exchanged(Mask exchange, Sides sides)
     return (Sides){exchange ? sides.back : sides.front, exchange ? sides.front : sides.back};
 }
 
-// Returns whether a ray that leaves its own triangle certainly stops on another that its line hits
-// within rounding of the ray's start. The relative position of the triangles decides, seen from
-// both:
+// Returns whether a ray that leaves its own triangle certainly stops on another triangle, which its
+// line hits within rounding of the ray's start. The positions of the two triangles decide:
 //  - The other triangle is ahead if it is on the side of the own plane to which the ray leaves. It
-//    is not ahead if it is on the opposite side.
-//  - The ray starts on the own triangle. The other is ahead if the own triangle is on the side of
-//    the other's plane that the ray comes from. It is not ahead if the own is on the opposite side.
-// A ray does not hit coplanar neighbors. `cross` receives the lanes in which the triangles lie on
-// both sides of each other's planes. There the order along the ray decides (order.cl).
+//    is behind if it is on the opposite side.
+//  - The other triangle is also ahead if the own triangle, from which the ray starts, is on the
+// side
+//    of the other plane from which the ray comes. It is behind if the own triangle is on the
+//    opposite side.
+// A ray does not hit coplanar neighbors. `cross` receives the lanes in which each triangle is on
+// both sides of the other's plane. There, the order along the ray decides (order.cl).
 static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
                                  Mask from_back, Mask *cross)
 {
@@ -49,7 +55,7 @@ static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3
     return ahead && !behind;
 }
 
-// Returns which rays stop on a triangle that their lines hit within rounding of their start.
+// Returns the rays that stop on a triangle which their lines hit within rounding of their start.
 static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask from_back)
 {
     const Ray *ray = search->ray;
@@ -85,8 +91,8 @@ typedef struct {
     uint id, marks, index;
 } TriangleName;
 
-// Returns the distances of the rays that stop on the triangle, INFINITY for the others. Distances
-// of camera rays may be beyond `reach`.
+// Returns the distances at which rays stop on the triangle, and INFINITY for rays that pass.
+// Distances of camera rays may be beyond `reach`.
 static inline Real stop_distances(const Search *search, const TriangleName *name,
                                   const TriangleTest *test, Real reach)
 {
@@ -109,8 +115,8 @@ static inline Real stop_distances(const Search *search, const TriangleName *name
     return met.near ? near : met.clear;
 }
 
-// Tests a triangle, given by its corners relative to the rays' origins, against the rays in
-// `lanes`. Returns the lanes whose hits changed.
+// Tests a triangle against the rays in `lanes`. `relative` contains its corners relative to the
+// rays' origins. Returns the lanes whose hits changed.
 static ALWAYS_INLINE Mask intersect_triangle(const Search *search, const TriangleName *name,
                                              const Corners *relative, Mask lanes, Hit *best)
 {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A beam is up to PACKETS packets that traverse the tree of wide nodes together. Bounds over all
-// their rays cull a node's children and a block's triangles for all packets at once. Each stack
-// entry stores which packets have rays inside its parent. Only these packets test their lanes
-// against the entry's own box, as single packets do (Wald, Slusallek, Benthin and Wagner,
-// "Interactive rendering with coherent ray tracing", 2001).
+// A beam is up to PACKETS packets that traverse the tree of wide nodes together (compare Wald,
+// Slusallek, Benthin and Wagner, "Interactive rendering with coherent ray tracing", 2001). Bounds
+// over all rays of the beam cull a node's children, and a block's triangles, for all packets at
+// once. Each stack entry stores the packets that have rays inside the box of its parent. Only these
+// packets test their lanes against the entry's own box.
+//
+// Rays of a beam separate as they descend. If only few lanes enter a subtree, it is searched ray by
+// ray (wide.cl).
 #ifndef CLRT_BEAM_CL
 #define CLRT_BEAM_CL
 #include "bounds.cl"
@@ -11,8 +14,8 @@
 #if CLRT_WIDE_NODES
 
 // If at most this many lanes of a beam enter a subtree, it is searched ray by ray. The limit is
-// higher in dense scenes, which scatter rays. With the two limits exchanged, scenes of 6 thousand
-// triangles take 9 % longer, and scenes of a million take 10 % longer.
+// higher in dense scenes, in which rays separate more. With the two limits exchanged, scenes of 6
+// thousand triangles take 9 % longer, and scenes of a million take 10 % longer.
 #define MOST_LANES_LEAVING       12
 #define MOST_LANES_LEAVING_DENSE 40
 
@@ -145,7 +148,7 @@ static inline uint packets_searching(const Beam *beam)
     return packets;
 }
 
-// Returns how many lanes of the given packets have their bits set.
+// Returns the number of lanes of the given packets whose bits are set.
 static inline uint lanes_in(uint packets, const uint bits[PACKETS])
 {
     uint count = 0;

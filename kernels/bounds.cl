@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Computes bounds over rays whose directions share their signs. The bounds cull a node's children
-// and a block's triangles, eight at a time (Boulos, Wald and Shirley, "Geometric and arithmetic
-// culling methods for entire ray packets", 2006).
+// Computes bounds over rays whose directions share their signs, by interval arithmetic (Boulos,
+// Wald and Shirley, "Geometric and arithmetic culling methods for entire ray packets", 2006). The
+// bounds cull eight boxes at a time: a node's children, or the boxes around a block's triangles.
+//
+// Invariant: the bounds only cull. A box that any of the rays may enter before `reach` is never
+// culled.
 #ifndef CLRT_BOUNDS_CL
 #define CLRT_BOUNDS_CL
 #include "packet.cl"

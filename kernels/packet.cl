@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Packets of rays whose directions share their signs, and their tests against the triangles of a
-// block. Bounds over the rays cull eight triangles at a time. Each remaining triangle is tested
-// against all lanes at once with triangle.inc.cl's operations.
+// Tests packets of rays against the triangles of a block. The directions of a packet share their
+// signs. Bounds over the rays have culled most of the block's triangles (bounds.cl). Each remaining
+// triangle is tested against all lanes at once, by the operations of triangle.inc.cl.
 #ifndef CLRT_PACKET_CL
 #define CLRT_PACKET_CL
 #include "wide.cl"

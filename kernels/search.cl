@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Prepares rays for the tests against boxes and triangles. Boxes only cull, and they
-// never cull a triangle that the triangle test would accept. The host grows each box by BVH_SLACK
-// times its largest coordinate. slabs_of moves the ray's origin by BVH_SLACK times the origin's
-// largest coordinate: forward for near planes, back for far planes. Together they cover the
-// rounding of the triangle test and of the slabs (shared.h). The hit is therefore the same for
-// every tree, for every traversal order and without a tree.
+// Prepares rays for the tests against boxes and triangles.
+//
+// Invariant: boxes only cull, and never a triangle that the triangle test would accept. The hit is
+// therefore the same for every tree, for every traversal order and without a tree.
+//
+// To ensure this, the host grows each box by BVH_SLACK times its largest coordinate. slabs_of moves
+// the ray's origin by BVH_SLACK times the origin's largest coordinate, forward for near planes and
+// back for far planes. Both together cover the rounding of the triangle test and of the box test
+// (shared.h).
 #ifndef CLRT_SEARCH_CL
 #define CLRT_SEARCH_CL
 #include "ray.cl"
@@ -46,8 +49,9 @@ typedef struct {
     Real3 inverse, near_offset, far_offset;
 } Slabs;
 
-// Raises components below 2^-30 of the largest one (docs/numerics.md, B8). The inverses are then
-// finite if the largest component exceeds 2^-96. Shorter rays have no usable direction.
+// Raises a component of the direction to at least 2^-30 of the largest one (docs/numerics.md, B8).
+// The inverses are then finite if the largest component exceeds 2^-96. Shorter directions are
+// unusable.
 static inline Real slab_direction(Real direction, Real smallest)
 {
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
@@ -100,9 +104,9 @@ static inline Search search_along(const Tracer *tracer, const Ray *ray, Real lim
     return search;
 }
 
-// Returns the distance beyond which no triangle precedes the best hit. Nearness may prefer a
-// triangle that is farther by up to `tie` (order.cl). A small triangle's box can be narrower than
-// this, so boxes must not be culled at the best distance itself.
+// Returns the distance beyond which no triangle precedes the best hit. By nearness, a triangle may
+// precede the best hit although its t is larger by up to `tie` (order.cl). The box of a small
+// triangle can be narrower than this, so boxes must not be culled at the best distance itself.
 static inline Real search_reach(const Search *search, const Hit *best)
 {
     return best->t + search->tie;

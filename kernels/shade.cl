@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The color of a surface under the point lights, before reflection: silhouette, matte or
-// Blinn-Phong (Blinn, "Models of light reflection for computer synthesized pictures", 1977).
+// Computes the color of a surface under the point lights, without reflections. Its shader is
+// silhouette, matte or Blinn-Phong (Blinn, "Models of light reflection for computer synthesized
+// pictures", 1977).
 #ifndef CLRT_SHADE_CL
 #define CLRT_SHADE_CL
 #include "surface.cl"
 
-// The cap keeps sums finite for lights of any intensity, so that 0 * sum is never a NaN.
+// Sums of light are limited to this number. They then stay finite for lights of any intensity, so
+// that 0 * sum is never a NaN.
 #define BRIGHTEST ((Real)(1e30f))
 
-// Returns the highlight (n.h)^shininess. Except for integers up to 1024, this is exp(shininess *
-// log(n.h)), where 1 - n.h is computed from |n - h| without cancellation. At shininess 1e6, the
-// error of this function is 5e-5. The error of pow with the rounded dot product is 0.14.
+// Returns the highlight (n.h)^shininess. If shininess is an integer up to 1024, this is a product.
+// Otherwise, it is exp(shininess * log(n.h)), where 1 - n.h is computed from |n - h| without
+// cancellation. At shininess 1e6, this has an error of 5e-5, and pow of the rounded dot product
+// would have an error of 0.14.
 static inline Real highlight(const MaterialLanes *material, Real3 normal, Real3 half_vector)
 {
     const Mask is_integer = material->exponent != 0xffffffffu;
@@ -61,9 +64,8 @@ static inline LightSample sample_light(const Tracer *tracer, uint index, const S
 }
 
 // Returns the shadow ray. It starts at the surface, because hits near a ray's start are the most
-// precise. Light then leaks through no edge of a closed shape, at any distance. Starting at the
-// light, the common origin of all rays, would make packets 2 % faster in small scenes and slower in
-// large ones.
+// precise. Light then leaks through no edge of a closed shape, at any distance. If shadow rays
+// started at the light, packets would be 2 % faster in small scenes and slower in large scenes.
 static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
                                const LightSample *light)
 {

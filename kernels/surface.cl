@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Turns a hit into a surface: the point and its normals. Points are interpolated on the triangle or
-// projected onto the sphere, so their error does not grow with the distance traveled (pbrt, section
-// 6.8). New rays start at the point. The side on which the point lies decides which
-// triangles they may stop on (triangle.inc.cl), so no offset moves contacts and shadows. The start
-// moves only if, seen along the new ray, rounding has put the point outside its triangle.
+// A hit -> a surface, which is the point and its normals, and the rays that leave the surface. The
+// point is interpolated on the triangle or projected onto the sphere, so its error does not grow
+// with the distance traveled (Pharr, Jakob and Humphreys, "Physically based rendering", 4th
+// edition, section 6.8).
 //
-// The shading normal and the true face can face opposite sides. Two rules then decide which light
-// reaches the surface and which rays leave it. The face's normal always points to the ray's side.
+// New rays start at the point. The side of a triangle's plane on which the point lies decides
+// whether a new ray may stop on the triangle (triangle.inc.cl). No offset is necessary, so contacts
+// and shadows stay in place. The start moves only if, seen along the new ray, rounding has put the
+// point outside its own triangle.
+//
+// The shading normal and the face can point to opposite sides. Two rules then decide which light
+// reaches the surface and which rays leave it. The face's normal always points to the side from
+// which the ray comes.
 //  - A light reaches a point only if the shading normal and the face both face it (shade.cl). The
 //    course's renderers (docs/scenes.md) start shadow rays slightly off the surface with the same
 //    effect: the face blocks a light behind it. A sphere seen from inside keeps its outward normal,
@@ -32,8 +37,8 @@ static inline Mask has_length(Real3 v)
     return largest_component(v) > 0.0f;
 }
 
-// A collinear triangle, which a ray hits only through rounding, has no normal. toward_viewer
-// replaces it.
+// Returns the normal of the triangle's plane. A triangle whose corners are on a line has none, and
+// a ray hits it only by rounding. Its normal is toward_viewer.
 static inline Real3 triangle_face(const Corners *corners, Real3 toward_viewer)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -83,8 +88,8 @@ static inline View view_of(const Corners *corners, Real3 origin, Real3 direction
     return view;
 }
 
-// A weight is the distance from an edge as a fraction of the altitude. The altitude is twice the
-// area over the edge's length.
+// Records the distance of the point from the edges. A weight is the distance from an edge as a
+// fraction of the altitude, which is twice the area divided by the edge's length.
 static inline void note_edges(Surface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -118,8 +123,8 @@ static inline Surface triangle_surface(const Tracer *tracer, const Ray *ray, con
 }
 
 // Returns whether a ray that hits the sphere comes from outside. sphere_distance uses the same
-// power to choose between the near and the far wall. The answer therefore also holds for a grazing
-// ray, where rounding may turn the normal away.
+// sphere_power to choose between the near and the far wall. The result is therefore right even for
+// a grazing ray, for which rounding may turn the normal away.
 static inline Mask comes_from_outside(const Sphere *sphere, const Ray *ray, const Hit *hit)
 {
     const TwoFloat3 f = sphere_to_origin(sphere, ray->origin);
@@ -158,8 +163,8 @@ static inline Surface choose_surface(Mask first, const Surface *a, const Surface
                      first ? a->edge : b->edge};
 }
 
-// Lanes of hit outside `met` copy a lane inside. Their results are discarded, but they must read
-// valid memory.
+// Fills the lanes outside `met` with the hit of a lane in `met`. Their results are discarded, but
+// they must read valid memory.
 static inline Hit hit_everywhere(const Hit *hit, Mask met)
 {
     Hit filled = *hit;
@@ -264,10 +269,10 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
     return point;
 }
 
-// Returns the start of a ray that leaves the surface, and may lift its direction. The ray's line
-// should pass through the surface's triangle, which rounding can prevent only near edges. A point
-// with coordinates up to 1 is off by some units of rounding. Along the plane, the line is off by
-// this error over the sine (docs/numerics.md, B14).
+// Returns the start of a ray that leaves the surface, and may lift the ray's direction. The ray's
+// line should pass through the surface's triangle. Rounding can prevent this only near edges: a
+// point with coordinates up to 1 is off by some units of rounding, and along the plane the line is
+// off by this error divided by the sine (docs/numerics.md, B14).
 static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Heading *heading,
                                Real sine, Mask active)
 {
@@ -278,8 +283,9 @@ static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Hea
     return point_inside(tracer, surface, heading, sine, near_edge);
 }
 
-// An interpolated normal can send the reflected ray into the surface it leaves. That ray is
-// mirrored out at the true surface, and changes continuously with the normal.
+// Returns the reflected ray. An interpolated normal can send it into the surface that it leaves.
+// Such a ray is mirrored out at the face. Its direction then still changes continuously with the
+// normal.
 static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Mask active)
 {
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Follows a camera ray through its reflections (Whitted, CACM 23(6) 1980). OpenCL C has no
-// recursion, so the loop keeps the weight that a recursive tracer keeps on its stack.
+// Follows camera rays through their reflections (Whitted, "An improved illumination model for
+// shaded display", CACM 23(6), 1980). OpenCL C has no recursion. A path therefore keeps its color
+// so far and the weight of its next ray, which a recursive tracer would keep on its stack.
 #ifndef CLRT_TRACE_CL
 #define CLRT_TRACE_CL
 #include "camera.cl"
 #include "shade.cl"
 
-// Every Real from this number on is an integer. Adding it to a smaller Real rounds the sum to one.
+// All Reals from this number on are integers, so adding it to a smaller Real rounds the sum to an
+// integer.
 #define LEAST_WHOLE ((Real)(1ul << SIGNIFICAND_BITS))
 
 // Returns a color as a rounded number of steps of 2^-32. PoCL's rint takes 20 instructions.
@@ -69,8 +71,8 @@ static inline void count_rays(const Paths *paths, uint number, Tally *tally)
     tally->shaded_points += met;
 }
 
-// Returns the number that stands for a surface in signatures. Each sphere is its own surface; all
-// triangles of one material are one surface.
+// Returns the number that stands for a surface in signatures. Each sphere is a surface of its own,
+// and all triangles of one material are one surface.
 static inline UInt surface_word(const FrameData *frame, const Surface *surface)
 {
     const UInt of_mesh = frame->sphere_count + surface->material;

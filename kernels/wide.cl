@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Traces single rays through the tree of wide nodes. All children of a node and all triangles of a
-// block are tested at once (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The rays of
-// a packet's lanes advance alternately, one step each. Boxes are culled as in pair.cl, and
-// accept.cl accepts hits, so both searches find the same hits.
+// Traces single rays through the tree of wide nodes. One vector operation tests all children of a
+// node, or all triangles of a block (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The
+// rays of a packet's lanes take turns, one step each: while one ray waits for memory, the others
+// advance.
+//
+// Invariant: boxes are culled as in pair.cl, and accept.cl accepts hits, so both searches find the
+// same hits.
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
 #include "accept.cl"
@@ -20,7 +23,7 @@ static inline uint lane_uint(const UInt *lanes, uint lane)
     return ((const uint *)lanes)[lane];
 }
 
-// search_reach for one lane.
+// Returns search_reach for one lane.
 static inline float lane_reach(const Search *search, const Hit *hits, uint lane)
 {
     return lane_real(&hits->t, lane) + lane_real(&search->tie, lane);
@@ -122,7 +125,7 @@ static inline Wide3 splat3(const Real3 *v, uint lane)
     return (Wide3){lane_real(&v->x, lane), lane_real(&v->y, lane), lane_real(&v->z, lane)};
 }
 
-// Returns which of the triangles stop the lane's ray, among triangles that its line hits within
+// Returns the triangles that stop the lane's ray. The ray's line hits all given triangles within
 // rounding of its start.
 static NOT_INLINE int8 block_neighbors(const Search *search, uint lane, uint first, uint triangles,
                                        uint from_back)
@@ -137,7 +140,7 @@ static NOT_INLINE int8 block_neighbors(const Search *search, uint lane, uint fir
     return stops;
 }
 
-// stop_distances for a block and a lane's ray.
+// Returns stop_distances for a block and the ray of a lane.
 static inline float8 block_distances(const BlockPlace *start, const Search *search, uint lane,
                                      const WideTriangleTest *test, float reach)
 {
@@ -280,9 +283,8 @@ static inline void visit_leaves(LaneSearches *searches)
     }
 }
 
-// Searches below a child for the rays of the lanes whose bits are set. While one ray waits for
-// memory or for its last step's result, the others advance. This is a fifth faster than tracing one
-// ray after another.
+// Searches below a child for the rays of the lanes whose bits are set. This is a fifth faster than
+// tracing one ray after another.
 static NOT_INLINE void intersect_lanes(const Search *search, uint bits, uint child, Hit *best)
 {
     LaneSearches searches;
