@@ -52,8 +52,8 @@ static inline void face_viewer(UncertainSurface *surface)
     surface->face = negative3(surface->face);
 }
 
-// Records a lower bound on the distance between the edges and the point. The bound allows for the
-// point's slide.
+// Sets area, room and edge. end.slide reduces the room, because the exact point may be closer to an
+// edge than the tracer's point.
 static inline void note_room(UncertainSurface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);

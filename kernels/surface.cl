@@ -221,7 +221,8 @@ static inline Leaving leaving_from(const Tracer *tracer, const Surface *surface,
     return leaving;
 }
 
-// Returns whether the ray's line passes through the triangle, to the side to which the ray leaves.
+// Returns whether the ray's line crosses the triangle in the right direction: to the front if
+// to_front is set, otherwise to the back.
 static inline Mask passes(const Leaving *leaving, Real3 point, Real3 direction)
 {
     const View view = view_of(&leaving->corners, point, direction);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Makes aims and shoots rays at them. If all triangles around an aim of a closed mesh face the
-// origin of a ray to the aim, the ray must hit one of them. Only rounding could let it pass. The
-// bounds on rounding are generous, so aims with too sharp angles or too small triangles get no ray.
+// Makes aims and shoots rays at them. A ray is cast only if all triangles around its aim face its
+// origin. In a closed mesh, the exact ray then hits one of them, so a ray that passes shows a leak.
+// The bounds on rounding are generous: aims get no ray if angles are too sharp or triangles too
+// small.
 #include "check/aims.h"
 
 #include "base/array.h"

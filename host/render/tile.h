@@ -49,7 +49,7 @@ typedef struct {
 // tiles, in a single column.
 void tile_frame_size(const RenderSettings *settings, uint32_t *width, uint32_t *height);
 
-// Return the number of tiles to draw, and the tile with this number.
+// The tiles to draw have the numbers from 0 to tile_count less 1.
 uint64_t tile_count(const RenderSettings *settings);
 Tile tile_at(const RenderSettings *settings, uint64_t number);
 

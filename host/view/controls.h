@@ -46,7 +46,7 @@ typedef struct {
     double right, down;
 } Event;
 
-// The bits of commands. An event triggers them in addition to changes of the state.
+// Commands, as bits of a mask. An event can change the state and give commands.
 enum {
     COMMAND_CAMERA = 1,
     COMMAND_SAVE = 2,
