@@ -34,12 +34,10 @@ static inline Sides sides_exchanged(Mask exchange, Sides sides)
 
 // Returns whether a ray that leaves its own triangle certainly stops on another triangle, which its
 // line hits within rounding of the ray's start. The positions of the two triangles decide:
-//  - The other triangle is ahead if it is on the side of the own plane to which the ray leaves. It
-//    is behind if it is on the opposite side.
-//  - The other triangle is also ahead if the own triangle, from which the ray starts, is on the
-// side
-//    of the other plane from which the ray comes. It is behind if the own triangle is on the
-//    opposite side.
+//  - The plane of the own triangle: the other triangle is ahead if it is on the side to which the
+//    ray leaves, and behind if it is on the opposite side.
+//  - The plane of the other triangle: the other triangle is ahead if the own triangle is on the
+//    side from which the ray comes, and behind if the own triangle is on the opposite side.
 // A ray does not hit coplanar neighbors. `cross` receives the lanes in which each triangle is on
 // both sides of the other's plane. There, the order along the ray decides (order.cl).
 static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3 direction,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds all triangles that rays cross. By the parity of their number, callers decide whether a ray
-// starts inside a closed surface: it does if the number is odd.
+// Finds all triangles that rays cross. If their number is odd, the ray starts inside a closed
+// surface.
 //
 // A ray through an edge or a vertex hits several triangles that share it. It would cross the
 // surface several times there, and the parity would be wrong. Therefore only triangles that own the
