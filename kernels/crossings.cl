@@ -160,7 +160,11 @@ kernel void find_crossings(const FrameData frame, global const SphereData *spher
     if (place >= count)
         return;
     Tally tally = {0};
-    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
+    const Tracer tracer = {.spheres = spheres,
+                           .nodes = nodes,
+                           .triangles = triangles,
+                           .frame = &frame,
+                           .tally = &tally};
     global const RayData *data = &rays[place];
     const Ray ray = {load3(data->origin), load3(data->direction), data->own, NOTHING,
                      RAY_CAMERA,          lanes_of(ALL_LANES)};

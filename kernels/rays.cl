@@ -95,7 +95,11 @@ kernel void trace_rays(const FrameData frame, global const SphereData *spheres,
     if (start >= count)
         return;
     Tally tally = {0};
-    const Tracer tracer = {0, 0, spheres, nodes, triangles, 0, 0, &frame, &tally};
+    const Tracer tracer = {.spheres = spheres,
+                           .nodes = nodes,
+                           .triangles = triangles,
+                           .frame = &frame,
+                           .tally = &tally};
     Ray packets[PACKETS];
     Hit found[PACKETS];
     for (uint i = 0; i < PACKETS; i++)
