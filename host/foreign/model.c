@@ -58,8 +58,6 @@ static void send_note(FILE *stream, const Files *files, const PartCounts *counts
         fprintf(text, "; %zu lines and points are left out", counts->others);
     if (counts->is_textured)
         fputs("; its textures are left out", text);
-    if (counts->is_colored)
-        fputs("; its colors per vertex are left out", text);
     if (lacks_materials(files))
         fprintf(text,
                 "; its materials, %.200s, cannot be opened: those that it names are gray (0.6 0.6 "

@@ -95,7 +95,7 @@ typedef struct {
     uint32_t sent_count;
     ForeignPart part; // the part being collected
     ARRAY(Triangle) triangles;
-    size_t vertex_capacity, normal_capacity;
+    size_t vertex_capacity, normal_capacity, color_capacity;
     Error *error;
 } Sender;
 
@@ -200,6 +200,17 @@ static void place_normals(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
+static void copy_colors(const Sender *sender, const struct aiMesh *mesh)
+{
+    float(*colors)[3] = sender->part.mesh.colors + sender->part.mesh.vertex_count;
+    for (size_t i = 0; i < mesh->mNumVertices; i++) {
+        const struct aiColor4D *given = &mesh->mColors[0][i];
+        colors[i][0] = given->r;
+        colors[i][1] = given->g;
+        colors[i][2] = given->b;
+    }
+}
+
 // Returns whether all corners of a face are vertices of its mesh, because Assimp does not check
 // this for all formats.
 static bool is_within(const struct aiFace *face, size_t vertex_count)
@@ -213,7 +224,6 @@ static bool is_within(const struct aiFace *face, size_t vertex_count)
 static bool add_triangles(Sender *sender, const struct aiMesh *mesh, bool is_mirror)
 {
     const uint32_t base = (uint32_t)sender->part.mesh.vertex_count;
-    sender->counts->is_colored |= mesh->mColors[0] != NULL;
     for (size_t i = 0; i < mesh->mNumFaces; i++) {
         const struct aiFace *face = &mesh->mFaces[i];
         if (face->mNumIndices != 3) {
@@ -244,7 +254,7 @@ static bool send_part_so_far(Sender *sender)
     mesh_free(mesh);
     sender->triangles.memory = NULL;
     sender->triangles.count = sender->triangles.capacity = 0;
-    sender->vertex_capacity = sender->normal_capacity = 0;
+    sender->vertex_capacity = sender->normal_capacity = sender->color_capacity = 0;
     return ferror(sender->stream) == 0 ||
            error_set(sender->error, "the receiver has closed the stream");
 }
@@ -268,10 +278,10 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
 
 // Reserves memory for `count` more vertices. If the part has normals or gets some now, the normals
 // of vertices without any are zero.
-static bool reserve_vertices(Sender *sender, size_t count, bool has_normals)
+static bool reserve_vertices(Sender *sender, size_t count, bool has_normals, bool has_colors)
 {
     Mesh *mesh = &sender->part.mesh;
-    void *positions = mesh->positions, *normals = mesh->normals;
+    void *positions = mesh->positions, *normals = mesh->normals, *colors = mesh->colors;
     const size_t held = mesh->normals != NULL ? mesh->vertex_count : 0;
     const size_t wanted = mesh->vertex_count + count;
     bool ok = array_reserve(&positions, &sender->vertex_capacity, wanted, sizeof *mesh->positions,
@@ -283,6 +293,10 @@ static bool reserve_vertices(Sender *sender, size_t count, bool has_normals)
     mesh->normals = normals;
     if (ok && normals != NULL)
         memset(mesh->normals + held, 0, (wanted - held) * sizeof *mesh->normals);
+    if (ok && has_colors)
+        ok = array_reserve(&colors, &sender->color_capacity, wanted, sizeof *mesh->colors,
+                           sender->error);
+    mesh->colors = colors;
     return ok;
 }
 
@@ -292,15 +306,19 @@ static bool add_mesh(Sender *sender, const struct aiMesh *mesh, const Placement 
     const uint32_t material = number_of_material(sender, mesh);
     const NormalMatrix normal_matrix = normal_matrix_of(placement);
     const bool has_normals = sender->keeps_normals && mesh->mNormals != NULL;
+    const bool has_colors = mesh->mColors[0] != NULL;
     const bool fits = part->vertex_count + mesh->mNumVertices < (size_t)MESH_COUNT_MOST;
-    if ((material != sender->part.material || !fits) && !send_part_so_far(sender))
+    const bool differs = material != sender->part.material || has_colors != (part->colors != NULL);
+    if ((differs || !fits) && !send_part_so_far(sender))
         return false;
     sender->part.material = material;
-    if (!reserve_vertices(sender, mesh->mNumVertices, has_normals))
+    if (!reserve_vertices(sender, mesh->mNumVertices, has_normals, has_colors))
         return false;
     place_vertices(sender, mesh, placement, normal_matrix.is_identity);
     if (has_normals)
         place_normals(sender, mesh, &normal_matrix);
+    if (has_colors)
+        copy_colors(sender, mesh);
     if (!add_triangles(sender, mesh, normal_matrix.is_mirror))
         return false;
     part->vertex_count += mesh->mNumVertices;

@@ -11,7 +11,6 @@ typedef struct {
     size_t triangles;
     size_t others;    // faces that are points or lines
     bool is_textured; // the color of a part has a texture, which clrt does not render
-    bool is_colored;  // a part's vertices have colors
 } PartCounts;
 
 // Sends every part after its material. keeps_normals is false for formats whose normals are those

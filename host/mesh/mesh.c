@@ -6,6 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool mesh_allocate_vertices(Mesh *mesh, bool has_normals, bool has_colors, Error *error)
+{
+    const size_t count = mesh->vertex_count;
+    mesh->positions = memory_raw(count, sizeof *mesh->positions, error);
+    if (mesh->positions != NULL && has_normals)
+        mesh->normals = memory_raw(count, sizeof *mesh->normals, error);
+    if (mesh->positions != NULL && has_colors)
+        mesh->colors = memory_raw(count, sizeof *mesh->colors, error);
+    return mesh->positions != NULL && (mesh->normals != NULL || !has_normals) &&
+           (mesh->colors != NULL || !has_colors);
+}
+
 void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high)
 {
     Vec3 least = *low, most = *high;
@@ -99,10 +111,17 @@ void mesh_drop_normals(Mesh *mesh)
     mesh->normals = NULL;
 }
 
+void mesh_drop_colors(Mesh *mesh)
+{
+    free(mesh->colors);
+    mesh->colors = NULL;
+}
+
 void mesh_free(Mesh *mesh)
 {
     free(mesh->positions);
     free(mesh->normals);
+    free(mesh->colors);
     free(mesh->triangles);
     free(mesh->dropped.data);
     *mesh = (Mesh){0};

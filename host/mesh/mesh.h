@@ -26,6 +26,7 @@ typedef struct {
     double (*positions)[3]; // vertex_count finite points, each |component| <= 1e30
     float (*normals)[3]; // vertex_count finite vectors of any length, zero for vertices without a
                          // normal; NULL if the mesh has no normals
+    float (*colors)[3];  // vertex_count colors, components in [0, 1]; NULL if the mesh has none
     Triangle *triangles; // triangle_count of them
     size_t vertex_count, triangle_count;
     ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
@@ -35,6 +36,10 @@ typedef struct {
     // zero. Only tolerant readers accept such vertices.
     MeshFault bad_positions, bad_normals;
 } Mesh;
+
+// Allocates the arrays of mesh->vertex_count vertices, without values. Fails if memory runs out;
+// the mesh must then be freed.
+bool mesh_allocate_vertices(Mesh *mesh, bool has_normals, bool has_colors, Error *error);
 
 // Extends low and high to contain all vertices that triangles use.
 void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
@@ -51,6 +56,9 @@ size_t mesh_original_number(const Mesh *mesh, size_t triangle);
 
 // Removes the normals, so that the mesh is shaded flat.
 void mesh_drop_normals(Mesh *mesh);
+
+// Removes the colors, so that the mesh has the diffuse color of its material.
+void mesh_drop_colors(Mesh *mesh);
 
 // Frees the mesh's memory and leaves a valid empty mesh.
 void mesh_free(Mesh *mesh);

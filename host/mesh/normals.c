@@ -209,21 +209,30 @@ static bool make_vertices(Smoothing *smoothing, Error *error)
     return vertices != NULL;
 }
 
-// Gives a corner its own vertex if the file has a normal for the corner. Does the same if the fan's
-// mean normal is zero, or differs from the face's normal by more than the crease angle. This
-// happens at the tip of a cone.
+static bool have_same_color(const Mesh *mesh, uint32_t vertex, uint32_t other)
+{
+    return mesh->colors == NULL ||
+           memcmp(mesh->colors[vertex], mesh->colors[other], sizeof *mesh->colors) == 0;
+}
+
+// Gives a corner its own vertex if the file has a normal for the corner, or if the corner's color
+// differs from the fan's. Does the same if the fan's mean normal is zero, or differs from the
+// face's normal by more than the crease angle. This happens at the tip of a cone.
 static bool split_corners(Smoothing *smoothing, Error *error)
 {
     for (size_t i = 0; i < 3 * smoothing->mesh->triangle_count; i++) {
         const uint32_t old = smoothing->mesh->triangles[i / 3][i % 3];
         uint32_t *place = &smoothing->fans.parents[i];
-        const Vec3 mean = smoothing->vertices.data[*place].normal;
+        const FanVertex fan = smoothing->vertices.data[*place];
+        const Vec3 mean = fan.normal;
         const Vec3 face = smoothing->faces[i / 3].normal,
                    given = given_normal(smoothing->mesh, old);
         const bool is_given = vec3_dot(given, given) > 0;
-        if (!is_given && vec3_dot(mean, mean) > 0 && vec3_dot(mean, face) >= smoothing->cosine)
+        const bool is_mean =
+            !is_given && vec3_dot(mean, mean) > 0 && vec3_dot(mean, face) >= smoothing->cosine;
+        if (is_mean && have_same_color(smoothing->mesh, old, fan.old))
             continue;
-        const FanVertex own = {is_given ? given : face, old};
+        const FanVertex own = {is_given ? given : is_mean ? mean : face, old};
         *place = (uint32_t)smoothing->vertices.count;
         if (!array_push(&smoothing->vertices, own, error))
             return false;
@@ -236,22 +245,24 @@ static bool split_corners(Smoothing *smoothing, Error *error)
 static bool replace_vertices(Mesh *mesh, const Smoothing *smoothing, Error *error)
 {
     const size_t count = smoothing->vertices.count;
-    Mesh made = {.positions = memory_raw(count, sizeof *made.positions, error),
-                 .normals = memory_raw(count, sizeof *made.normals, error)};
-    const bool ok = made.positions != NULL && made.normals != NULL;
+    Mesh made = {.vertex_count = count};
+    const bool ok = mesh_allocate_vertices(&made, true, mesh->colors != NULL, error);
     for (size_t i = 0; ok && i < count; i++) {
         const FanVertex *vertex = &smoothing->vertices.data[i];
         memcpy(made.positions[i], mesh->positions[vertex->old], sizeof *made.positions);
         vec3_store(made.normals[i], vertex->normal);
+        if (made.colors != NULL)
+            memcpy(made.colors[i], mesh->colors[vertex->old], sizeof *made.colors);
     }
     if (ok) {
         const Mesh old = *mesh;
         mesh->positions = made.positions;
         mesh->normals = made.normals;
+        mesh->colors = made.colors;
         mesh->vertex_count = count;
         memcpy(mesh->triangles, smoothing->fans.parents,
                3 * sizeof(uint32_t) * mesh->triangle_count);
-        made = (Mesh){.positions = old.positions, .normals = old.normals};
+        made = (Mesh){.positions = old.positions, .normals = old.normals, .colors = old.colors};
     }
     mesh_free(&made);
     return ok;

@@ -49,11 +49,16 @@ static double replace_bad_value(Loader *loader, PlyRole role, double value)
 static bool read_component(Loader *loader, const PlyProperty *property)
 {
     static const char *const names[] = {"x", "y", "z", "nx", "ny", "nz"};
-    const char *name = names[property->role];
     PlyReader *reader = &loader->reader;
     double value;
     if (!ply_reader_read_number(reader, property->type, &value))
         return false;
+    if (property->role >= PLY_RED) {
+        loader->mesh->colors[reader->index][property->role - PLY_RED] =
+            ply_reader_color(property->type, value);
+        return true;
+    }
+    const char *name = names[property->role];
     if (reader->is_tolerant)
         value = replace_bad_value(loader, property->role, value);
     if (property->role <= PLY_Z) {
@@ -188,13 +193,10 @@ static size_t smaller(size_t a, size_t b)
 
 static bool allocate_vertices(Loader *loader)
 {
-    Mesh *mesh = loader->mesh;
-    Error *error = loader->reader.error;
-    mesh->vertex_count = (size_t)loader->header.vertex_count;
-    mesh->positions = memory_raw(mesh->vertex_count, sizeof *mesh->positions, error);
-    if (mesh->positions != NULL && loader->header.has_normals)
-        mesh->normals = memory_raw(mesh->vertex_count, sizeof *mesh->normals, error);
-    return mesh->positions != NULL && (mesh->normals != NULL || !loader->header.has_normals);
+    const PlyHeader *header = &loader->header;
+    loader->mesh->vertex_count = (size_t)header->vertex_count;
+    return mesh_allocate_vertices(loader->mesh, header->has_normals, header->has_colors,
+                                  loader->reader.error);
 }
 
 // Returns the smallest size of an element in bytes, which it has if its lists are empty.

@@ -10,9 +10,10 @@
 
 // Fills mesh from the `size` bytes of a PLY file. Messages call the file `name`.
 //
-// The parser reads x y z nx ny nz of the element vertex, and the list vertex_indices (or
-// vertex_index) of the elements face and tristrips. It skips all other elements and properties.
-// Polygons become fans of triangles. Triangles with two equal corners are dropped and counted.
+// The parser reads x y z nx ny nz red green blue of the element vertex, and the list vertex_indices
+// (or vertex_index) of the elements face and tristrips. It skips all other elements and properties.
+// Colors are uchar, ushort, float or double, and are clamped. Polygons become fans of triangles.
+// Triangles with two equal corners are dropped and counted.
 //
 // Returns false if data are truncated, inconsistent, not finite or out of range. Also returns false
 // if a file without triangles has elements that the parser skips. The message gives the line or, in

@@ -43,6 +43,9 @@ static const struct {
     {PLY_VERTEX, "nx", PLY_NORMAL_X},
     {PLY_VERTEX, "ny", PLY_NORMAL_Y},
     {PLY_VERTEX, "nz", PLY_NORMAL_Z},
+    {PLY_VERTEX, "red", PLY_RED},
+    {PLY_VERTEX, "green", PLY_GREEN},
+    {PLY_VERTEX, "blue", PLY_BLUE},
     {PLY_FACE, "vertex_indices", PLY_CORNERS},
     {PLY_FACE, "vertex_index", PLY_CORNERS},
     {PLY_STRIPS, "vertex_indices", PLY_CORNERS},
@@ -182,20 +185,31 @@ static bool check_property(const Parser *parser, const PlyProperty *property, Pl
     return true;
 }
 
+// Returns whether the property's type says which number is the brightest.
+static bool has_color_type(const PlyProperty *property)
+{
+    return !property->is_list && (property->type == PLY_UINT8 || property->type == PLY_UINT16 ||
+                                  property->type >= PLY_FLOAT32);
+}
+
 // Stores the property's role. Fails if an earlier property of the element has this role, unless it
 // is PLY_UNUSED.
-static bool find_role(const Parser *parser, PlyElement *element, PlyWord name, PlyRole *role)
+static bool find_role(const Parser *parser, PlyElement *element, PlyWord name,
+                      PlyProperty *property)
 {
-    *role = PLY_UNUSED;
+    PlyRole role = PLY_UNUSED;
     for (size_t index = 0; index < COUNT_OF(roles); index++) {
         if (roles[index].kind == element->kind && word_is(name, roles[index].name))
-            *role = roles[index].role;
+            role = roles[index].role;
     }
-    if (*role == PLY_UNUSED)
+    if (role >= PLY_RED && role <= PLY_BLUE && !has_color_type(property))
+        role = PLY_UNUSED;
+    property->role = role;
+    if (role == PLY_UNUSED)
         return true;
-    if (element->roles & 1u << *role)
+    if (element->roles & 1u << role)
         return ply_reader_fail(parser->reader, "%s is declared twice", ply_reader_quote(name).text);
-    element->roles |= 1u << *role;
+    element->roles |= 1u << role;
     return true;
 }
 
@@ -215,8 +229,7 @@ static bool read_property(Parser *parser)
     if (property.is_list && !find_type(parser, parser->words[2], &property.length_type))
         return false;
     if (!find_type(parser, parser->words[word_count - 2], &property.type) ||
-        !find_role(parser, element, name, &property.role) ||
-        !check_property(parser, &property, name) ||
+        !find_role(parser, element, name, &property) || !check_property(parser, &property, name) ||
         !array_push(&header->properties, property, parser->reader->error))
         return false;
     element->property_count++;
@@ -268,14 +281,19 @@ static bool has_roles(const PlyElement *element, unsigned bits)
     return (element->roles & bits) == bits;
 }
 
-// Marks the normal components as unused, because one is missing.
-static void ignore_normals(PlyHeader *header, const PlyElement *element)
+// Returns whether the element has the role `first` and the two after it. If one is missing, marks
+// the others as unused.
+static bool has_vector(PlyHeader *header, const PlyElement *element, PlyRole first)
 {
+    const PlyRole last = first + 2;
+    if (has_roles(element, ROLE_BITS(first, last)))
+        return true;
     for (size_t index = 0; index < element->property_count; index++) {
         PlyRole *role = &header->properties.data[element->first_property + index].role;
-        if (*role >= PLY_NORMAL_X && *role <= PLY_NORMAL_Z)
+        if (*role >= first && *role <= last)
             *role = PLY_UNUSED;
     }
+    return false;
 }
 
 static bool check_element(PlyHeader *header, PlyReader *reader, const PlyElement *element)
@@ -283,9 +301,8 @@ static bool check_element(PlyHeader *header, PlyReader *reader, const PlyElement
     reader->place = element->name.start;
     if (element->kind == PLY_VERTEX) {
         header->vertex_count = element->count;
-        header->has_normals = has_roles(element, ROLE_BITS(PLY_NORMAL_X, PLY_NORMAL_Z));
-        if (!header->has_normals)
-            ignore_normals(header, element);
+        header->has_normals = has_vector(header, element, PLY_NORMAL_X);
+        header->has_colors = has_vector(header, element, PLY_RED);
         if (element->count > 0 && !has_roles(element, ROLE_BITS(PLY_X, PLY_Z)))
             return ply_reader_fail(reader, "element vertex lacks x, y or z");
     }

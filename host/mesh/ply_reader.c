@@ -22,6 +22,13 @@ bool ply_reader_is_space(char character)
     return character == ' ' || (character >= '\t' && character <= '\r');
 }
 
+float ply_reader_color(PlyType type, double value)
+{
+    const double brightest = type == PLY_UINT8 ? 255 : type == PLY_UINT16 ? 65535 : 1;
+    const double part = value / brightest;
+    return !(part > 0) ? 0 : part < 1 ? (float)part : 1;
+}
+
 static size_t line_of_place(const PlyReader *reader)
 {
     size_t line = 1;
@@ -214,7 +221,7 @@ bool ply_reader_skip_values(PlyReader *reader, PlyType type, int64_t count)
 // The following functions are the fast path for elements whose values have fixed offsets. They read
 // a value by one load, without a function call, a bounds check or a stored position for messages.
 
-#define COMPONENTS 6 // x y z nx ny nz, in the order of PlyRole
+#define COMPONENTS 9 // x y z nx ny nz red green blue, in the order of PlyRole
 
 // The offsets and types of the vertex values that a mesh uses, by PlyRole.
 typedef struct {
@@ -262,7 +269,7 @@ static bool find_vertex_layout(VertexLayout *layout, const PlyReader *reader,
     *layout = (VertexLayout){.swapped = is_swapped(reader)};
     for (size_t index = 0; index < properties.count; index++) {
         const PlyProperty *property = &properties.data[index];
-        if (property->is_list || (property->role < COMPONENTS && property->type < PLY_FLOAT32))
+        if (property->is_list || (property->role < PLY_RED && property->type < PLY_FLOAT32))
             return false;
         if (property->role < COMPONENTS) {
             layout->offsets[property->role] = layout->stride;
@@ -297,6 +304,26 @@ static inline bool load_normal(const VertexLayout *layout, const char *bytes, fl
     return valid;
 }
 
+static inline double load_component(const char *bytes, PlyType type, bool swapped)
+{
+    if (type >= PLY_FLOAT32)
+        return load_float(bytes, type, swapped);
+    if (type == PLY_UINT8)
+        return (unsigned char)*bytes;
+    uint16_t word;
+    memcpy(&word, bytes, sizeof word);
+    return swapped ? __builtin_bswap16(word) : word;
+}
+
+static inline void load_color(const VertexLayout *layout, const char *bytes, float color[3])
+{
+    for (int channel = 0; channel < 3; channel++) {
+        const PlyType type = layout->types[PLY_RED + channel];
+        const char *value = bytes + layout->offsets[PLY_RED + channel];
+        color[channel] = ply_reader_color(type, load_component(value, type, layout->swapped));
+    }
+}
+
 void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t count, Mesh *mesh)
 {
     VertexLayout layout;
@@ -308,6 +335,8 @@ void ply_bulk_vertices(PlyReader *reader, PlyProperties properties, int64_t coun
         if (!load_position(&layout, bytes, mesh->positions[index]) ||
             (mesh->normals != NULL && !load_normal(&layout, bytes, mesh->normals[index])))
             break;
+        if (mesh->colors != NULL)
+            load_color(&layout, bytes, mesh->colors[index]);
         bytes += layout.stride;
         index++;
     }

@@ -70,6 +70,10 @@ bool ply_reader_skip_values(PlyReader *reader, PlyType type, int64_t count);
 
 bool ply_reader_is_space(char character);
 
+// Returns a component of a color, in [0, 1]. The largest integer of the type stands for 1. Clamps
+// other numbers; NaN becomes zero.
+float ply_reader_color(PlyType type, double value);
+
 // The header of a PLY file: its elements, their counts, and each property's role in a Mesh.
 
 #define PLY_COUNT_LIMIT      MESH_COUNT_MOST
@@ -83,6 +87,9 @@ typedef enum {
     PLY_NORMAL_X,
     PLY_NORMAL_Y,
     PLY_NORMAL_Z,
+    PLY_RED,
+    PLY_GREEN,
+    PLY_BLUE,
     PLY_CORNERS,
     PLY_UNUSED,
 } PlyRole;
@@ -108,7 +115,7 @@ typedef struct {
     ARRAY(PlyElement) elements; // all but PLY_OTHER have the properties that a mesh needs
     ARRAY(PlyProperty) properties;
     int64_t vertex_count;
-    bool has_normals;
+    bool has_normals, has_colors;
 } PlyHeader;
 
 // The properties of one element, in the file's order; borrowed from the header.

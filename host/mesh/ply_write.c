@@ -2,6 +2,8 @@
 // Writes numbers in the machine's byte order, which ply_parse reads fastest.
 #include "mesh/ply_write.h"
 
+#include "mesh/ply_reader.h"
+
 #include <string.h>
 
 #define HEADER_SIZE 512
@@ -10,7 +12,8 @@
 typedef struct {
     char text[HEADER_SIZE];
     size_t length;
-    bool is_double;
+    bool is_double; // the positions are
+    bool is_byte;   // the colors are
 } Header;
 
 static bool holds_floats(const Mesh *mesh)
@@ -24,32 +27,64 @@ static bool holds_floats(const Mesh *mesh)
     return true;
 }
 
+static unsigned char nearest_byte(float part)
+{
+    return (unsigned char)(part * 255 + 0.5F);
+}
+
+static bool holds_bytes(const Mesh *mesh)
+{
+    for (size_t vertex = 0; mesh->colors != NULL && vertex < mesh->vertex_count; vertex++)
+        for (int channel = 0; channel < 3; channel++) {
+            const float part = mesh->colors[vertex][channel];
+            if (!(part >= 0 && part <= 1) ||
+                ply_reader_color(PLY_UINT8, nearest_byte(part)) != part)
+                return false;
+        }
+    return true;
+}
+
+static void add_properties(Header *header, const char *type, const char *const names[3])
+{
+    for (int i = 0; i < 3; i++)
+        header->length +=
+            (size_t)snprintf(header->text + header->length, sizeof header->text - header->length,
+                             "property %s %s\n", type, names[i]);
+}
+
 static Header header_of(const Mesh *mesh)
 {
-    Header header = {.is_double = !holds_floats(mesh)};
-    const char *type = header.is_double ? "double" : "float";
+    static const char *const positions[] = {"x", "y", "z"}, *const normals[] = {"nx", "ny", "nz"},
+                             *const colors[] = {"red", "green", "blue"};
+    Header header = {.is_double = !holds_floats(mesh), .is_byte = holds_bytes(mesh)};
     header.length = (size_t)snprintf(
-        header.text, sizeof header.text,
-        "ply\nformat binary_%s_endian 1.0\nelement vertex %zu\n"
-        "property %s x\nproperty %s y\nproperty %s z\n%s"
-        "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
-        __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "little" : "big", mesh->vertex_count, type,
-        type, type,
-        mesh->normals != NULL ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
-        mesh->triangle_count);
+        header.text, sizeof header.text, "ply\nformat binary_%s_endian 1.0\nelement vertex %zu\n",
+        __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "little" : "big", mesh->vertex_count);
+    add_properties(&header, header.is_double ? "double" : "float", positions);
+    if (mesh->normals != NULL)
+        add_properties(&header, "float", normals);
+    if (mesh->colors != NULL)
+        add_properties(&header, header.is_byte ? "uchar" : "float", colors);
+    header.length +=
+        (size_t)snprintf(header.text + header.length, sizeof header.text - header.length,
+                         "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
+                         mesh->triangle_count);
     return header;
 }
 
-static size_t vertex_size(const Mesh *mesh, bool is_double)
+static size_t vertex_size(const Mesh *mesh, const Header *header)
 {
-    return 3 * (is_double ? sizeof(double) : sizeof(float)) +
-           (mesh->normals != NULL ? 3 * sizeof(float) : 0);
+    return 3 * (header->is_double ? sizeof(double) : sizeof(float)) +
+           (mesh->normals != NULL ? 3 * sizeof(float) : 0) +
+           (mesh->colors == NULL ? 0
+            : header->is_byte    ? 3
+                                 : 3 * sizeof(float));
 }
 
 size_t ply_write_size(const Mesh *mesh)
 {
     const Header header = header_of(mesh);
-    return header.length + mesh->vertex_count * vertex_size(mesh, header.is_double) +
+    return header.length + mesh->vertex_count * vertex_size(mesh, &header) +
            mesh->triangle_count * FACE_SIZE;
 }
 
@@ -59,10 +94,20 @@ static char *put(char *end, const void *value, size_t size)
     return end + size;
 }
 
-static void write_vertices(const Mesh *mesh, bool is_double, FILE *stream)
+static char *put_color(char *end, const float color[3], bool is_byte)
 {
+    if (!is_byte)
+        return put(end, color, 3 * sizeof *color);
+    for (int channel = 0; channel < 3; channel++)
+        *end++ = (char)nearest_byte(color[channel]);
+    return end;
+}
+
+static void write_vertices(const Mesh *mesh, const Header *header, FILE *stream)
+{
+    const bool is_double = header->is_double;
     for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++) {
-        char bytes[3 * sizeof(double) + 3 * sizeof(float)], *end = bytes;
+        char bytes[3 * sizeof(double) + 6 * sizeof(float)], *end = bytes;
         for (int axis = 0; axis < 3; axis++) {
             const double value = mesh->positions[vertex][axis];
             const float narrowed = (float)value;
@@ -70,6 +115,8 @@ static void write_vertices(const Mesh *mesh, bool is_double, FILE *stream)
         }
         if (mesh->normals != NULL)
             end = put(end, mesh->normals[vertex], sizeof *mesh->normals);
+        if (mesh->colors != NULL)
+            end = put_color(end, mesh->colors[vertex], header->is_byte);
         fwrite(bytes, (size_t)(end - bytes), 1, stream);
     }
 }
@@ -87,7 +134,7 @@ bool ply_write(const Mesh *mesh, FILE *stream)
 {
     const Header header = header_of(mesh);
     fwrite(header.text, header.length, 1, stream);
-    write_vertices(mesh, header.is_double, stream);
+    write_vertices(mesh, &header, stream);
     write_faces(mesh, stream);
     return ferror(stream) == 0;
 }

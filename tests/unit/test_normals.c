@@ -70,6 +70,32 @@ static Mesh ball(void)
     return revolved((const double(*)[2])rings, 35, 72, -1, 1);
 }
 
+// Colors the corners of each triangle in red, green or blue.
+static float (*three_colors(size_t corners))[3]
+{
+    Error error = {0};
+    float(*colors)[3] = memory_zeroed(corners, sizeof *colors, &error);
+    assert_non_null(colors);
+    for (size_t corner = 0; corner < corners; corner++)
+        colors[corner][corner / 3 % 3] = 1;
+    return colors;
+}
+
+TEST(corners_keep_their_colors_and_share_normals)
+{
+    FREED_BY(mesh_free) Mesh mesh = ball();
+    FREED_BY(mesh_free) Mesh soup = soup_of(&mesh), colored = soup_of(&mesh);
+    colored.colors = three_colors(colored.vertex_count);
+    compute(&soup, CREASE_DEGREES);
+    compute(&colored, CREASE_DEGREES);
+    expect_same_normals(&soup, &colored);
+    for (size_t triangle = 0; triangle < colored.triangle_count; triangle++)
+        for (int corner = 0; corner < 3; corner++) {
+            const float *color = colored.colors[colored.triangles[triangle][corner]];
+            assert_true(color[triangle % 3] == 1 && color[(triangle + 1) % 3] == 0);
+        }
+}
+
 TEST(a_sphere_of_5000_triangles_is_within_half_a_degree)
 {
     FREED_BY(mesh_free) Mesh mesh = ball();

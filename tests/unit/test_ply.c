@@ -121,6 +121,8 @@ static double floats[4][3] = {
     {0, -0.0, 1}, {0x1.fffffep10, 0x1p-149, -3}, {0x1p99, 0, 0}, {0, 1, 0}};
 static double doubles[4][3] = {{0.1, 0, 1}, {1, 0x1p-1000, -3}, {9e29, 0, 0}, {0, 1, 0}};
 static float normals[4][3] = {{0, 0, 0}, {1, -0.0f, 0}, {0, 3e38f, 0x1p-149f}, {0, 0, 1}};
+static float bytes_of_colors[4][3] = {{0, 1, 0.2f}, {1 / 255.0f, 0, 0}, {1, 1, 1}, {0, 0, 0}};
+static float float_colors[4][3] = {{0, 1, 0.3f}, {0x1p-149f, 0, 0}, {1, 1, 1}, {0, 0, 0}};
 static uint32_t triangles[2][3] = {{0, 1, 2}, {2, 1, 3}};
 
 static void expect_same(Mesh mesh, size_t vertex_size)
@@ -149,10 +151,20 @@ static void expect_same(Mesh mesh, size_t vertex_size)
     assert_int_equal(again.normals != NULL, mesh.normals != NULL);
     if (mesh.normals != NULL)
         assert_memory_equal(again.normals, mesh.normals, 4 * sizeof *mesh.normals);
+    assert_int_equal(again.colors != NULL, mesh.colors != NULL);
+    if (mesh.colors != NULL)
+        assert_memory_equal(again.colors, mesh.colors, 4 * sizeof *mesh.colors);
     free(bytes);
 }
 
 #define MESH .triangles = triangles, .vertex_count = 4, .triangle_count = 2
+
+TEST(colors_come_back_in_bytes_where_they_suffice)
+{
+    expect_same((Mesh){MESH, .positions = floats, .colors = bytes_of_colors}, 15);
+    expect_same((Mesh){MESH, .positions = floats, .colors = float_colors}, 24);
+    expect_same((Mesh){MESH, .positions = doubles, .normals = normals, .colors = float_colors}, 48);
+}
 
 TEST(a_mesh_comes_back_in_floats_where_they_suffice_and_with_its_normals)
 {

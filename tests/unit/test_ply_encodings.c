@@ -83,7 +83,8 @@ static Builder square_with_extras(int encoding)
     Builder builder = builder_start(encoding);
     put_text(&builder, "element camera 1\nproperty double focus\nproperty list uchar short stops\n"
                        "element vertex 4\nproperty uchar red\nproperty float x\nproperty float y\n"
-                       "property float z\nproperty list char int links\nproperty float nx\n"
+                       "property float z\nproperty ushort green\nproperty float blue\n"
+                       "property list char int links\nproperty float nx\n"
                        "property float ny\nproperty float nz\n"
                        "element face 2\nproperty float area\n"
                        "property list uchar int vertex_indices\n"
@@ -94,6 +95,8 @@ static Builder square_with_extras(int encoding)
     for (size_t vertex = 0; vertex < 4; vertex++) {
         put_values(&builder, "uchar", 1, (double[]){255});
         put_values(&builder, "float", 3, vertices[vertex]);
+        put_values(&builder, "ushort", 1, (double[]){(double)(vertex * 1000)});
+        put_values(&builder, "float", 1, (double[]){0.25});
         put_values(&builder, "char", 1, (double[]){(double)(vertex % 3)});
         put_values(&builder, "int", vertex % 3, extras);
         put_values(&builder, "float", 3, vertices[vertex] + 3);
@@ -121,6 +124,8 @@ static void check_square(const Mesh *mesh)
     assert_true(mesh->positions[3][1] == 1 && mesh->positions[3][2] == 0.25);
     assert_true(mesh->normals[1][1] == 0.5F && mesh->normals[2][2] == -2);
     assert_true(mesh->normals[3][2] == 0);
+    assert_true(mesh->colors[3][0] == 1 && mesh->colors[3][1] == (float)(3000.0 / 65535) &&
+                mesh->colors[3][2] == 0.25F);
 }
 
 TEST(elements_that_a_mesh_does_not_use_are_skipped)
@@ -152,6 +157,56 @@ TEST(every_type_gives_coordinates_in_every_encoding)
             assert_true(mesh.positions[0][axis] ==
                         (is_rounded ? (double)(float)point[axis] : point[axis]));
         assert_null(mesh.normals);
+    }
+}
+
+// Without lists, the vertices of binary files are read in bulk.
+TEST(the_largest_value_of_a_type_is_the_brightest_color)
+{
+    static const struct {
+        const char *type;
+        double values[3];
+        float colors[3];
+    } cases[] = {
+        {"uchar", {255, 0, 51}, {1, 0, 0.2F}},
+        {"ushort", {65535, 0, 13107}, {1, 0, 0.2F}},
+        {"float", {1, 0, 0x1.99999ap-3}, {1, 0, 0.2F}},
+        {"double", {2.5, -1, 0.2}, {1, 0, 0.2F}},
+    };
+    for (size_t test = 0; test < 3 * sizeof cases / sizeof *cases; test++) {
+        const char *type = cases[test / 3].type;
+        Builder builder = builder_start((int)(test % 3));
+        put_text(&builder,
+                 "element vertex 2\nproperty %s red\nproperty float x\nproperty float y\n"
+                 "property float z\nproperty %s green\nproperty %s blue\nend_header\n",
+                 type, type, type);
+        for (int vertex = 0; vertex < 2; vertex++) {
+            put_values(&builder, type, 1, cases[test / 3].values);
+            put_values(&builder, "float", 3, (double[]){7, 8, 9});
+            put_values(&builder, type, 2, cases[test / 3].values + 1);
+        }
+        FREED_BY(mesh_free) Mesh mesh = parse_good(&builder);
+        for (int vertex = 0; vertex < 2; vertex++)
+            assert_memory_equal(mesh.colors[vertex], cases[test / 3].colors, sizeof *mesh.colors);
+        assert_true(mesh.positions[1][0] == 7);
+    }
+}
+
+TEST(colors_without_a_component_or_of_another_type_are_skipped)
+{
+    static const char *const headers[] = {
+        "property uchar red\nproperty uchar green\nproperty uchar alpha\n",
+        "property int red\nproperty int green\nproperty int blue\n",
+        "property list uchar uchar red\nproperty uchar green\nproperty uchar blue\n"};
+    for (int test = 0; test < 3; test++) {
+        Builder builder = builder_start(ASCII);
+        put_text(&builder,
+                 "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                 "%send_header\n7 8 9 1 1 1 1 ",
+                 headers[test]);
+        FREED_BY(mesh_free) Mesh mesh = parse_good(&builder);
+        assert_null(mesh.colors);
+        assert_true(mesh.positions[0][2] == 9);
     }
 }
 
