@@ -20,6 +20,9 @@
 #ifndef CLRT_SHADED
 #define CLRT_SHADED 1 // some material is shaded by lights
 #endif
+#ifndef CLRT_COLORS
+#define CLRT_COLORS 1 // some mesh has colors of vertices
+#endif
 #ifndef CLRT_STATISTICS
 #define CLRT_STATISTICS 0 // rays and tests are counted
 #endif

@@ -130,6 +130,7 @@ static inline void note_surface(const Notes *notes, const Tracer *tracer, const 
     note3(notes, LEVEL_NORMAL, path->surface.normal);
     note(notes, LEVEL_SHARE, path_share(path));
     note_count(notes, LEVEL_MATERIAL, path->surface.material);
+    note3(notes, LEVEL_DIFFUSE, path->material.diffuse);
     for (uint index = 0; any_lane(lighting.wanted) && index < tracer->frame->light_count; index++) {
         const Notes light = light_notes(notes, index);
         note_light(&light, tracer, index, &lighting);

@@ -9,6 +9,7 @@
 typedef struct {
     UInt material; // index
     UInt normals;  // index of the vertex normals, NOTHING for flat triangles
+    UInt colors;   // index of the vertex colors, NOTHING without them
 } Look;
 
 // The address of a record of words, for each lane.
@@ -107,15 +108,30 @@ static inline Corners triangle_corners(const Tracer *tracer, uint index)
                      real3_of(c[0], c[stride], c[2 * stride])};
 }
 
+// Returns the look of a triangle with this shading word.
+static inline Look look_of(const Tracer *tracer, UInt material, UInt shading)
+{
+    Look look = {material, shading, (UInt)(NOTHING)};
+    const Mask colored = shading != NOTHING && (shading & TRIANGLE_COLORED) != 0;
+    if (!CLRT_COLORS || !any_lane(colored))
+        return look;
+    const UInt colors = shading & ~TRIANGLE_COLORED;
+    look.colors = colored ? colors : look.colors;
+    const Record record =
+        record_at(tracer->colors, (colored ? colors : (UInt)(0)) * WORDS(CornerColors));
+    look.normals = colored ? record_word(&record, 9) : shading;
+    return look;
+}
+
 static inline Look fetch_look(const Tracer *tracer, const Hit *hit)
 {
 #if CLRT_WIDE_NODES
     const UInt number = hit->id - tracer->frame->sphere_count;
     const Record record = record_at(tracer->looks, number * WORDS(TriangleLook));
-    return (Look){record_word(&record, 0), record_word(&record, 1)};
+    return look_of(tracer, record_word(&record, 0), record_word(&record, 1));
 #else
     const Record record = record_at(tracer->triangles, hit->index * WORDS(TriangleData));
-    return (Look){record_word(&record, 7) & ~TRIANGLE_MARKS, record_word(&record, 11)};
+    return look_of(tracer, record_word(&record, 7) & ~TRIANGLE_MARKS, record_word(&record, 11));
 #endif
 }
 
@@ -125,6 +141,14 @@ static inline Corners fetch_normals(const Tracer *tracer, UInt normals)
     const Record record = record_at(tracer->normals, normals * WORDS(CornerNormals));
     return (Corners){record_real3(&record, 0, 1), record_real3(&record, 4, 1),
                      record_real3(&record, 8, 1)};
+}
+
+// Returns the vertex colors as Corners.
+static inline Corners fetch_colors(const Tracer *tracer, UInt colors)
+{
+    const Record record = record_at(tracer->colors, colors * WORDS(CornerColors));
+    return (Corners){record_real3(&record, 0, 1), record_real3(&record, 3, 1),
+                     record_real3(&record, 6, 1)};
 }
 
 static inline Sphere fetch_sphere(const Tracer *tracer, UInt index)

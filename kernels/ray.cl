@@ -75,6 +75,7 @@ typedef struct {
     global const Triangles *triangles;
     global const TriangleLook *looks;
     global const CornerNormals *normals;
+    global const CornerColors *colors;
     const FrameData *frame;
     Tally *tally;
 } Tracer;
@@ -85,10 +86,10 @@ typedef struct {
     const FrameData frame, global const PointLight *lights, global const Material *materials,      \
         global const SphereData *spheres, global const Node *nodes,                                \
         global const Triangles *triangles, global const TriangleLook *looks,                       \
-        global const CornerNormals *normals
+        global const CornerNormals *normals, global const CornerColors *colors
 #define TRACER(tally)                                                                              \
     {                                                                                              \
-        lights, materials, spheres, nodes, triangles, looks, normals, &frame, tally                \
+        lights, materials, spheres, nodes, triangles, looks, normals, colors, &frame, tally        \
     }
 
 static inline uint lane_count(Mask mask)

@@ -83,7 +83,7 @@ typedef struct {
     float b[3];
     uint material; // index and flags
     float c[3];
-    uint normals; // index of its CornerNormals, NOTHING if flat
+    uint shading; // see TRIANGLE_COLORED
 } TriangleData;
 CLRT_SAME_SIZE(TriangleData, 48)
 
@@ -92,12 +92,23 @@ CLRT_SAME_SIZE(TriangleData, 48)
 #define TRIANGLE_REVERSED  0x40000000u // sorting has swapped front and back
 #define TRIANGLE_MARKS     (TRIANGLE_TWO_SIDED | TRIANGLE_REVERSED)
 
+// A triangle's shading word is the index of its CornerNormals, and NOTHING if the triangle is flat.
+// With this flag, it is the index of its CornerColors, which have another shading word.
+#define TRIANGLE_COLORED 0x80000000u
+
 // Vertex normals of a smooth triangle, in the stored order of its corners. Their lengths weight the
 // interpolation. The host negates the normals of a reversed triangle.
 typedef struct {
     float normals[3][4]; // the fourth component is zero and pads each vector to 16 bytes
 } CornerNormals;
 CLRT_SAME_SIZE(CornerNormals, 48)
+
+// Vertex colors of a triangle, in the stored order of its corners. They replace the diffuse color.
+typedef struct {
+    float colors[3][3];
+    uint shading; // without TRIANGLE_COLORED
+} CornerColors;
+CLRT_SAME_SIZE(CornerColors, 40)
 
 // An inner node. It contains the boxes of both children, axis by axis as {low, high} planes, so one
 // read serves the tests of both. If a child's count is above 0, the child is a leaf with the
@@ -143,7 +154,7 @@ CLRT_SAME_SIZE(TriangleBlock, 320)
 // The data for shading a triangle of a block, besides its corners. Entries are in file order.
 typedef struct {
     uint material; // index
-    uint normals;  // index of its CornerNormals, NOTHING if flat
+    uint shading;  // see TRIANGLE_COLORED
 } TriangleLook;
 CLRT_SAME_SIZE(TriangleLook, 8)
 
@@ -284,7 +295,8 @@ typedef enum {
     LEVEL_SHADED = 14, // the surface's own color
     LEVEL_WEIGHT = 17, // of the ray's color in the sample's color; always valid
     LEVEL_SHARE = 18,  // of the surface's own color in the sample's color
-    LEVEL_VALUES = 19
+    LEVEL_DIFFUSE = 19,
+    LEVEL_VALUES = 22
 } LevelValue;
 
 typedef enum { LEVEL_PRIMITIVE, LEVEL_MATERIAL, LEVEL_WORDS } LevelWord;

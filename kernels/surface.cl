@@ -30,6 +30,8 @@ typedef struct {
     UInt id, material;
     UInt index;      // of a triangle; NOTHING for spheres
     Real room, edge; // the point is at least room / (2 * edge) away from the edges
+    Mask colored;    // lanes whose diffuse color is `color`; unspecified unless CLRT_COLORS
+    Real3 color;
 } Surface;
 
 static inline Mask has_length(Real3 v)
@@ -62,6 +64,19 @@ static inline Real3 triangle_normal(const Tracer *tracer, UInt normals, Real3 we
     const Corners corners = fetch_normals(tracer, is_smooth ? normals : (UInt)(0));
     const Real3 normal = unit_vector(weighted(weights, &corners));
     return choose3(is_smooth && has_length(normal), normal, face);
+}
+
+// Sets the surface's color from the vertex colors, by the weights of the corners. Rounding can make
+// a weight slightly negative.
+static inline void note_color(const Tracer *tracer, Surface *surface, UInt colors, Real3 weights)
+{
+    surface->colored = colors != NOTHING;
+    surface->color = real3_of(0.0f, 0.0f, 0.0f);
+    if (!any_lane(surface->colored))
+        return;
+    const Corners corners = fetch_colors(tracer, surface->colored ? colors : (UInt)(0));
+    const Real3 color = weighted(weights, &corners);
+    surface->color = real3_of(clamp_to_one(color.x), clamp_to_one(color.y), clamp_to_one(color.z));
 }
 
 static inline Real3 corner_seen(Real3 corner, Real3 origin, const ShearAxes *axes)
@@ -119,6 +134,8 @@ static inline Surface triangle_surface(const Tracer *tracer, const Ray *ray, con
     surface.index = hit->index;
     note_edges(&surface, &corners, weights);
     surface.material = look.material;
+    if (CLRT_COLORS)
+        note_color(tracer, &surface, look.colors, weights);
     return surface;
 }
 
@@ -146,6 +163,8 @@ static inline Surface sphere_surface(const Tracer *tracer, const Ray *ray, const
     surface.room = 0.0f;
     surface.edge = 0.0f;
     surface.material = fetch_sphere_material(tracer, hit->index);
+    if (CLRT_COLORS)
+        surface.colored = 0;
     return surface;
 }
 
@@ -160,7 +179,9 @@ static inline Surface choose_surface(Mask first, const Surface *a, const Surface
                      first ? a->material : b->material,
                      first ? a->index : b->index,
                      first ? a->room : b->room,
-                     first ? a->edge : b->edge};
+                     first ? a->edge : b->edge,
+                     first ? a->colored : b->colored,
+                     b->color};
 }
 
 // Fills the lanes outside `met` with the hit of a lane in `met`. Their results are discarded, but

@@ -108,6 +108,9 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
         return;
     path->surface = surface_at(tracer, ray, hit, path->met);
     path->material = fetch_material(tracer, path->surface.material);
+    if (CLRT_COLORS)
+        path->material.diffuse =
+            choose3(path->surface.colored, path->surface.color, path->material.diffuse);
     if (CLRT_MIRRORS)
         path->reflects = path->met && path->material.reflectivity != 0.0f;
     hash_lanes(tracer->tally, number, path->met, surface_word(tracer->frame, &path->surface));

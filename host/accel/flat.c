@@ -19,6 +19,8 @@ typedef struct {
     TriangleLook *looks;    // the object's section of FlatScene::looks
     CornerNormals *normals; // its section of FlatScene::normals; NULL for flat shading
     uint32_t first_normals; // index in FlatScene::normals of the section's first element
+    CornerColors *colors;   // its section of FlatScene::colors; NULL without colors
+    uint32_t first_colors;
 } ObjectLooks;
 
 static Vec3 face_normal(const Mesh *mesh, const uint32_t *triangle)
@@ -72,50 +74,71 @@ static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t 
     }
 }
 
+static void store_colors(CornerColors *data, const Mesh *mesh, const uint32_t *triangle,
+                         const CornerOrder *order)
+{
+    for (int corner = 0; corner < 3; corner++)
+        memcpy(data->colors[corner], mesh->colors[triangle[order->places[corner]]],
+               sizeof data->colors[corner]);
+}
+
 static void make_chunk(void *context, uint32_t first, uint32_t end)
 {
     const ObjectLooks *looks = context;
     const MeshObject *object = looks->object;
     const Mesh *mesh = &object->mesh;
     const uint32_t material = object->material | (object->two_sided ? TRIANGLE_TWO_SIDED : 0);
-    const bool smooth = looks->normals != NULL;
+    const bool smooth = looks->normals != NULL, colored = looks->colors != NULL;
     for (uint32_t i = first; i < end; i++) {
         const uint32_t *triangle = mesh->triangles[i];
         const CornerOrder *order = &corner_orders[looks->orders[i]];
         looks->looks[i].material = material | (order->reversed ? TRIANGLE_REVERSED : 0);
-        looks->looks[i].normals = smooth ? looks->first_normals + i : NOTHING;
+        looks->looks[i].shading = smooth ? looks->first_normals + i : NOTHING;
         if (smooth)
             store_normals(&looks->normals[i], mesh, triangle, order);
+        if (!colored)
+            continue;
+        store_colors(&looks->colors[i], mesh, triangle, order);
+        looks->colors[i].shading = looks->looks[i].shading;
+        looks->looks[i].shading = (looks->first_colors + i) | TRIANGLE_COLORED;
     }
 }
 
-static uint32_t count_smooth_triangles(const Scene *scene)
+static bool allocate_looks(FlatScene *flat, const Scene *scene, Error *error)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < scene->objects.count; i++)
-        if (scene->objects.data[i].mesh.normals != NULL)
-            count += scene->objects.data[i].mesh.triangle_count;
-    return (uint32_t)count;
+    size_t smooth = 0, colored = 0;
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const Mesh *mesh = &scene->objects.data[i].mesh;
+        smooth += mesh->normals != NULL ? mesh->triangle_count : 0;
+        colored += mesh->colors != NULL ? mesh->triangle_count : 0;
+    }
+    flat->looks = memory_raw(flat->triangle_count, sizeof *flat->looks, error);
+    flat->normals = memory_raw(smooth, sizeof *flat->normals, error);
+    flat->colors = memory_raw(colored, sizeof *flat->colors, error);
+    return flat->looks != NULL && flat->normals != NULL && flat->colors != NULL;
 }
 
 static bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *error)
 {
     const Scene *scene = source->scene;
     size_t first = 0;
-    flat->looks = memory_raw(flat->triangle_count, sizeof *flat->looks, error);
-    flat->normals = memory_raw(count_smooth_triangles(scene), sizeof *flat->normals, error);
-    if (flat->looks == NULL || flat->normals == NULL)
+    if (!allocate_looks(flat, scene, error))
         return false;
     for (size_t i = 0; i < scene->objects.count; i++) {
         const MeshObject *object = &scene->objects.data[i];
         const uint32_t count = (uint32_t)object->mesh.triangle_count;
-        const bool smooth = object->mesh.normals != NULL;
-        ObjectLooks looks = {object, source->triangles->orders + first, flat->looks + first,
+        const bool smooth = object->mesh.normals != NULL, colored = object->mesh.colors != NULL;
+        ObjectLooks looks = {object,
+                             source->triangles->orders + first,
+                             flat->looks + first,
                              smooth ? flat->normals + flat->normals_count : NULL,
-                             flat->normals_count};
+                             flat->normals_count,
+                             colored ? flat->colors + flat->colors_count : NULL,
+                             flat->colors_count};
         thread_pool_share(source->pool, count, CHUNK_ELEMENTS, make_chunk, &looks);
         first += count;
         flat->normals_count += smooth ? count : 0;
+        flat->colors_count += colored ? count : 0;
     }
     return true;
 }
@@ -206,6 +229,7 @@ void flat_free(FlatScene *flat)
     free(flat->blocks);
     free(flat->looks);
     free(flat->normals);
+    free(flat->colors);
     *flat = (FlatScene){0};
 }
 
@@ -227,7 +251,8 @@ void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS])
         nodes,
         triangles,
         {"looks", flat->looks, looks * sizeof *flat->looks},
-        {"normals", flat->normals, flat->normals_count * sizeof *flat->normals}};
+        {"normals", flat->normals, flat->normals_count * sizeof *flat->normals},
+        {"colors", flat->colors, flat->colors_count * sizeof *flat->colors}};
     memcpy(arrays, all, sizeof all);
 }
 
@@ -276,6 +301,7 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics)
     SceneTraits traits = {.spheres = flat->sphere_count > 0,
                           .triangles = flat->triangle_count > 0,
                           .bvh = flat->node_count > 0,
+                          .colors = flat->colors_count > 0,
                           .statistics = statistics};
     for (uint32_t i = 0; i < flat->sphere_count; i++)
         add_material(&traits, &flat->materials[flat->spheres[i].material]);
@@ -286,14 +312,14 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics)
 
 SceneTraits traits_general(bool statistics)
 {
-    return (SceneTraits){true, true, true, true, true, statistics};
+    return (SceneTraits){true, true, true, true, true, true, statistics};
 }
 
 void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS_SIZE])
 {
     snprintf(options, TRAITS_OPTIONS_SIZE,
              "-DCLRT_SPHERES=%d -DCLRT_TRIANGLES=%d -DCLRT_BVH=%d -DCLRT_MIRRORS=%d "
-             "-DCLRT_SHADED=%d -DCLRT_STATISTICS=%d",
+             "-DCLRT_SHADED=%d -DCLRT_COLORS=%d -DCLRT_STATISTICS=%d",
              traits->spheres, traits->triangles, traits->bvh, traits->mirrors, traits->shaded,
-             traits->statistics);
+             traits->colors, traits->statistics);
 }

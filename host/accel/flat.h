@@ -18,10 +18,10 @@ typedef struct {
     size_t bytes; // 0 if the array is empty
 } FlatArray;
 
-#define FLAT_ARRAYS 7
+#define FLAT_ARRAYS 8
 
 // Lists the arrays in the order of the kernels' arguments: lights, materials, spheres, nodes,
-// triangles, looks and normals.
+// triangles, looks, normals and colors.
 void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS]);
 
 // The input of scene_compile, which runs all stages: triangles, tree and flattening.
@@ -52,6 +52,7 @@ typedef struct {
     bool bvh;        // rays find triangles with a tree
     bool mirrors;    // a used material reflects
     bool shaded;     // a used material is more than a silhouette
+    bool colors;     // a mesh has colors of vertices
     bool statistics; // the kernels count rays and tests
 } SceneTraits;
 

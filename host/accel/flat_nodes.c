@@ -111,7 +111,7 @@ static void place_triangles(FlatScene *flat, const FlatSource *source)
         TriangleData *triangle = &flat->triangles[place];
         triangle->id = flat->sphere_count + number;
         triangle->material = flat->looks[number].material;
-        triangle->normals = flat->looks[number].normals;
+        triangle->shading = flat->looks[number].shading;
         const uint8_t *corners = triangles_order(triangles, number)->places;
         memcpy(triangle->a, triangles_corner(triangles, number, corners[0]), sizeof triangle->a);
         memcpy(triangle->b, triangles_corner(triangles, number, corners[1]), sizeof triangle->b);

@@ -22,9 +22,10 @@ typedef struct {
     TriangleBlock *blocks;   // NODES_WIDE only: in leaf order
     TriangleLook *looks;     // NODES_WIDE only: in file order
     CornerNormals *normals;  // of smooth triangles, in file order
+    CornerColors *colors;    // of colored triangles, in file order
     uint32_t light_count, material_count, sphere_count;
     uint32_t node_count; // entries of pairs or wides
-    uint32_t triangle_count, block_count, normals_count;
+    uint32_t triangle_count, block_count, normals_count, colors_count;
     float background[3], ambient;
 } FlatScene;
 

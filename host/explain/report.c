@@ -92,12 +92,11 @@ static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
 
 // Returns the factors of the surface's color besides the lights. Shaders without highlights ignore
 // the material's ks.
-static json_t *factors_json(const Scene *scene, const Material *material)
+static json_t *factors_json(const Scene *scene, const Material *material, Vec3 diffuse)
 {
     static const char *const shaders[] = {"silhouette", "matte", "blinn_phong"};
     return JSON(FIELD("shader", shaders[material->shader]), FIELD("ambient", scene->ambient),
-                FIELD("diffuse_color", color_json(material->diffuse)),
-                FIELD("kd", (double)material->kd),
+                FIELD("diffuse_color", vector_json(diffuse)), FIELD("kd", (double)material->kd),
                 FIELD("specular_color", color_json(material->specular)),
                 FIELD("ks", (double)material->ks), FIELD("shininess", (double)material->shininess));
 }
@@ -108,13 +107,14 @@ static json_t *hit_json(const ExplainReport *report, const ExplainedRay *ray)
     if (ray->primitive == NOTHING)
         return json_null();
     const Material *material = &scene->materials.data[ray->material];
-    return JSON(
-        FIELD("primitive", primitive_json(scene, ray->primitive)),
-        FIELD("material", name_material(scene, ray->material)), FIELD("distance", ray->distance),
-        FIELD("distance_error", ray->error), FIELD("point", vector_json(ray->point)),
-        FIELD("normal", vector_json(ray->normal)), FIELD("lights", lights_json(report, ray)),
-        FIELD("factors", factors_json(scene, material)), FIELD("color", vector_json(ray->shaded)),
-        FIELD("share", ray->share), FIELD("reflectivity", (double)material->reflectivity));
+    return JSON(FIELD("primitive", primitive_json(scene, ray->primitive)),
+                FIELD("material", name_material(scene, ray->material)),
+                FIELD("distance", ray->distance), FIELD("distance_error", ray->error),
+                FIELD("point", vector_json(ray->point)), FIELD("normal", vector_json(ray->normal)),
+                FIELD("lights", lights_json(report, ray)),
+                FIELD("factors", factors_json(scene, material, ray->diffuse)),
+                FIELD("color", vector_json(ray->shaded)), FIELD("share", ray->share),
+                FIELD("reflectivity", (double)material->reflectivity));
 }
 
 static json_t *sample_json(const ExplainReport *report, const ExplainedSample *sample)

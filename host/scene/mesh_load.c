@@ -62,22 +62,33 @@ static bool add_files(Scene *scene, const ForeignModel *model, const char *path,
     return true;
 }
 
+// Drops the mesh's colors or, if they are shown, chooses the material that shows them.
+static void choose_colors(MeshObject *object, const MeshLoadOptions *options)
+{
+    if (!options->takes_own_materials)
+        mesh_drop_colors(&object->mesh);
+    else if (object->mesh.colors != NULL)
+        object->material = options->colored_material;
+}
+
 // Moves the parts' meshes into scene objects.
 static bool add_parts(Scene *scene, ForeignModel *model, const MeshLoadOptions *options,
                       uint32_t first_material, Error *error)
 {
-    MeshObject object = options->object;
-    object.number_before = 0;
+    uint64_t number_before = 0;
     for (size_t i = 0; i < model->parts.count; i++) {
         ForeignPart *part = &model->parts.data[i];
+        MeshObject object = options->object;
         object.mesh = part->mesh;
-        object.material = options->takes_own_materials && part->material != FOREIGN_NO_MATERIAL
-                              ? first_material + part->material
-                              : options->object.material;
+        object.number_before = number_before;
+        choose_colors(&object, options);
+        if (options->takes_own_materials && part->material != FOREIGN_NO_MATERIAL)
+            object.material = first_material + part->material;
+        part->mesh = object.mesh;
         if (!array_push(&scene->objects, object, error))
             return false;
         part->mesh = (Mesh){0};
-        object.number_before += object.mesh.triangle_count + object.mesh.dropped.count;
+        number_before += object.mesh.triangle_count + object.mesh.dropped.count;
     }
     return true;
 }
@@ -155,9 +166,10 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
     MeshObject object = options->object;
     object.input = (uint32_t)scene->inputs.count;
     scene_hash_mesh(scene, file->bytes, file->size);
-    const bool ok = options->parse(&object.mesh, file->bytes, file->size, path, error) &&
-                    scene_add_input(scene, path, error) &&
-                    array_push(&scene->objects, object, error);
+    bool ok = options->parse(&object.mesh, file->bytes, file->size, path, error) &&
+              scene_add_input(scene, path, error);
+    choose_colors(&object, options);
+    ok = ok && array_push(&scene->objects, object, error);
     if (!ok)
         mesh_free(&object.mesh);
     return ok;

@@ -44,10 +44,12 @@ typedef struct {
     bool is_flat;             // ignores the file's normals
     double crease_degrees;    // for computing missing normals, or CREASE_BY_SHAPE; NO_CREASE leaves
                               // them missing
-    bool takes_own_materials; // the file's materials replace the object's, if the file has any
-    bool is_plain_ply;        // PLY only, without transforms
-    PlyParse *parse;          // the reader of PLY files
-    ForeignFiles *kept;       // files in other formats; borrowed; NULL keeps none
+    bool takes_own_materials; // the file's materials replace the object's, if the file has any;
+                              // false also ignores the file's colors
+    uint32_t colored_material; // replaces the object's material for meshes that have colors
+    bool is_plain_ply;         // PLY only, without transforms
+    PlyParse *parse;           // the reader of PLY files
+    ForeignFiles *kept;        // files in other formats; borrowed; NULL keeps none
 } MeshLoadOptions;
 
 // Adds an object with the mesh of the file read from path, and adds the file to the inputs.

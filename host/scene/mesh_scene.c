@@ -308,6 +308,7 @@ static MeshLoadOptions mesh_options_of(const SceneLoadOptions *options)
 {
     const bool is_chosen = options->normals == NORMALS_SMOOTH;
     return (MeshLoadOptions){.object = {.material = MESH_CLAY, .two_sided = true},
+                             .colored_material = MESH_CLAY,
                              .is_flat = options->normals == NORMALS_FLAT,
                              .crease_degrees =
                                  is_chosen ? options->crease_degrees : CREASE_BY_SHAPE,

@@ -15,6 +15,7 @@
 #define MAX_LEVEL_LIMIT  1000
 
 #define COURSE_MATERIALS 4 // every scene begins with the course's materials (docs/scenes.md)
+#define COURSE_MATTE     1
 
 // If the scene's file is a lone mesh, two more materials follow, for meshes without materials and
 // for the floor. The file's own materials come last.
@@ -38,8 +39,8 @@ typedef struct {
 } Sphere;
 
 typedef struct {
-    Mesh mesh; // shaded smoothly if it has normals
-    uint32_t material;
+    Mesh mesh;              // shaded smoothly if it has normals
+    uint32_t material;      // if the mesh has colors, they replace the diffuse color
     uint32_t input;         // index of the mesh's file in Scene::inputs
     uint64_t number_before; // triangles in earlier objects of the file, including dropped ones
     bool two_sided;

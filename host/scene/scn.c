@@ -16,18 +16,12 @@
 typedef struct {
     Tokens tokens;
     Scene *scene;
-    uint32_t material;    // material of the objects that follow, or MATERIAL_OWN
-    MeshLoadOptions mesh; // options of the meshes that follow, except the material
-    Vec3 up;              // up vector of the cameras that follow
-    Token waiting_up;     // the latest `up` statement, if no camera follows it yet
+    MaterialChoice material; // of the objects that follow
+    MeshLoadOptions mesh;    // options of the meshes that follow, except the material
+    Vec3 up;                 // up vector of the cameras that follow
+    Token waiting_up;        // the latest `up` statement, if no camera follows it yet
     Error *error;
 } Parser;
-
-static bool has_more(const Tokens *tokens)
-{
-    Tokens ahead = *tokens;
-    return tokens_next(&ahead).text != NULL;
-}
 
 static bool read_light(Parser *parser)
 {
@@ -35,16 +29,11 @@ static bool read_light(Parser *parser)
     Tokens *tokens = &parser->tokens;
     bool ok = tokens_numbers(tokens, 3, position) &&
               tokens_number_within(tokens, &intensity, 0, INTENSITY_MOST);
-    const bool is_colored = ok && has_more(tokens);
+    const bool is_colored = ok && tokens_have_more(tokens);
     for (int i = 0; is_colored && ok && i < 3; i++)
         ok = tokens_number_within(tokens, &color[i], 0, 1);
     const Light light = {vec3_of_doubles(position), intensity, vec3_of_doubles(color)};
     return ok && array_push(&parser->scene->lights, light, parser->error);
-}
-
-static uint32_t plain_material(const Parser *parser)
-{
-    return parser->material == MATERIAL_OWN ? 0 : parser->material;
 }
 
 static bool read_sphere(Parser *parser)
@@ -53,7 +42,7 @@ static bool read_sphere(Parser *parser)
     if (!tokens_numbers(&parser->tokens, 3, center) ||
         !tokens_number_within(&parser->tokens, &radius, RADIUS_LEAST, RADIUS_MOST))
         return false;
-    const Sphere sphere = {vec3_of_doubles(center), radius, plain_material(parser)};
+    const Sphere sphere = {vec3_of_doubles(center), radius, parser->material.plain};
     return array_push(&parser->scene->spheres, sphere, parser->error);
 }
 
@@ -70,9 +59,10 @@ static bool read_define(Parser *parser)
 static bool read_mesh_file(Parser *parser, bool is_plain_ply)
 {
     MeshLoadOptions options = parser->mesh;
-    options.object.material = plain_material(parser);
+    options.object.material = parser->material.plain;
+    options.colored_material = parser->material.colored;
     options.is_plain_ply = is_plain_ply;
-    options.takes_own_materials = parser->material == MATERIAL_OWN;
+    options.takes_own_materials = parser->material.is_own;
     return mesh_statement_read(parser->scene, &parser->tokens, &options);
 }
 
@@ -92,7 +82,7 @@ static bool read_camera(Parser *parser)
     const Token start = parser->tokens.last;
     if (!tokens_numbers(&parser->tokens, 6, numbers) ||
         !tokens_number_within(&parser->tokens, &fov, FOV_LEAST, FOV_MOST) ||
-        (has_more(&parser->tokens) &&
+        (tokens_have_more(&parser->tokens) &&
          !tokens_number_within(&parser->tokens, &width, FOV_LEAST, FOV_MOST)))
         return false;
     const Viewpoint viewpoint = {.eye = vec3_of_doubles(numbers),
@@ -170,7 +160,7 @@ static bool read_normals(Parser *parser)
     if (!read_choice(parser, "flat", "smooth", &mesh->is_flat))
         return false;
     mesh->crease_degrees = CREASE_DEGREES;
-    return mesh->is_flat || !has_more(&parser->tokens) ||
+    return mesh->is_flat || !tokens_have_more(&parser->tokens) ||
            tokens_number_within(&parser->tokens, &mesh->crease_degrees, 0, 180);
 }
 
@@ -184,7 +174,7 @@ static const struct {
     {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES [WIDTH_DEGREES]", read_camera},
     {"define", "define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...", read_define},
     {"light", "light X Y Z INTENSITY [R G B]", read_light},
-    {"material", "material NUMBER|NAME|own", read_material},
+    {"material", "material NUMBER|NAME|own [NUMBER|NAME]", read_material},
     {"max_level", "max_level N", read_max_level},
     {"mesh", "mesh PATH [up AXIS] [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]",
      read_mesh},
@@ -242,7 +232,7 @@ static bool read_statements(Parser *parser)
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
-    parser->material = MATERIAL_OWN;
+    parser->material = material_own;
     parser->mesh.crease_degrees = NO_CREASE;
     parser->up = vec3(0, 0, 1);
     ForeignFiles kept = {0};

@@ -15,32 +15,37 @@
 
 static bool allocate(Mesh *mesh, const Scene *scene, Error *error)
 {
-    bool has_normals = false;
+    bool has_normals = false, has_colors = false;
     for (size_t i = 0; i < scene->objects.count; i++) {
         const MeshObject *object = &scene->objects.data[i];
         mesh->vertex_count += object->mesh.vertex_count;
         mesh->triangle_count += object->mesh.triangle_count;
         has_normals |= object->mesh.normals != NULL;
+        has_colors |= object->mesh.colors != NULL;
     }
     if (mesh->vertex_count > (size_t)MESH_COUNT_MOST ||
         mesh->triangle_count > (size_t)MESH_COUNT_MOST)
         return error_set(error, "its %zu vertices or %zu triangles are too many for one mesh",
                          mesh->vertex_count, mesh->triangle_count);
-    mesh->positions = memory_raw(mesh->vertex_count, sizeof *mesh->positions, error);
     mesh->triangles = memory_raw(mesh->triangle_count, sizeof *mesh->triangles, error);
-    if (has_normals)
-        mesh->normals = memory_zeroed(mesh->vertex_count, sizeof *mesh->normals, error);
-    return mesh->positions != NULL && mesh->triangles != NULL &&
-           (mesh->normals != NULL || !has_normals);
+    return mesh->triangles != NULL && mesh_allocate_vertices(mesh, has_normals, has_colors, error);
 }
 
-static void copy(Mesh *mesh, const MeshObject *object, size_t vertex, size_t triangle)
+// Copies an object's vertices, from index `vertex` on, and its triangles.
+static void copy(Mesh *mesh, const MeshObject *object, const float diffuse[3], size_t vertex,
+                 size_t triangle)
 {
+    static const float no_normal[3] = {0, 0, 0};
     const Mesh *part = &object->mesh;
-    for (size_t i = 0; i < part->vertex_count; i++)
+    for (size_t i = 0; i < part->vertex_count; i++) {
         memcpy(mesh->positions[vertex + i], part->positions[i], sizeof *part->positions);
-    for (size_t i = 0; part->normals != NULL && i < part->vertex_count; i++)
-        memcpy(mesh->normals[vertex + i], part->normals[i], sizeof *part->normals);
+        if (mesh->normals != NULL)
+            memcpy(mesh->normals[vertex + i], part->normals != NULL ? part->normals[i] : no_normal,
+                   sizeof no_normal);
+        if (mesh->colors != NULL)
+            memcpy(mesh->colors[vertex + i], part->colors != NULL ? part->colors[i] : diffuse,
+                   3 * sizeof *diffuse);
+    }
     for (size_t i = 0; i < part->triangle_count; i++)
         for (int corner = 0; corner < 3; corner++)
             mesh->triangles[triangle + i][corner] = (uint32_t)vertex + part->triangles[i][corner];
@@ -56,7 +61,7 @@ bool mesh_join(Mesh *mesh, const Scene *scene, Error *error)
     }
     for (size_t i = 0; i < scene->objects.count; i++) {
         const MeshObject *object = &scene->objects.data[i];
-        copy(mesh, object, vertex, triangle);
+        copy(mesh, object, scene->materials.data[object->material].diffuse, vertex, triangle);
         vertex += object->mesh.vertex_count;
         triangle += object->mesh.triangle_count;
     }
@@ -72,6 +77,7 @@ typedef struct {
     FILE *stream;
     MaterialNames names; // of the materials in the written text, except the course's
     MeshObject current;  // the properties that statements have set so far
+    bool is_own;         // the files' colors replace the diffuse color of current.material
 } Writer;
 
 // Writes value with `digits` digits, or with as many more as are necessary to read back the same
@@ -247,22 +253,24 @@ static void write_lights(const Writer *writer)
     }
 }
 
-static void select_material(Writer *writer, uint32_t material)
+static void select_material(Writer *writer, uint32_t material, bool is_own)
 {
-    if (material == writer->current.material)
+    const char *own = is_own ? "own " : "";
+    if (material == writer->current.material && is_own == writer->is_own)
         return;
     writer->current.material = material;
+    writer->is_own = is_own;
     if (material < COURSE_MATERIALS)
-        fprintf(writer->stream, "material %u\n", material);
+        fprintf(writer->stream, "material %s%u\n", own, material);
     else
-        fprintf(writer->stream, "material \"%s\"\n", name_of(writer, material));
+        fprintf(writer->stream, "material %s\"%s\"\n", own, name_of(writer, material));
 }
 
 static void write_spheres(Writer *writer)
 {
     for (size_t i = 0; i < writer->scene->spheres.count; i++) {
         const Sphere *sphere = &writer->scene->spheres.data[i];
-        select_material(writer, sphere->material);
+        select_material(writer, sphere->material, false);
         fputs("sphere", writer->stream);
         write_vector(writer->stream, sphere->center);
         write_number(writer->stream, sphere->radius);
@@ -274,7 +282,7 @@ static void write_objects(Writer *writer, char *const *mesh_names)
 {
     for (size_t i = 0; i < writer->scene->objects.count; i++) {
         const MeshObject *object = &writer->scene->objects.data[i];
-        select_material(writer, object->material);
+        select_material(writer, object->material, object->mesh.colors != NULL);
         if (object->two_sided != writer->current.two_sided)
             fprintf(writer->stream, "sides %s\n", object->two_sided ? "two" : "one");
         writer->current.two_sided = object->two_sided;

@@ -17,5 +17,6 @@ void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream);
 bool scn_write_can_name(const char *name);
 
 // Concatenates the meshes of a scene into one, all triangles in the scene's order. If any object
-// has normals, the objects without normals get zero normals.
+// has normals, the objects without normals get zero normals. If any object has colors, the objects
+// without colors get the diffuse color of their material.
 bool mesh_join(Mesh *mesh, const Scene *scene, Error *error);

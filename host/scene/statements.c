@@ -137,20 +137,36 @@ static bool unknown_name(const Scene *scene, const Tokens *tokens, Token token)
     return false;
 }
 
-bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material)
+static bool find_material(const Scene *scene, const Tokens *tokens, Token token, uint32_t *material)
 {
     int64_t number;
-    const Token token = tokens_next(tokens);
     const char *end = token.text == NULL ? NULL : token.text + token.length;
     if (token.text != NULL && integer_parse(token.text, end, &number) == end) {
         *material = number >= 0 && number < COURSE_MATERIALS ? (uint32_t)number : 0;
         return true;
     }
     const MaterialName *entry = find_name(scene, token);
-    if (entry == NULL && !token_is(token, "own"))
+    if (entry == NULL)
         return unknown_name(scene, tokens, token);
-    *material = entry != NULL ? entry->material : MATERIAL_OWN;
+    *material = entry->material;
     return true;
+}
+
+const MaterialChoice material_own = {.colored = COURSE_MATTE, .is_own = true};
+
+bool materials_select(const Scene *scene, Tokens *tokens, MaterialChoice *choice)
+{
+    Token token = tokens_next(tokens);
+    *choice = (MaterialChoice){0};
+    if (token_is(token, "own") && find_name(scene, token) == NULL) {
+        *choice = material_own;
+        if (!tokens_have_more(tokens))
+            return true;
+        token = tokens_next(tokens);
+    }
+    const bool ok = find_material(scene, tokens, token, &choice->plain);
+    choice->colored = choice->plain;
+    return ok;
 }
 
 // The following functions add a file's meshes and apply the statement's transforms in the written

@@ -10,13 +10,20 @@
 // Reads the rest of a define statement and adds the material to scene.
 bool materials_define(Scene *scene, Tokens *tokens);
 
-// The value of `material own`. Each object has the material from its mesh file or, if the file
-// gives none, the course's material 0.
-#define MATERIAL_OWN UINT32_MAX
+// The choice of a `material` statement.
+typedef struct {
+    uint32_t plain;   // the material of spheres, and of meshes without own materials and colors
+    uint32_t colored; // the material of meshes with own colors but without own materials
+    bool is_own;      // meshes have the materials and the colors of their files
+} MaterialChoice;
 
-// Reads the argument of `material`: the number of a course material, a defined name, or own. As in
-// the course, numbers outside 0 to 3 select material 0, the silhouette.
-bool materials_select(const Scene *scene, Tokens *tokens, uint32_t *material);
+// The choice of `material own`, which is also the choice before the first statement.
+extern const MaterialChoice material_own;
+
+// Reads the arguments of `material`: the number of a course material or a defined name, or own and
+// a material for meshes without own ones. As in the course, numbers outside 0 to 3 select material
+// 0, the silhouette.
+bool materials_select(const Scene *scene, Tokens *tokens, MaterialChoice *choice);
 
 // Reads the rest of a mesh or ply_file statement and adds the file's objects. Paths are relative to
 // the scene file's folder.

@@ -96,6 +96,12 @@ Token tokens_next_statement(Tokens *tokens)
     }
 }
 
+bool tokens_have_more(const Tokens *tokens)
+{
+    Tokens ahead = *tokens;
+    return tokens_next(&ahead).text != NULL;
+}
+
 bool token_is(Token token, const char *word)
 {
     return token.text != NULL && strlen(word) == token.length &&

@@ -34,6 +34,9 @@ Token tokens_next_statement(Tokens *tokens);
 // double quotes may contain blanks, and is returned without the quotes.
 Token tokens_next(Tokens *tokens);
 
+// Returns whether the line has another token.
+bool tokens_have_more(const Tokens *tokens);
+
 // Returns whether token is exactly this word.
 bool token_is(Token token, const char *word);
 

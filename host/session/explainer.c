@@ -195,6 +195,7 @@ static void take_surface(ExplainedRay *ray, const Notes *notes, ExplainedLight *
     ray->normal = vector_at(notes, LEVEL_NORMAL);
     ray->material = noted_word(notes, LEVEL_MATERIAL);
     ray->uses_lights = explainer->scene->materials.data[ray->material].shader != SHADER_SILHOUETTE;
+    ray->diffuse = vector_at(notes, LEVEL_DIFFUSE);
     ray->share = number_at(notes, LEVEL_SHARE);
     ray->shaded = vector_at(notes, LEVEL_SHADED);
     ray->lights = lights;

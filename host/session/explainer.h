@@ -25,6 +25,7 @@ typedef struct {
     Vec3 point, normal;
     uint32_t material;
     bool uses_lights;             // false for silhouettes
+    Vec3 diffuse;                 // the diffuse color, of the material or of the vertices
     double share;                 // weight of `shaded` in the sample's color
     Vec3 shaded;                  // surface color without reflections
     const ExplainedLight *lights; // one per light of the scene; unset unless uses_lights

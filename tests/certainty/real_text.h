@@ -305,8 +305,11 @@ static Surface triangle_surface(const Path *path, const Stop *stop)
                        .material = triangle->material & ~TRIANGLE_MARKS};
     surface.normal = surface.face =
         cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
-    if (triangle->normals != NOTHING) {
-        const CornerNormals *stored = &flat->normals[triangle->normals];
+    const uint32_t word = triangle->shading;
+    const bool colored = word != NOTHING && (word & TRIANGLE_COLORED) != 0;
+    const uint32_t place = colored ? flat->colors[word & ~TRIANGLE_COLORED].shading : word;
+    if (place != NOTHING) {
+        const CornerNormals *stored = &flat->normals[place];
         const Vector normals[3] = {of_floats(stored->normals[0]), of_floats(stored->normals[1]),
                                    of_floats(stored->normals[2])};
         surface.normal = weighted(normals, stop);

@@ -57,9 +57,12 @@ def axes_of(points):
     ]
 
 
-def ply(points, triangles, normals=None):
+def ply(points, triangles, normals=None, colors=None):
     rows = [p + n for p, n in zip(points, normals)] if normals else points
-    names = ["x", "y", "z", "nx", "ny", "nz"][: len(rows[0])]
+    names = ["x", "y", "z"] + (["nx", "ny", "nz"] if normals else [])
+    if colors:
+        rows = [row + color for row, color in zip(rows, colors)]
+        names += ["red", "green", "blue"]
     header = (
         "ply\nformat binary_little_endian 1.0\n"
         + f"element vertex {len(rows)}\n"
@@ -91,9 +94,9 @@ def collada(points, triangles, up):
 
 
 def obj(points, triangles, head="", groups=None):
-    """Returns an OBJ file. groups contains pairs (line, index of the first triangle after this
+    """Returns an OBJ file. A point may have a color, as its last three numbers. groups contains pairs (line, index of the first triangle after this
     line)."""
-    lines = [head] + [f"v {x!r} {y!r} {z!r}" for x, y, z in points]
+    lines = [head] + ["v " + " ".join(map(repr, point)) for point in points]
     starts = {first: line for line, first in groups or []}
     for number, triangle in enumerate(triangles):
         if number in starts:

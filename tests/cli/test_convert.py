@@ -72,6 +72,27 @@ class Scenes(Convert):
         self.converts("a.scn", "b.scn")
         self.expect_same_pictures("a.scn", "b.scn", 3)
 
+    def test_colors_of_vertices_are_kept(self):
+        colors = [(number % 2, 0.3, number / 8) for number in range(len(POINTS))]
+        self.write(a_ply=models.ply(POINTS, TRIANGLES, colors=colors), b_ply=models.ply(POINTS, TRIANGLES),
+                   a_scn="light 5 -7 8 0.7\ndefine gold blinn_phong reflectivity 0.2\nmesh a.ply scale 0.3\n"
+                         "material own gold\nnormals smooth\nmesh a.ply scale 0.2\nmaterial gold\nmesh b.ply\n")
+        self.converts("a.scn", "b.scn")
+        self.expect_same_pictures("a.scn", "b.scn", 3)
+        self.converts("a.ply", "lone.scn")
+        self.expect_same_pictures("a.ply", "lone.scn", 1)
+
+    def test_uncolored_meshes_keep_their_color_beside_colored_ones(self):
+        colors = [(0.0, 0.5, 1.0)] * len(POINTS)
+        self.write(a_ply=models.ply(POINTS, TRIANGLES, colors=colors), b_ply=models.ply(POINTS, TRIANGLES),
+                   both_scn="define red matte diffuse 1 0.25 0\nmesh a.ply\nmaterial red\nmesh b.ply scale 2\n")
+        self.converts("both.scn", "both.ply", "-q")
+        doubled = [tuple(2 * value for value in point) for point in POINTS]
+        second = [tuple(len(POINTS) + corner for corner in triangle) for triangle in TRIANGLES]
+        self.write(expected_ply=models.ply(POINTS + doubled, TRIANGLES + second,
+                                           colors=colors + [(1.0, 0.25, 0.0)] * len(POINTS)))
+        self.expect_same_pictures("both.ply", "expected.ply", 1)
+
     def test_verbose_names_the_meshes(self):
         self.converts(ROOT / "scenes/cube.ply", "b.scn", "-v", says="b-1.ply: 10 triangles\n")
 

@@ -8,6 +8,7 @@ from models import ply
 from pictures import read_pfm
 from work import EVERY_FEATURE, ROOT, SharedWork, main
 
+PAINTED = str(ROOT / "tests/image/painted.scn")
 HEAD = ("size 5 5\nambient 0.1\nbackground 0 0 1\ndefine plain matte diffuse 0.8 0.8 0.8 kd 0.5\n"
         "define mirror matte diffuse 1 1 1 kd 0.5 reflectivity 0.5\n")
 MIRRORS = (f"{HEAD}light 0 0 2 1\nmaterial mirror\nsphere 0 3 0 1\nsphere 0 -3 0 1\n"
@@ -187,7 +188,8 @@ class Pixels(Explain):
     def test_the_printed_factors_add_up_to_the_pixels_color(self):
         shaders = set()
         for scene, pixels in (EVERY_FEATURE, ("70,60", "90,70", "64,90")), \
-                ("mirrors.scn", ("2,2",)), ("flat.scn", ("4,4",)), ("lamps.scn", ("150,190",)):
+                (PAINTED, ("40,50", "60,45", "70,68", "104,68")), ("mirrors.scn", ("2,2",)), \
+                ("flat.scn", ("4,4",)), ("lamps.scn", ("150,190",)):
             for pixel in pixels:
                 words = ["explain", str(ROOT / "scenes" / scene) if scene == "lamps.scn" else scene, pixel, "--aa=2"]
                 found = self.report(*words, "--json")
@@ -274,10 +276,10 @@ class Scenes(Explain):
     def test_the_text_lists_compiled_and_omitted_features_and_uploads(self):
         told = self.clrt("explain", "ball.scn", "--tune", "specialize=always")
         left_out = told.split("\nleft out\n")[1].split("\nuploaded")[0]
-        self.assertEqual(left_out.count("\n  ") + 1, 4, told)
+        self.assertEqual(left_out.count("\n  ") + 1, 5, told)
         self.assertIn("  tree        there are no triangles to find", left_out)
         self.assertIn("  triangles   there are none", left_out)
-        for part in "  spheres     1 of them", "  spheres     48 bytes", " nodes triangles looks normals":
+        for part in "  spheres     1 of them", "  spheres     48 bytes", " nodes triangles looks normals colors":
             self.assertIn(part, told)
 
     def test_special_kernels_have_only_the_features_of_the_scene(self):
@@ -291,6 +293,15 @@ class Scenes(Explain):
         self.expect_parts(general, triangles=(False, True, "there are none"),
                           statistics=(False, False, "not requested: no --stats"))
         self.expect_parts([*general, "--stats"], statistics=(True, True, "--stats counts rays and tests"))
+
+    def test_only_scenes_that_show_colors_of_vertices_compile_and_upload_them(self):
+        special = ["--tune", "specialize=always"]
+        found = self.expect_parts([PAINTED, *special], colors=(True, True, "240 triangles have colors of vertices"))
+        self.assertEqual(found["uploaded_bytes"]["colors"], 240 * 40)
+        self.write(gray_scn="material 1\nmesh painted.ply\n",
+                   painted_ply=(ROOT / "tests/image/painted.ply").read_bytes())
+        found = self.expect_parts(["gray.scn", *special], colors=(False, False, "no mesh shows colors of vertices"))
+        self.assertEqual(found["uploaded_bytes"]["colors"], 0)
 
     def test_silhouettes_are_not_lit_and_few_triangles_get_no_tree(self):
         self.expect_parts(["flat.scn", "--tune", "specialize=always"],

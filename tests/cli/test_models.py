@@ -125,9 +125,23 @@ class Formats(Work):
         self.picture("a.obj", says="clrt: a.obj: 2 lines and points are left out\n")
         self.assertIn("2 lines and points", self.run_clrt("check", "a.obj").stderr)
 
-    def test_colors_per_vertex_are_left_out_and_reported(self):
-        self.write(a_obj=b"v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 0 1 0 0 1\nf 1 2 3\n")
-        self.picture("a.obj", says="clrt: a.obj: its colors per vertex are left out\n")
+    def test_colors_of_vertices_are_those_of_ply(self):
+        colors = [(number % 4 / 4, number % 3 / 2, 0.75) for number in range(len(COARSE))]
+        painted = [point + color for point, color in zip(COARSE, colors)]
+        self.write(a_ply=models.ply(COARSE, TRIANGLES, colors=colors), a_obj=models.obj(painted, TRIANGLES),
+                   plain_ply=models.ply(COARSE, TRIANGLES))
+        self.expect_same("a.obj", "a.ply", "--up", "z")
+        self.assertNotEqual(self.picture("a.ply"), self.picture("plain.ply"))
+        for material in "own", "own 2":
+            self.write(a_scn=CAMERA + f"material {material}\nmesh a.obj\n",
+                       b_scn=CAMERA + f"material {material}\nmesh a.ply\n")
+            self.expect_same("a.scn", "b.scn")
+
+    def test_a_selected_material_ignores_the_colors_of_vertices(self):
+        colors = [(1.0, 0.0, 0.5)] * len(COARSE)
+        self.write(a_ply=models.ply(COARSE, TRIANGLES, colors=colors), b_ply=models.ply(COARSE, TRIANGLES),
+                   a_scn=CAMERA + "material 2\nmesh a.ply\n", b_scn=CAMERA + "material 2\nmesh b.ply\n")
+        self.expect_same("a.scn", "b.scn")
 
     def test_ply_file_stays_for_ply(self):
         self.write(a_obj=COLORED, a_scn="ply_file a.obj\n")

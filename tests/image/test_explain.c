@@ -45,10 +45,9 @@ static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
         assert_true((ray->lights[i].cosine > 0) == (ray->lights[i].state != LIGHT_BEHIND));
     }
     for (int axis = 0; axis < 3; axis++) {
-        const double lit = (double)material->diffuse[axis] * diffuse[axis] +
-                           (double)material->specular[axis] * specular[axis];
-        const double color =
-            material->shader == SHADER_SILHOUETTE ? (double)material->diffuse[axis] : clamped(lit);
+        const double own = component(ray->diffuse, axis);
+        const double lit = own * diffuse[axis] + (double)material->specular[axis] * specular[axis];
+        const double color = material->shader == SHADER_SILHOUETTE ? own : clamped(lit);
         assert_true(fabs(color - component(ray->shaded, axis)) < 1e-5);
     }
 }
@@ -104,6 +103,7 @@ TEST(explanations_give_the_bits_of_pixels_in_every_form)
     check_scene(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
     check_scene(SOURCE_SCENE("scenes/silhouette.scn"), 1);
     check_scene(SOURCE_SCENE("tests/image/mirrors.scn"), 1);
+    check_scene(SOURCE_SCENE("tests/image/painted.scn"), 1);
 }
 
 TEST(explanations_of_several_samples_give_the_bits_of_pixels)

@@ -14,6 +14,7 @@ static const char *const scenes[] = {
     CLRT_SOURCE_FOLDER "/scenes/blinn_phong.scn",
     CLRT_SOURCE_FOLDER "/scenes/simple.scn",
     CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn",
+    CLRT_SOURCE_FOLDER "/tests/image/painted.scn",
 };
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 

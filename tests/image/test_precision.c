@@ -97,6 +97,7 @@ TEST(every_pixel_of_small_scenes_is_the_oracles)
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/reflections.scn", small);
     check_oracle(CLRT_SOURCE_FOLDER "/scenes/simple.scn", small);
     check_oracle(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", (Share){1, 1});
+    check_oracle(CLRT_SOURCE_FOLDER "/tests/image/painted.scn", (Share){1, 1});
 }
 
 TEST(every_compared_pixel_of_meshes_is_the_oracles)

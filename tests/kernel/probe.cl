@@ -19,7 +19,7 @@ kernel void probe_layout(global uint *sizes)
     sizes[8] = (uint)((char *)&sphere.material - (char *)&sphere);
     sizes[9] = (uint)((char *)&pair.count - (char *)&pair);
     sizes[10] = (uint)((char *)&frame.uses_bvh - (char *)&frame);
-    sizes[11] = (uint)((char *)&triangle.normals - (char *)&triangle);
+    sizes[11] = (uint)((char *)&triangle.shading - (char *)&triangle);
     BvhWide wide;
     TriangleBlock block;
     TriangleLook look;
@@ -29,7 +29,10 @@ kernel void probe_layout(global uint *sizes)
     sizes[15] = (uint)((char *)&wide.child - (char *)&wide);
     sizes[16] = (uint)((char *)&wide.child_count - (char *)&wide);
     sizes[17] = (uint)((char *)&block.id - (char *)&block);
-    sizes[18] = (uint)((char *)&look.normals - (char *)&look);
+    sizes[18] = (uint)((char *)&look.shading - (char *)&look);
+    CornerColors colors;
+    sizes[19] = sizeof(CornerColors);
+    sizes[20] = (uint)((char *)&colors.shading - (char *)&colors);
 }
 
 // Each case has eight floats: {normal, half vector, shininess, exponent as bits}.

@@ -14,10 +14,10 @@ static Probe probe, probe_fp64;
 
 TEST(host_and_device_agree_on_the_layout)
 {
-    uint32_t sizes[19];
+    uint32_t sizes[21];
     const ProbeInput none[2] = {0};
     assert_true(probe_run(&probe, "probe_layout", none, 1, (ProbeInput){sizes, sizeof sizes}));
-    const size_t expected[19] = {sizeof(Material),
+    const size_t expected[21] = {sizeof(Material),
                                  sizeof(PointLight),
                                  sizeof(SphereData),
                                  sizeof(TriangleData),
@@ -28,15 +28,17 @@ TEST(host_and_device_agree_on_the_layout)
                                  offsetof(SphereData, material),
                                  offsetof(BvhPair, count),
                                  offsetof(FrameData, uses_bvh),
-                                 offsetof(TriangleData, normals),
+                                 offsetof(TriangleData, shading),
                                  sizeof(BvhWide),
                                  sizeof(TriangleBlock),
                                  sizeof(TriangleLook),
                                  offsetof(BvhWide, child),
                                  offsetof(BvhWide, child_count),
                                  offsetof(TriangleBlock, id),
-                                 offsetof(TriangleLook, normals)};
-    for (int i = 0; i < 19; i++)
+                                 offsetof(TriangleLook, shading),
+                                 sizeof(CornerColors),
+                                 offsetof(CornerColors, shading)};
+    for (int i = 0; i < 21; i++)
         assert_int_equal(sizes[i], expected[i]);
 }
 

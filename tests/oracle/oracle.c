@@ -140,8 +140,7 @@ static double clamped(double value)
 static Vec3 shade(const Oracle *oracle, const OracleSurface *surface, OracleDecisions *decisions)
 {
     const Material *material = &oracle->scene->materials.data[surface->material];
-    const Vec3 body = {(double)material->diffuse[0], (double)material->diffuse[1],
-                       (double)material->diffuse[2]};
+    const Vec3 body = surface->body;
     if (material->shader == SHADER_SILHOUETTE)
         return body;
     const Received received = light_received(oracle, surface, decisions);

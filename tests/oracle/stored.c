@@ -49,28 +49,32 @@ static void store_face(const Mesh *mesh, const uint32_t corners[3], float normal
     normal[2] = (float)face.z;
 }
 
-// Gives each triangle its own vertices, and every vertex a normal.
+// Gives each triangle its own vertices, and every vertex a normal. Colors stay with their corners.
 static bool complete_normals(Mesh *mesh, Error *error)
 {
     static const float none[3];
     const size_t count = 3 * mesh->triangle_count;
-    double(*positions)[3] = memory_raw(count, sizeof *positions, error);
-    float(*normals)[3] = memory_raw(count, sizeof *normals, error);
-    for (size_t i = 0; positions != NULL && normals != NULL && i < count; i++) {
+    Mesh own = {.vertex_count = count};
+    const bool ok = mesh_allocate_vertices(&own, true, mesh->colors != NULL, error);
+    for (size_t i = 0; ok && i < count; i++) {
         const uint32_t *corners = mesh->triangles[i / 3];
-        memcpy(positions[i], mesh->positions[corners[i % 3]], sizeof *positions);
-        memcpy(normals[i], mesh->normals[corners[i % 3]], sizeof *normals);
-        if (memcmp(normals[i], none, sizeof none) == 0)
-            store_face(mesh, corners, normals[i]);
+        memcpy(own.positions[i], mesh->positions[corners[i % 3]], sizeof *own.positions);
+        memcpy(own.normals[i], mesh->normals[corners[i % 3]], sizeof *own.normals);
+        if (memcmp(own.normals[i], none, sizeof none) == 0)
+            store_face(mesh, corners, own.normals[i]);
+        if (mesh->colors != NULL)
+            memcpy(own.colors[i], mesh->colors[corners[i % 3]], sizeof *own.colors);
     }
     for (size_t i = 0; i < count; i++)
         mesh->triangles[i / 3][i % 3] = (uint32_t)i;
     free(mesh->positions);
     free(mesh->normals);
-    mesh->positions = positions;
-    mesh->normals = normals;
+    free(mesh->colors);
+    mesh->positions = own.positions;
+    mesh->normals = own.normals;
+    mesh->colors = own.colors;
     mesh->vertex_count = count;
-    return positions != NULL && normals != NULL;
+    return ok;
 }
 
 static void round_mesh(Mesh *mesh, const Normalization *normalization)

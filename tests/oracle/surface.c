@@ -7,11 +7,18 @@
 // that are nearer than this error.
 #define POINT_ERROR 1e-10
 
+static Vec3 diffuse_of(const Scene *scene, uint32_t material)
+{
+    const float *diffuse = scene->materials.data[material].diffuse;
+    return vec3((double)diffuse[0], (double)diffuse[1], (double)diffuse[2]);
+}
+
 static void sphere_surface(OracleSurface *surface, const Scene *scene)
 {
     const Sphere *sphere = &scene->spheres.data[surface->id];
     surface->object = surface->id;
     surface->material = sphere->material;
+    surface->body = diffuse_of(scene, sphere->material);
     surface->normal = vec3_normalize(vec3_sub(surface->point, sphere->center));
     surface->front = vec3_dot(surface->normal, surface->toward_viewer) >= 0;
     surface->face = vec3_scale(surface->normal, surface->front ? 1 : -1);
@@ -32,19 +39,49 @@ static Vec3 vertex_normal(const Mesh *mesh, uint32_t vertex, Vec3 face)
     return vec3((double)normal[0], (double)normal[1], (double)normal[2]);
 }
 
-static Vec3 interpolated_normal(const Mesh *mesh, const uint32_t corners[3], Vec3 point, Vec3 face)
+typedef struct {
+    double of[3]; // the corners' shares of the point; their sum is 1
+} Shares;
+
+// Shares are areas, each divided by the sum of all three.
+static Shares shares_of(const Mesh *mesh, const uint32_t corners[3], Vec3 point, Vec3 face)
 {
-    Vec3 p[3], sum = {0, 0, 0};
+    Vec3 p[3];
+    Shares shares;
+    double sum = 0;
     for (int corner = 0; corner < 3; corner++) {
         const double *position = mesh->positions[corners[corner]];
         p[corner] = vec3(position[0], position[1], position[2]);
     }
     for (int corner = 0; corner < 3; corner++) {
-        const double weight =
-            weight_of_corner(point, p[(corner + 1) % 3], p[(corner + 2) % 3], face);
-        sum = vec3_add(sum, vec3_scale(vertex_normal(mesh, corners[corner], face), weight));
+        shares.of[corner] = weight_of_corner(point, p[(corner + 1) % 3], p[(corner + 2) % 3], face);
+        sum += shares.of[corner];
     }
+    for (int corner = 0; corner < 3; corner++)
+        shares.of[corner] /= sum;
+    return shares;
+}
+
+static Vec3 interpolated_normal(const Mesh *mesh, const uint32_t corners[3], const Shares *shares,
+                                Vec3 face)
+{
+    Vec3 sum = {0, 0, 0};
+    for (int corner = 0; corner < 3; corner++)
+        sum = vec3_add(sum,
+                       vec3_scale(vertex_normal(mesh, corners[corner], face), shares->of[corner]));
     return vec3_extent(sum) > 0 ? vec3_normalize(sum) : face;
+}
+
+static Vec3 mixed_color(const Mesh *mesh, const uint32_t corners[3], const Shares *shares)
+{
+    Vec3 mixed = {0, 0, 0};
+    for (int corner = 0; corner < 3; corner++) {
+        const float *color = mesh->colors[corners[corner]];
+        mixed.x += shares->of[corner] * (double)color[0];
+        mixed.y += shares->of[corner] * (double)color[1];
+        mixed.z += shares->of[corner] * (double)color[2];
+    }
+    return mixed;
 }
 
 static Vec3 face_normal(const Mesh *mesh, const uint32_t corners[3])
@@ -66,8 +103,11 @@ static void triangle_surface(OracleSurface *surface, const Scene *scene)
     surface->object = (uint32_t)(scene->spheres.count + object);
     surface->material = owner->material;
     surface->face = surface->normal = face_normal(&owner->mesh, corners);
+    const Shares shares = shares_of(&owner->mesh, corners, surface->point, surface->face);
     if (owner->mesh.normals != NULL)
-        surface->normal = interpolated_normal(&owner->mesh, corners, surface->point, surface->face);
+        surface->normal = interpolated_normal(&owner->mesh, corners, &shares, surface->face);
+    surface->body = owner->mesh.colors != NULL ? mixed_color(&owner->mesh, corners, &shares)
+                                               : diffuse_of(scene, owner->material);
     surface->front = vec3_dot(surface->face, surface->toward_viewer) > 0;
     if (!surface->front) {
         surface->face = vec3_scale(surface->face, -1);

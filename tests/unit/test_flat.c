@@ -116,7 +116,7 @@ TEST(flat_objects_upload_no_normals)
 {
     FREED_BY(release) Flattened all = flattened("normals flat\nply_file cube.ply", true);
     assert_int_equal(all.flat.normals_count, 0);
-    assert_true(all.flat.triangles[0].normals == NOTHING);
+    assert_true(all.flat.triangles[0].shading == NOTHING);
 }
 
 TEST(a_lone_leaf_gets_a_node_with_one_child)
@@ -146,6 +146,59 @@ TEST(a_missing_vertex_normal_becomes_the_faces)
     assert_true(of[1][0] == 0 && of[1][1] == 0 && of[1][2] == (order->reversed ? -1 : 1));
     // Given normals keep their relative lengths.
     assert_true(of[2][0] == 2 * of[0][0]);
+}
+
+// Reads the shading word of a triangle in either layout.
+static uint32_t shading_of(const FlatScene *flat, uint32_t number)
+{
+    if (flat->layout == NODES_WIDE)
+        return flat->looks[number].shading;
+    for (uint32_t i = 0; i < flat->triangle_count; i++)
+        if (flat->triangles[i].id == flat->sphere_count + number)
+            return flat->triangles[i].shading;
+    return 0;
+}
+
+static void check_colors(const Flattened *all)
+{
+    const Mesh *mesh = &all->scene.objects.data[1].mesh;
+    const uint32_t before = (uint32_t)all->scene.objects.data[0].mesh.triangle_count;
+    assert_int_equal(all->flat.colors_count, mesh->triangle_count);
+    assert_true(shading_of(&all->flat, 0) == NOTHING);
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t word = shading_of(&all->flat, before + i);
+        assert_int_equal(word, i | TRIANGLE_COLORED);
+        const CornerColors *stored = &all->flat.colors[i];
+        const uint8_t *places = triangles_order(&all->triangles, before + i)->places;
+        for (int corner = 0; corner < 3; corner++)
+            assert_memory_equal(stored->colors[corner],
+                                mesh->colors[mesh->triangles[i][places[corner]]],
+                                sizeof stored->colors[corner]);
+        assert_int_equal(stored->shading, mesh->normals != NULL ? i : NOTHING);
+    }
+    assert_true(traits_of(&all->flat, false).colors);
+}
+
+TEST(colored_triangles_have_the_colors_of_their_corners)
+{
+    for (int layout = 0; layout < NODE_LAYOUTS; layout++)
+        for (int smooth = 0; smooth < 2; smooth++) {
+            FREED_BY(release)
+            Flattened all = flattened_as(smooth ? "normals flat\nmesh cube.ply\nnormals smooth\n"
+                                                  "mesh ../tests/image/painted.ply"
+                                                : "normals flat\nmesh cube.ply\n"
+                                                  "mesh ../tests/image/painted.ply",
+                                         true, (NodeLayout)layout);
+            check_colors(&all);
+        }
+}
+
+TEST(a_selected_material_uploads_no_colors)
+{
+    FREED_BY(release)
+    Flattened all = flattened("material 1\nmesh ../tests/image/painted.ply", true);
+    assert_int_equal(all.flat.colors_count, 0);
+    assert_false(traits_of(&all.flat, false).colors);
 }
 
 // The scenes below have one sphere, so a triangle's id without marks is its number plus 1.
@@ -192,7 +245,7 @@ TEST(blocks_mark_two_sided_triangles_and_looks_do_not)
         }
     assert_int_equal(all.flat.looks[0].material, 1);
     assert_int_equal(all.flat.looks[half].material, 2);
-    assert_true(all.flat.looks[half].normals == NOTHING);
+    assert_true(all.flat.looks[half].shading == NOTHING);
 }
 
 static Material materials[2];
@@ -219,5 +272,6 @@ TEST(traits_become_compiler_options)
     const SceneTraits traits = {.spheres = true, .mirrors = true, .statistics = true};
     traits_write_options(&traits, options);
     assert_string_equal(options, "-DCLRT_SPHERES=1 -DCLRT_TRIANGLES=0 -DCLRT_BVH=0 "
-                                 "-DCLRT_MIRRORS=1 -DCLRT_SHADED=0 -DCLRT_STATISTICS=1");
+                                 "-DCLRT_MIRRORS=1 -DCLRT_SHADED=0 -DCLRT_COLORS=0 "
+                                 "-DCLRT_STATISTICS=1");
 }

@@ -112,6 +112,24 @@ TEST(size_background_ambient_and_level_are_taken)
     assert_int_equal(scene.max_level, 9);
 }
 
+TEST(material_own_shows_colors_and_may_name_the_material_of_files_without_one)
+{
+    FREED_BY(scene_free)
+    Scene scene = parsed("define gold blinn_phong\ndefine own-er matte\n"
+                         "mesh ../tests/image/painted.ply\nmesh cube.ply\n"
+                         "material own gold\nmesh ../tests/image/painted.ply\nmesh cube.ply\n"
+                         "sphere 0 0 0 1\nmaterial own 3\nply_file ../tests/image/painted.ply\n"
+                         "material gold\nmesh ../tests/image/painted.ply\n");
+    static const uint32_t materials[] = {COURSE_MATTE, 0, 4, 4, 3, 4};
+    static const bool colored[] = {true, false, true, false, true, false};
+    assert_int_equal(scene.objects.count, 6);
+    for (size_t i = 0; i < 6; i++) {
+        assert_int_equal(scene.objects.data[i].material, materials[i]);
+        assert_true((scene.objects.data[i].mesh.colors != NULL) == colored[i]);
+    }
+    assert_int_equal(scene.spheres.data[0].material, 4);
+}
+
 TEST(sides_and_normals_are_for_the_objects_that_follow)
 {
     FREED_BY(scene_free)
@@ -172,7 +190,7 @@ TEST(faults_name_line_column_and_the_statement)
                "max_level, mesh, normals, ply_file, sides, size, sphere, up): found '\?\?'"},
         {"define gold matte\nmaterial gild",
          "2:10: undefined material (did you mean 'gold'?): found 'gild'" STATEMENT
-         "'material NUMBER|NAME|own'"},
+         "'material NUMBER|NAME|own [NUMBER|NAME]'"},
         {"define a matte difuse 1 1 1",
          "1:16: unknown property (did you mean 'diffuse'?): found 'difuse'" DEFINE},
         {"size 0 5", "1:6: expected an integer between 1 and 131072: found '0'" STATEMENT

@@ -45,6 +45,7 @@ static void expect_same(const Scene *a, const Scene *b)
         const MeshObject *left = &a->objects.data[i], *right = &b->objects.data[i];
         assert_true(left->two_sided == right->two_sided);
         expect_same_materials(a, left->material, b, right->material);
+        assert_true((left->mesh.colors != NULL) == (right->mesh.colors != NULL));
     }
 }
 
@@ -58,8 +59,12 @@ TEST(every_statement_comes_back)
         "define \"my wax\" matte diffuse 0.1 0.2 0.3 kd 0.9\ndefine \"#a\" silhouette\n"
         "sphere 0.1 0.2 0.3 1e-7\nmaterial gold\nsphere 1 2 3 4\nmaterial 3\nsphere 5 6 7 8\n"
         "material \"my wax\"\nply_file cube.ply\nsides two\nnormals flat\nply_file cube.ply\n"
-        "sides one\nmaterial \"#a\"\nply_file cube.ply\nmaterial 2\nsphere 5 6 7 8\n";
-    static char *const names[] = {"cube.ply", "cube.ply", "cube.ply"};
+        "sides one\nmaterial \"#a\"\nply_file cube.ply\nmaterial 2\nsphere 5 6 7 8\n"
+        "mesh ../tests/image/painted.ply\nmaterial own\nmesh ../tests/image/painted.ply\n"
+        "material own gold\nmesh ../tests/image/painted.ply\nmesh cube.ply\n";
+    static char painted[] = "../tests/image/painted.ply";
+    static char *const names[] = {"cube.ply", "cube.ply", "cube.ply", painted,
+                                  painted,    painted,    "cube.ply"};
     char *again;
     FREED_BY(scene_free) Scene scene = parsed(text);
     FREED_BY(scene_free) Scene copy = written_and_read(&scene, names, &again);

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Tests that OpenGL and rays show the same outlines in all views of scenes of the course and of
 clrt. Each object gets its own color, and the two pictures may differ only within two pixels of an
-edge. Both must also show the same lit sides of a coarse convex mesh with smooth normals. Usage:
-CLRT=path/to/clrt test_outlines.py"""
+edge. Both must also show the same lit sides of a coarse convex mesh with smooth normals, and the same
+colors of vertices. Usage: CLRT=path/to/clrt test_outlines.py"""
 
 import pathlib
 import tempfile
@@ -126,6 +126,24 @@ def light_falls_on_the_same_side_of_a_convex_mesh(screen, folder):
     window.close()
     apart = compare("ball", "1", drawn, traced)
     print(f"         {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")
+
+
+def colors_of_vertices_agree(screen, folder):
+    """A ball has colors of vertices, and a cube the color of its material."""
+    scene = folder / "painted.scn"
+    scene.write_text("background 0 0 0\ndefine paper silhouette diffuse 0 1 0.5\nmaterial own paper\n"
+                     f"mesh {ROOT}/tests/image/painted.ply\nmesh {ROOT}/scenes/cube.ply translate 2.5 0 0\n"
+                     "camera 1.2 -6 2 1.2 0 0.3 50\n")
+    window = opened(screen, scene, size=SIZE)
+    traced = window.read()
+    window.press("r", "OpenGL")
+    drawn = window.read()
+    window.close()
+    near_edges = [sum(abs(a - b) > 2 for a, b in zip(traced[channel::4], drawn[channel::4]))
+                  for channel in range(3)]
+    print(f"         {near_edges} of {SIZE[0] * SIZE[1]} pixels differ by more than 2 of 255")
+    assert max(near_edges) < 300, near_edges
+    assert len(set(traced[2::4])) > 100, "the ball has few colors"
 
 
 if __name__ == "__main__":

@@ -57,13 +57,15 @@ static bool build(PeerScene *peer, const Triangles *triangles, const PeerSetting
 
 static bool take_looks(PeerScene *peer, const FlatScene *flat, Error *error)
 {
+    if (flat->colors_count > 0)
+        return error_set(error, "the peer does not draw colors of vertices");
     peer->looks = memory_raw(flat->triangle_count, sizeof *peer->looks, error);
     if (peer->looks == NULL)
         return false;
     for (uint32_t i = 0; i < flat->triangle_count; i++) {
         const TriangleData *triangle = &flat->triangles[i];
         peer->looks[triangle->id - flat->sphere_count] = (TriangleLook){
-            .material = triangle->material & ~TRIANGLE_MARKS, .normals = triangle->normals};
+            .material = triangle->material & ~TRIANGLE_MARKS, .shading = triangle->shading};
     }
     return true;
 }

@@ -83,9 +83,9 @@ static inline void look_up(const PeerScene *scene, const RayHits *hits, Mask hit
             continue;
         const TriangleLook *look = &scene->looks[hits->triangle[lane]];
         surfaces->material[lane] = (int32_t)look->material;
-        if (look->normals == NOTHING)
+        if (look->shading == NOTHING)
             continue;
-        const CornerNormals *corners = &scene->normals[look->normals];
+        const CornerNormals *corners = &scene->normals[look->shading];
         Quad normals[3];
         memcpy(normals, corners->normals, sizeof normals);
         const float u = hits->u[lane], v = hits->v[lane];

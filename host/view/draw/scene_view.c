@@ -8,19 +8,23 @@
 #include <string.h>
 
 // The following functions draw triangles. They share vertices as in the meshes, and each object
-// takes one draw call.
+// takes one draw call. If any mesh has colors, the colors of all vertices follow the
+// vertices in buffer 0. A mesh without colors has one color.
 
 typedef struct {
     float position[3];
     float normal[3]; // zero for none
 } DrawnVertex;
 
+#define TINT 2 // the attribute that is a color
+
 bool triangle_view_open(Drawing *view, Error *error)
 {
     static const DrawingLayout layout = {shader_triangles,
                                          {sizeof(DrawnVertex), 0},
                                          {{"position", 0, 3, offsetof(DrawnVertex, position)},
-                                          {"normal", 0, 3, offsetof(DrawnVertex, normal)}}};
+                                          {"normal", 0, 3, offsetof(DrawnVertex, normal)},
+                                          [TINT] = {"tint", 0, 3, 0}}};
     return drawing_open(view, &layout, error);
 }
 
@@ -43,14 +47,40 @@ static void store_vertices(DrawnVertex *vertices, const Model *model)
     }
 }
 
+static bool has_colors(const Scene *scene)
+{
+    bool found = false;
+    for (size_t i = 0; i < scene->objects.count; i++)
+        found |= scene->objects.data[i].mesh.colors != NULL;
+    return found;
+}
+
+static void store_colors(float (*colors)[3], const Scene *scene)
+{
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const Mesh *mesh = &scene->objects.data[i].mesh;
+        if (mesh->colors != NULL)
+            memcpy(colors, mesh->colors, mesh->vertex_count * sizeof *colors);
+        colors += mesh->vertex_count;
+    }
+}
+
 bool triangle_view_load(const Drawing *view, const Model *model, Error *error)
 {
     const Triangles *triangles = &model->stages.triangles;
-    DrawnVertex *vertices = memory_raw(triangles->point_count, sizeof *vertices, error);
+    const size_t count = triangles->point_count;
+    const bool is_colored = has_colors(&model->scene);
+    const size_t size = sizeof(DrawnVertex) + (is_colored ? 3 * sizeof(float) : 0);
+    DrawnVertex *vertices = memory_zeroed(count, size, error);
     if (vertices == NULL)
         return false;
     store_vertices(vertices, model);
-    drawing_fill(view, 0, vertices, triangles->point_count * sizeof *vertices);
+    if (is_colored)
+        store_colors((float(*)[3])(void *)(vertices + count), &model->scene);
+    glBindVertexArray(view->array);
+    drawing_fill(view, 0, vertices, count * size);
+    glVertexAttribPointer(TINT, 3, GL_FLOAT, GL_FALSE, 0, (void *)(count * sizeof *vertices));
+    glBindVertexArray(0);
     drawing_fill(view, 1, triangles->corners, triangles->count * sizeof *triangles->corners);
     free(vertices);
     return true;
@@ -63,6 +93,7 @@ static void set_material(GLuint program, const Material *material)
     glUniform4fv(glGetUniformLocation(program, "diffuse"), 1, vectors[0]);
     glUniform4fv(glGetUniformLocation(program, "specular"), 1, vectors[1]);
     glUniform4fv(glGetUniformLocation(program, "look"), 1, vectors[2]);
+    glVertexAttrib3fv(TINT, material->diffuse);
 }
 
 void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens, const Tone *tone)
@@ -77,6 +108,8 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
         const MeshObject *object = &scene->objects.data[i];
         (object->two_sided ? glDisable : glEnable)(GL_CULL_FACE);
         set_material(view->program, &scene->materials.data[object->material]);
+        (object->mesh.colors != NULL ? glEnableVertexAttribArray
+                                     : glDisableVertexAttribArray)(TINT);
         glDrawElements(GL_TRIANGLES, (GLsizei)(3 * object->mesh.triangle_count), GL_UNSIGNED_INT,
                        (void *)(3 * first * sizeof(GLuint)));
         first += object->mesh.triangle_count;

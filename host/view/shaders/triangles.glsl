@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Draws triangles with smooth or flat normals. The derivatives of the position yield the face's
+// Draws triangles with smooth or flat normals, and with one color or a color per vertex. The derivatives of the position yield the face's
 // normal.
 #include "lens.glsl"
 #ifdef VERTEX
-in vec3 position, normal;
-out vec3 place, bend;
+in vec3 position, normal, tint;
+out vec3 place, bend, paint;
 
 void main()
 {
     place = position;
     bend = normal;
+    paint = tint;
     gl_Position = projected(position - eye);
 }
 #else
 #include "light.glsl"
-in vec3 place, bend;
+in vec3 place, bend, paint;
 out vec4 color;
 uniform vec4 diffuse, specular, look;
 
@@ -27,6 +28,7 @@ void main()
     vec3 normal = face;
     if (dot(bend, bend) > 0.0)
         normal = gl_FrontFacing ? bend : -bend;
-    color = seen(Surface(place, normalize(normal), face, toward_viewer, diffuse, specular, look));
+    color = seen(Surface(place, normalize(normal), face, toward_viewer, vec4(paint, diffuse.w),
+                         specular, look));
 }
 #endif
