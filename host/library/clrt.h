@@ -121,6 +121,7 @@ typedef struct {
     bool flat;             // ignores the normals
     bool smooth;           // computes missing normals, like `normals smooth` in scene files
     double crease_degrees; // for smooth: larger angles stay sharp; in [0, 180]; 0 means 33
+    const float *colors;   // R G B per vertex, in [0, 1], instead of diffuse; may be NULL
 } ClrtMesh;
 
 CLRT_API bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtError *error);

@@ -32,8 +32,11 @@ static bool copy_mesh(Mesh *mesh, const ClrtMesh *given, Error *cause)
     mesh->triangles = copy_array(given->triangles, triangles, sizeof *mesh->triangles, cause);
     if (given->normals != NULL)
         mesh->normals = copy_array(given->normals, vertices, sizeof *mesh->normals, cause);
+    if (given->colors != NULL)
+        mesh->colors = copy_array(given->colors, vertices, sizeof *mesh->colors, cause);
     return mesh->positions != NULL && mesh->triangles != NULL &&
-           (mesh->normals != NULL || given->normals == NULL);
+           (mesh->normals != NULL || given->normals == NULL) &&
+           (mesh->colors != NULL || given->colors == NULL);
 }
 
 static bool check_vertices(const Mesh *mesh, ClrtError *error)
@@ -47,6 +50,10 @@ static bool check_vertices(const Mesh *mesh, ClrtError *error)
                                   vertex, position);
             if (mesh->normals != NULL && !isfinite(mesh->normals[vertex][axis]))
                 return check_fail(error, CLRT_ARGUMENT, "the normal of vertex %zu is not finite",
+                                  vertex);
+            if (mesh->colors != NULL &&
+                !(mesh->colors[vertex][axis] >= 0 && mesh->colors[vertex][axis] <= 1))
+                return check_fail(error, CLRT_ARGUMENT, "the color of vertex %zu is not in [0, 1]",
                                   vertex);
         }
     return true;

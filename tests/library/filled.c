@@ -43,6 +43,8 @@ static const double roof_positions[][3] = {
     {-2, -1, 0.2}, {-2, 1, 1.3}, {-1, 1.1, 1.35}, {-1.1, -1, 0.3}, {-2, 3, 0.2}};
 static const float roof_normals[][3] = {
     {0, -1, 1}, {0, 0, 2.5f}, {0, 0.1f, 1}, {0, -1, 0.9f}, {0, 0, 0}};
+static const float roof_colors[][3] = {
+    {1, 0.25f, 0}, {0, 1, 0.5f}, {0.125f, 0.25f, 1}, {1, 1, 0}, {0.5f, 0.5f, 0.5f}};
 static const uint32_t roof_triangles[][3] = {{0, 3, 2}, {0, 2, 1}, {1, 2, 4}};
 
 const ClrtMesh filled_meshes[2] = {
@@ -57,6 +59,7 @@ const ClrtMesh filled_meshes[2] = {
     {.size = sizeof(ClrtMesh),
      .positions = roof_positions[0],
      .normals = roof_normals[0],
+     .colors = roof_colors[0],
      .triangles = roof_triangles[0],
      .vertex_count = sizeof roof_positions / sizeof *roof_positions,
      .triangle_count = sizeof roof_triangles / sizeof *roof_triangles,

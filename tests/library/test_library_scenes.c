@@ -168,6 +168,18 @@ TEST(vertices_that_are_no_points_are_refused)
     }
 }
 
+TEST(colors_outside_the_range_are_refused)
+{
+    const float bad[] = {-0.001f, 1.001f, NAN, INFINITY};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        float colors[3][3] = {{0}};
+        ClrtMesh mesh = good_mesh();
+        mesh.colors = colors[0];
+        colors[1][2] = bad[i];
+        REFUSES(add(&mesh, &error), "the color of vertex 1 is not in [0, 1]");
+    }
+}
+
 TEST(impossible_cameras_are_refused)
 {
     const ClrtCamera good = filled_cameras[0];

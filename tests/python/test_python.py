@@ -46,6 +46,22 @@ class Pictures(unittest.TestCase):
         self.assertEqual(picture.dtype, np.float32)
         self.assertEqual(clrt.hash(picture), printed)
 
+    def test_meshes_have_colors_of_vertices(self):
+        def draw(colors):
+            scene = clrt.Scene()
+            scene.mesh(CUBE, SIDES, "silhouette", colors=colors)
+            scene.camera((3, -4, 2))
+            return scene.render(32, 32)
+
+        red = draw([(1, 0, 0)] * 8)
+        shown = np.unique(red.reshape(-1, 3).round(6), axis=0)
+        self.assertEqual(shown.tolist(), [[1, 0, 0], [1, 1, 1]])
+        bytes_ = (np.arange(24) * 11).reshape(8, 3).astype(np.uint8)
+        picture = draw(bytes_)
+        self.assertEqual(clrt.hash(picture), clrt.hash(draw(bytes_ / 255)))
+        self.assertTrue((picture == draw((bytes_.astype(np.uint16) * 257))).all())
+        self.assertGreater(len(np.unique(picture)), 50)
+
     def test_channels_are_arrays_and_agree_with_rays(self):
         scene, renderer = clrt.load(CREATURE), clrt.Renderer()
         picture = renderer.render(scene, 48, 32, channels=["depth", "primitive", "normal"])
@@ -168,6 +184,10 @@ class Errors(unittest.TestCase):
         cases = ((clrt.SceneError, "cannot be opened", lambda: clrt.load("/nowhere.scn")),
                  (clrt.ArgumentError, "vertex 12", lambda: clrt.Scene().mesh(CUBE, [(0, 1, 12)])),
                  (clrt.ArgumentError, "not an integer", lambda: clrt.Scene().mesh(CUBE, [(0, 1, -1)])),
+                 (clrt.ArgumentError, "7 colors for 8", lambda: clrt.Scene().mesh(
+                     CUBE, SIDES, colors=[(0, 0, 0)] * 7)),
+                 (clrt.ArgumentError, "color of vertex 0", lambda: clrt.Scene().mesh(
+                     CUBE, SIDES, colors=[(0, 255, 0)] * 8)),
                  (clrt.ArgumentError, "shape", lambda: clrt.Scene().mesh(CUBE[0], SIDES)),
                  (clrt.ArgumentError, "channel",
                   lambda: clrt.load(CREATURE).render(8, 8, channels=["dept"])),

@@ -64,24 +64,23 @@ class Scene:
         return number[0]
 
     def mesh(self, vertices: ArrayLike, faces: ArrayLike, material: int | str = "matte", *,
-             normals: ArrayLike | None = None, two_sided: bool = False, smooth: bool = False,
-             crease: float | None = None) -> None:
+             normals: ArrayLike | None = None, colors: ArrayLike | None = None,
+             two_sided: bool = False, smooth: bool = False, crease: float | None = None) -> None:
         """Adds a mesh.
 
         vertices: (n, 3) numbers, kept as float64. faces: (m, 3) vertex numbers, counter-clockwise
-        seen from the front. normals: (n, 3), one per vertex. smooth computes normals that are
-        missing; angles above `crease` degrees (33) stay sharp. Pictures show the backs of two_sided
-        meshes, too. material: a number that `material` returned, "silhouette", "matte",
-        "blinn_phong" or "mirror".
+        seen from the front. normals: (n, 3), one per vertex. colors: (n, 3), R G B per vertex
+        instead of the material's diffuse color: uint8, uint16 or numbers in [0, 1]. smooth computes
+        normals that are missing; angles above `crease` degrees (33) stay sharp. Pictures show the
+        backs of two_sided meshes, too. material: a number that `material` returned, "silhouette",
+        "matte", "blinn_phong" or "mirror".
         """
         vertices = np.ascontiguousarray(rows(vertices, np.float64, "vertices"))
         faces = np.ascontiguousarray(rows(faces, np.uint32, "faces"))
-        if normals is not None:
-            normals = np.ascontiguousarray(rows(normals, np.float32, "normals"))
-            if len(normals) != len(vertices):
-                raise ArgumentError(f"{len(normals)} normals for {len(vertices)} vertices")
+        normals = _per_vertex(normals, len(vertices), "normals")
+        colors = _per_vertex(_brightness(colors), len(vertices), "colors")
         given = struct("ClrtMesh", positions=vertices, triangles=faces, normals=normals,
-                       vertex_count=len(vertices), triangle_count=len(faces),
+                       colors=colors, vertex_count=len(vertices), triangle_count=len(faces),
                        material=_material(material), two_sided=two_sided, smooth=smooth,
                        flat=normals is None and not smooth, crease_degrees=crease)
         call("scene_add_mesh", self._handle, given)
@@ -140,6 +139,21 @@ def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
     scene = Scene.__new__(Scene)
     scene._handle = ffi.gc(call("scene_load", os.fsencode(path), settings), lib.clrt_scene_free)
     return scene
+
+
+def _per_vertex(given, count, what):
+    if given is None:
+        return None
+    given = np.ascontiguousarray(rows(given, np.float32, what))
+    if len(given) != count:
+        raise ArgumentError(f"{len(given)} {what} for {count} vertices")
+    return given
+
+
+def _brightness(colors):
+    """Scales uint8 and uint16 to [0, 1]."""
+    dtype = getattr(colors, "dtype", None)
+    return colors / np.iinfo(dtype).max if dtype in (np.uint8, np.uint16) else colors
 
 
 def _material(material):
