@@ -11,7 +11,7 @@
 
 #include <stdio.h>
 
-static const Model *const models[] = {&model_creature, &model_figure, &model_coral};
+static const Model *const models[] = {&model_creature, &model_figure, &model_coral, &model_vase};
 
 static bool make_surface(Surface *surface, const Model *model, Error *error)
 {
@@ -22,13 +22,14 @@ static bool make_surface(Surface *surface, const Model *model, Error *error)
            closed_check(surface, model->name, error);
 }
 
-static bool write_file(const Surface *surface, const char *name, const char *folder, Error *error)
+static bool write_file(const Surface *surface, PointColor *color, const char *name,
+                       const char *folder, Error *error)
 {
     char path[4096];
     const int length = snprintf(path, sizeof path, "%s/%s.ply", folder, name);
     if (length < 0 || (size_t)length >= sizeof path)
         return error_set(error, "the folder's name is too long: %s", folder);
-    if (!ply_file_write(surface, path, error))
+    if (!ply_file_write(surface, color, path, error))
         return false;
     printf("%s: %zu vertices, %zu triangles\n", name, surface->vertex_count,
            surface->quad_count * 2);
@@ -38,8 +39,8 @@ static bool write_file(const Surface *surface, const char *name, const char *fol
 static bool make_file(const Model *model, const char *folder, Error *error)
 {
     Surface surface = {0};
-    const bool made =
-        make_surface(&surface, model, error) && write_file(&surface, model->name, folder, error);
+    const bool made = make_surface(&surface, model, error) &&
+                      write_file(&surface, model->color, model->name, folder, error);
     surface_free(&surface);
     return made;
 }
@@ -48,7 +49,7 @@ static bool make_cables(const char *folder, Error *error)
 {
     Surface surface = {0};
     const bool made = cables_make(&surface, error) && closed_check(&surface, "cables", error) &&
-                      write_file(&surface, "cables", folder, error);
+                      write_file(&surface, NULL, "cables", folder, error);
     surface_free(&surface);
     return made;
 }
