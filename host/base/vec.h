@@ -23,6 +23,13 @@ static inline Vec3 vec3_of_doubles(const double v[3])
     return (Vec3){v[0], v[1], v[2]};
 }
 
+static inline void vec3_store_doubles(double out[3], Vec3 v)
+{
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
+}
+
 // Rounds the components to float.
 static inline void vec3_store(float out[3], Vec3 v)
 {

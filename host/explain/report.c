@@ -47,14 +47,14 @@ static const char *name_material(const Scene *scene, uint32_t material)
     return courses[material];
 }
 
-static json_t *vector_json(Vec3 v)
+static json_t *vector_json(const double v[3])
 {
-    return json_pack("[f, f, f]", v.x, v.y, v.z);
+    return json_pack("[f, f, f]", v[0], v[1], v[2]);
 }
 
-static json_t *color_json(const float color[3])
+static json_t *color_json(Vec3 color)
 {
-    return vector_json(vec3_of_floats(color));
+    return json_pack("[f, f, f]", color.x, color.y, color.z);
 }
 
 static json_t *primitive_json(const Scene *scene, uint32_t id)
@@ -67,25 +67,25 @@ static json_t *primitive_json(const Scene *scene, uint32_t id)
 static json_t *light_json(const ExplainReport *report, const ExplainedRay *ray, size_t index)
 {
     static const char *const states[] = {"behind", "reaches", "blocked", "behind_face"};
-    const ExplainedLight *light = &ray->lights[index];
+    const ClrtExplainedLight *light = &ray->lights[index];
     const Light *source = &report->scene->lights.data[index];
-    const Material *material = &report->scene->materials.data[ray->material];
-    const bool blocked = light->state == LIGHT_BLOCKED;
+    const Material *material = &report->scene->materials.data[ray->found.material];
+    const bool blocked = light->state == CLRT_LIGHT_BLOCKED;
     json_t *blocker = blocked ? primitive_json(report->scene, light->blocker) : json_null();
     return JSON(FIELD("state", states[light->state]), FIELD("cosine", light->cosine),
                 FIELD("distance", light->distance), FIELD("blocker", blocker),
                 FIELD("blocker_distance", blocked ? light->blocker_distance : (double)NAN),
                 FIELD("intensity", source->intensity),
                 FIELD("diffuse", light->diffuse * (double)material->kd),
-                FIELD("shine", light->shine),
+                FIELD("shine", source->intensity > 0 ? light->specular / source->intensity : 0.0),
                 FIELD("highlight", light->specular * (double)material->ks),
-                FIELD("color", vector_json(source->color)));
+                FIELD("color", color_json(source->color)));
 }
 
 static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
 {
     json_t *list = json_array();
-    for (size_t i = 0; ray->uses_lights && i < report->scene->lights.count; i++)
+    for (size_t i = 0; i < ray->found.light_count; i++)
         json_array_append_new(list, light_json(report, ray, i));
     return list;
 }
@@ -96,42 +96,42 @@ static json_t *factors_json(const Scene *scene, const Material *material, Vec3 d
 {
     static const char *const shaders[] = {"silhouette", "matte", "blinn_phong"};
     return JSON(FIELD("shader", shaders[material->shader]), FIELD("ambient", scene->ambient),
-                FIELD("diffuse_color", vector_json(diffuse)), FIELD("kd", (double)material->kd),
-                FIELD("specular_color", color_json(material->specular)),
+                FIELD("diffuse_color", color_json(diffuse)), FIELD("kd", (double)material->kd),
+                FIELD("specular_color", color_json(vec3_of_floats(material->specular))),
                 FIELD("ks", (double)material->ks), FIELD("shininess", (double)material->shininess));
 }
 
 static json_t *hit_json(const ExplainReport *report, const ExplainedRay *ray)
 {
     const Scene *scene = report->scene;
-    if (ray->primitive == NOTHING)
+    const ClrtExplainedRay *found = &ray->found;
+    if (found->primitive == NOTHING)
         return json_null();
-    const Material *material = &scene->materials.data[ray->material];
-    return JSON(FIELD("primitive", primitive_json(scene, ray->primitive)),
-                FIELD("material", name_material(scene, ray->material)),
-                FIELD("distance", ray->distance), FIELD("distance_error", ray->error),
-                FIELD("point", vector_json(ray->point)), FIELD("normal", vector_json(ray->normal)),
+    const Material *material = &scene->materials.data[found->material];
+    return JSON(FIELD("primitive", primitive_json(scene, found->primitive)),
+                FIELD("material", name_material(scene, found->material)),
+                FIELD("distance", found->distance), FIELD("distance_error", found->distance_error),
+                FIELD("point", vector_json(found->point)),
+                FIELD("normal", vector_json(found->normal)),
                 FIELD("lights", lights_json(report, ray)),
                 FIELD("factors", factors_json(scene, material, ray->diffuse)),
-                FIELD("color", vector_json(ray->shaded)), FIELD("share", ray->share),
+                FIELD("color", vector_json(found->shaded)), FIELD("share", found->share),
                 FIELD("reflectivity", (double)material->reflectivity));
 }
 
 static json_t *sample_json(const ExplainReport *report, const ExplainedSample *sample)
 {
-    const double *steps = sample->steps;
     json_t *rays = json_array();
-    for (uint32_t level = 0; level < sample->ray_count; level++) {
+    for (uint32_t level = 0; level < sample->found.ray_count; level++) {
         const ExplainedRay *ray = &sample->rays[level];
         json_array_append_new(rays, JSON(FIELD("kind", level == 0 ? "camera" : "reflected"),
-                                         FIELD("origin", vector_json(ray->origin)),
-                                         FIELD("direction", vector_json(ray->direction)),
-                                         FIELD("weight", ray->weight),
+                                         FIELD("origin", vector_json(ray->found.origin)),
+                                         FIELD("direction", vector_json(ray->found.direction)),
+                                         FIELD("weight", ray->found.weight),
                                          FIELD("hit", hit_json(report, ray))));
     }
-    return JSON(
-        FIELD("rays", rays), FIELD("background_weight", sample->background_weight),
-        FIELD("color", vector_json(vec3_scale(vec3(steps[0], steps[1], steps[2]), 0x1p-32))));
+    return JSON(FIELD("rays", rays), FIELD("background_weight", sample->found.background_weight),
+                FIELD("color", vector_json(sample->found.color)));
 }
 
 // Prints the text `full` or, in brief reports, the text `brief`.
@@ -166,28 +166,29 @@ static void print_received(const ExplainReport *report, const json_t *light, con
 static void print_light(const ExplainReport *report, const ExplainedRay *ray, size_t index,
                         const json_t *light, FILE *stream)
 {
-    const LightState state = ray->lights[index].state;
-    const bool shines = report->scene->materials.data[ray->material].shader == SHADER_BLINN_PHONG;
+    const ClrtLightState state = ray->lights[index].state;
+    const bool shines =
+        report->scene->materials.data[ray->found.material].shader == SHADER_BLINN_PHONG;
     fprintf(stream, "    light %-4zu ", index + 1);
     switch (state) {
-    case LIGHT_BEHIND:
+    case CLRT_LIGHT_BEHIND:
         fputs("does not reach it: the normal is turned away", stream);
         break;
-    case LIGHT_BEHIND_FACE:
+    case CLRT_LIGHT_BEHIND_FACE:
         fputs("does not reach it: the face is turned away", stream);
         break;
-    case LIGHT_BLOCKED:
+    case CLRT_LIGHT_BLOCKED:
         fputs("is blocked by ", stream);
         print_primitive(report, json_object_get(light, "blocker"), stream);
         print(report, light, ", {blocker_distance .6g} away; the light is {distance .6g} away", "",
               stream);
         break;
-    case LIGHT_SEEN:
+    case CLRT_LIGHT_REACHES:
         print(report, light, "reaches it from {distance .6g} away", "reaches it", stream);
         break;
     }
     print(report, light, "; cosine {cosine .6g}", "", stream);
-    if (state == LIGHT_SEEN)
+    if (state == CLRT_LIGHT_REACHES)
         print_received(report, light, &report->scene->lights.data[index], shines, stream);
     fputs("\n", stream);
 }
@@ -208,7 +209,7 @@ static void print_factors(const json_t *factors, Shader shader, FILE *stream)
 static void print_hit(const ExplainReport *report, const ExplainedRay *ray, const json_t *hit,
                       FILE *stream)
 {
-    const Material *material = &report->scene->materials.data[ray->material];
+    const Material *material = &report->scene->materials.data[ray->found.material];
     print_primitive(report, json_object_get(hit, "primitive"), stream);
     print(report, hit,
           ", material {material}\n"
@@ -218,7 +219,7 @@ static void print_hit(const ExplainReport *report, const ExplainedRay *ray, cons
           "    distance   {distance .3g}\n"
           "    point      {point .3v}, normal {normal .3v}\n",
           stream);
-    for (size_t i = 0; ray->uses_lights && i < report->scene->lights.count; i++)
+    for (size_t i = 0; i < ray->found.light_count; i++)
         print_light(report, ray, i, json_array_get(json_object_get(hit, "lights"), i), stream);
     if (!report->is_brief)
         print_factors(json_object_get(hit, "factors"), material->shader, stream);
@@ -233,8 +234,8 @@ static void print_ray(const ExplainReport *report, const ExplainedRay *ray, cons
                       FILE *stream)
 {
     print(report, json, "    from       {origin .6v} along {direction .6v}\n", "", stream);
-    fputs(ray->primitive == NOTHING ? "    meets      nothing\n" : "    meets      ", stream);
-    if (ray->primitive != NOTHING)
+    fputs(ray->found.primitive == NOTHING ? "    meets      nothing\n" : "    meets      ", stream);
+    if (ray->found.primitive != NOTHING)
         print_hit(report, ray, json_object_get(json, "hit"), stream);
 }
 
@@ -243,9 +244,9 @@ static void print_sample(const ExplainReport *report, const ExplainedSample *sam
 {
     const double least = report->is_brief ? BRIEF_WEIGHT : 0;
     const json_t *rays = json_object_get(json, "rays");
-    for (uint32_t level = 0; level < sample->ray_count; level++) {
+    for (uint32_t level = 0; level < sample->found.ray_count; level++) {
         const json_t *ray = json_array_get(rays, level);
-        if (sample->rays[level].weight < least)
+        if (sample->rays[level].found.weight < least)
             continue;
         if (level == 0)
             fputs("  the camera's ray\n", stream);
@@ -255,8 +256,8 @@ static void print_sample(const ExplainReport *report, const ExplainedSample *sam
         }
         print_ray(report, &sample->rays[level], ray, stream);
     }
-    if (sample->background_weight > least) {
-        json_t *background = JSON(FIELD("color", vector_json(report->scene->background)));
+    if (sample->found.background_weight > least) {
+        json_t *background = JSON(FIELD("color", color_json(report->scene->background)));
         print(report, background, "  the background {color .6v}", "  the background {color .3v}",
               stream);
         json_print(json, ", weight {background_weight .6g} in the sample\n", stream);
@@ -281,6 +282,7 @@ static bool explain_samples(const ExplainReport *report, Explainer *explainer, j
         if (is_printed)
             print_sample(report, &sample, json, stream);
         json_array_append_new(list, json);
+        explained_sample_free(&sample);
     }
     return true;
 }
@@ -303,8 +305,8 @@ static json_t *report_json(const ExplainReport *report, Explainer *explainer, FI
                   FIELD("pixel", json_pair(report->pixel[0], report->pixel[1])),
                   FIELD("size", json_pair(settings->width, settings->height)),
                   FIELD("view", report->view),
-                  FIELD("background", vector_json(report->scene->background)),
-                  FIELD("samples", samples), FIELD("color", color_json(color)),
+                  FIELD("background", color_json(report->scene->background)),
+                  FIELD("samples", samples), FIELD("color", color_json(vec3_of_floats(color))),
                   FIELD("bytes", json_pack("[i, i, i]", bytes[0], bytes[1], bytes[2])));
 }
 

@@ -20,19 +20,15 @@ uint32_t clrt_channel_count(void)
 
 bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError *error)
 {
-    ClrtChannelInfo filled;
-    if (!check_struct(error, "the info", info, &filled, sizeof filled))
-        return false;
     if (number >= clrt_channel_count())
         return check_fail(error, CLRT_ARGUMENT, "channel %u does not exist: there are %u", number,
                           clrt_channel_count());
     const Aov *aov = &aov_table[number];
-    filled =
-        (ClrtChannelInfo){.components = drawing_components(number), .is_integer = aov->is_integer};
+    ClrtChannelInfo filled = {.components = drawing_components(number),
+                              .is_integer = aov->is_integer};
     snprintf(filled.name, sizeof filled.name, "%s", aov->name);
     snprintf(filled.help, sizeof filled.help, "%s", aov->help);
-    fill_struct(info, &filled, sizeof filled);
-    return true;
+    return fill_struct(error, "the info", info, &filled, sizeof filled);
 }
 
 static bool take_channel(AovSet *set, const ClrtChannel *channel, ClrtError *error)

@@ -32,15 +32,8 @@ bool check_color(ClrtError *error, const char *what, const double color[3]);
 bool check_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size);
 
 // Copies a filled struct of `size` bytes into the given struct, as far as the given struct has its
-// members. check_struct has accepted the given struct.
-void fill_struct(void *given, const void *filled, size_t size);
-
-static inline void copy_vector(double copy[3], Vec3 vector)
-{
-    copy[0] = vector.x;
-    copy[1] = vector.y;
-    copy[2] = vector.z;
-}
+// members. Fails as check_struct does.
+bool fill_struct(ClrtError *error, const char *what, void *given, const void *filled, size_t size);
 
 struct ClrtScene {
     Scene scene;

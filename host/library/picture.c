@@ -142,7 +142,7 @@ static void fill_result(const Drawing *drawing)
         .sphere_tests = tallies[TALLY_SPHERE_TESTS],
     };
     if (drawing->wanted.result != NULL)
-        fill_struct(drawing->wanted.result, &filled, sizeof filled);
+        fill_struct(NULL, "the result", drawing->wanted.result, &filled, sizeof filled);
 }
 
 // Prepares the request, calls `perform`, and fills the caller's result.

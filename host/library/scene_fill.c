@@ -118,19 +118,15 @@ bool clrt_scene_add_camera(ClrtScene *scene, const ClrtCamera *camera, ClrtError
 bool clrt_scene_get_camera(const ClrtScene *scene, uint32_t view, ClrtCamera *camera,
                            ClrtError *error)
 {
-    ClrtCamera filled;
-    if (!check_given(error, "the scene", scene) ||
-        !check_struct(error, "the camera", camera, &filled, sizeof filled) ||
-        !scene_handle_check_view(scene, view, error))
+    if (!check_given(error, "the scene", scene) || !scene_handle_check_view(scene, view, error))
         return false;
     const Viewpoint *viewpoint = &scene->scene.viewpoints.data[view - 1];
-    filled = (ClrtCamera){.fov_degrees = viewpoint->fov_degrees,
-                          .width_degrees = viewpoint->width_degrees};
-    copy_vector(filled.eye, viewpoint->eye);
-    copy_vector(filled.look_at, viewpoint->look_at);
-    copy_vector(filled.up, viewpoint->up);
-    fill_struct(camera, &filled, sizeof filled);
-    return true;
+    ClrtCamera filled = {.fov_degrees = viewpoint->fov_degrees,
+                         .width_degrees = viewpoint->width_degrees};
+    vec3_store_doubles(filled.eye, viewpoint->eye);
+    vec3_store_doubles(filled.look_at, viewpoint->look_at);
+    vec3_store_doubles(filled.up, viewpoint->up);
+    return fill_struct(error, "the camera", camera, &filled, sizeof filled);
 }
 
 bool clrt_scene_set_background(ClrtScene *scene, const double color[3], ClrtError *error)

@@ -92,12 +92,16 @@ bool check_struct(ClrtError *error, const char *what, const void *given, void *c
                       clrt_version());
 }
 
-void fill_struct(void *given, const void *filled, size_t size)
+bool fill_struct(ClrtError *error, const char *what, void *given, const void *filled, size_t size)
 {
     size_t given_size;
+    unsigned char unused[LARGEST_STRUCT];
+    if (!check_struct(error, what, given, unused, size))
+        return false;
     memcpy(&given_size, given, sizeof given_size);
     memcpy(given, filled, given_size < size ? given_size : size);
     memcpy(given, &given_size, sizeof given_size);
+    return true;
 }
 
 // CMakeLists.txt defines the version.
@@ -166,20 +170,17 @@ void clrt_scene_free(ClrtScene *scene)
 
 bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError *error)
 {
-    ClrtSceneInfo filled;
-    if (!check_given(error, "the scene", scene) ||
-        !check_struct(error, "the info", info, &filled, sizeof filled))
+    if (!check_given(error, "the scene", scene))
         return false;
     const Scene *inside = &scene->scene;
-    filled = (ClrtSceneInfo){.width = inside->width,
-                             .height = inside->height,
-                             .max_level = inside->max_level,
-                             .view_count = (uint32_t)inside->viewpoints.count,
-                             .light_count = (uint32_t)inside->lights.count,
-                             .material_count = (uint32_t)inside->materials.count,
-                             .sphere_count = (uint32_t)inside->spheres.count,
-                             .triangle_count = scene_triangle_count(inside),
-                             .dropped_triangle_count = scene_dropped_count(inside)};
-    fill_struct(info, &filled, sizeof filled);
-    return true;
+    const ClrtSceneInfo filled = {.width = inside->width,
+                                  .height = inside->height,
+                                  .max_level = inside->max_level,
+                                  .view_count = (uint32_t)inside->viewpoints.count,
+                                  .light_count = (uint32_t)inside->lights.count,
+                                  .material_count = (uint32_t)inside->materials.count,
+                                  .sphere_count = (uint32_t)inside->spheres.count,
+                                  .triangle_count = scene_triangle_count(inside),
+                                  .dropped_triangle_count = scene_dropped_count(inside)};
+    return fill_struct(error, "the info", info, &filled, sizeof filled);
 }

@@ -156,8 +156,7 @@ void mesh_turn_up(Mesh *mesh, UpAxis up)
         return;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         double *p = mesh->positions[i];
-        const Vec3 position = turned(vec3_of_doubles(p), sources[up]);
-        p[0] = position.x, p[1] = position.y, p[2] = position.z;
+        vec3_store_doubles(p, turned(vec3_of_doubles(p), sources[up]));
     }
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++) {
         float *n = mesh->normals[i];

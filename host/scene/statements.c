@@ -196,8 +196,7 @@ static void rotate_mesh(Mesh *mesh, Vec3 axis, double degrees)
     const double scale = normal_scale(mesh);
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         double *p = mesh->positions[i];
-        const Vec3 turned = rotated(vec3_of_doubles(p), axis, sine, cosine);
-        p[0] = turned.x, p[1] = turned.y, p[2] = turned.z;
+        vec3_store_doubles(p, rotated(vec3_of_doubles(p), axis, sine, cosine));
         if (mesh->normals == NULL)
             continue;
         float *n = mesh->normals[i];

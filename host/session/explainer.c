@@ -39,11 +39,7 @@ static bool make_room(Explainer *explainer, Error *error)
     const size_t words = levels * level_words(explainer);
     explainer->host_values = memory_raw(values, scalar, error);
     explainer->host_words = memory_raw(words, sizeof *explainer->host_words, error);
-    explainer->rays = memory_raw(levels, sizeof *explainer->rays, error);
-    explainer->lights =
-        memory_raw(levels * explainer->frame.light_count, sizeof *explainer->lights, error);
     return explainer->host_values != NULL && explainer->host_words != NULL &&
-           explainer->rays != NULL && explainer->lights != NULL &&
            device_buffer(device, values * scalar, &explainer->values, error) &&
            device_buffer(device, words * sizeof(uint32_t), &explainer->words, error) &&
            device_buffer(device, 4 * scalar, &explainer->result, error) &&
@@ -124,8 +120,6 @@ void explainer_close(Explainer *explainer)
     device_release(&explainer->count);
     free(explainer->host_values);
     free(explainer->host_words);
-    free(explainer->rays);
-    free(explainer->lights);
     *explainer = (Explainer){0};
 }
 
@@ -168,61 +162,66 @@ static double length_of(Vec3 v)
     return extent * sqrt(vec3_dot(unit, unit));
 }
 
-static void take_light(ExplainedLight *light, const Notes *level, uint32_t index, Vec3 point)
+static void take_light(ClrtExplainedLight *light, const Notes *level, uint32_t index, Vec3 point)
 {
     const Explainer *explainer = level->explainer;
     const Notes notes = {explainer, level->value + LEVEL_VALUES + (size_t)index * LIGHT_VALUES,
                          level->word + LEVEL_WORDS + (size_t)index * LIGHT_WORDS};
     const Vec3 apart = vec3_sub(explainer->scene->lights.data[index].position, point);
-    *light = (ExplainedLight){.state = (LightState)noted_word(&notes, LIGHT_STATE),
-                              .cosine = number_at(&notes, LIGHT_COSINE),
-                              .distance = length_of(apart),
-                              .blocker = noted_word(&notes, LIGHT_BLOCKER)};
-    if (light->state == LIGHT_BLOCKED)
+    *light = (ClrtExplainedLight){.state = (ClrtLightState)noted_word(&notes, LIGHT_STATE),
+                                  .blocker = NOTHING,
+                                  .cosine = number_at(&notes, LIGHT_COSINE),
+                                  .distance = length_of(apart)};
+    if (light->state == CLRT_LIGHT_BLOCKED) {
+        light->blocker = noted_word(&notes, LIGHT_BLOCKER);
         light->blocker_distance = fmax(number_at(&notes, LIGHT_BLOCKER_T), 0) * light->distance;
-    if (light->state == LIGHT_SEEN) {
+    }
+    if (light->state == CLRT_LIGHT_REACHES) {
         light->diffuse = number_at(&notes, LIGHT_DIFFUSE);
         light->specular = number_at(&notes, LIGHT_SPECULAR);
-        const double intensity = explainer->scene->lights.data[index].intensity;
-        light->shine = intensity > 0 ? light->specular / intensity : 0;
     }
 }
 
-static void take_surface(ExplainedRay *ray, const Notes *notes, ExplainedLight *lights)
+static void take_surface(ExplainedRay *ray, const Notes *notes, ClrtExplainedLight *lights)
 {
     const Explainer *explainer = notes->explainer;
-    ray->point = denormalize_point(explainer->normalization, vector_at(notes, LEVEL_POINT));
-    ray->normal = vector_at(notes, LEVEL_NORMAL);
-    ray->material = noted_word(notes, LEVEL_MATERIAL);
-    ray->uses_lights = explainer->scene->materials.data[ray->material].shader != SHADER_SILHOUETTE;
+    ClrtExplainedRay *found = &ray->found;
+    const Vec3 point = denormalize_point(explainer->normalization, vector_at(notes, LEVEL_POINT));
+    found->material = noted_word(notes, LEVEL_MATERIAL);
+    found->share = number_at(notes, LEVEL_SHARE);
+    vec3_store_doubles(found->point, point);
+    vec3_store_doubles(found->normal, vector_at(notes, LEVEL_NORMAL));
+    vec3_store_doubles(found->shaded, vector_at(notes, LEVEL_SHADED));
+    if (explainer->scene->materials.data[found->material].shader != SHADER_SILHOUETTE)
+        found->light_count = explainer->frame.light_count;
     ray->diffuse = vector_at(notes, LEVEL_DIFFUSE);
-    ray->share = number_at(notes, LEVEL_SHARE);
-    ray->shaded = vector_at(notes, LEVEL_SHADED);
     ray->lights = lights;
-    for (uint32_t i = 0; ray->uses_lights && i < explainer->frame.light_count; i++)
-        take_light(&lights[i], notes, i, ray->point);
+    for (uint32_t i = 0; i < found->light_count; i++)
+        take_light(&lights[i], notes, i, point);
 }
 
-static void take_ray(Explainer *explainer, uint32_t level)
+static void take_ray(const Explainer *explainer, ExplainedSample *sample, uint32_t level)
 {
     const Notes notes = notes_of(explainer, level);
+    const Vec3 origin = vector_at(&notes, LEVEL_ORIGIN);
     const Vec3 direction = vector_at(&notes, LEVEL_DIRECTION);
     const double unit = length_of(direction) / explainer->normalization->scale;
-    ExplainedRay *ray = &explainer->rays[level];
-    *ray = (ExplainedRay){
-        .origin = denormalize_point(explainer->normalization, vector_at(&notes, LEVEL_ORIGIN)),
-        .direction = vec3_normalize(direction),
-        .weight = number_at(&notes, LEVEL_WEIGHT),
-        .primitive = noted_word(&notes, LEVEL_PRIMITIVE)};
-    if (ray->primitive == NOTHING)
+    ExplainedRay *ray = &sample->rays[level];
+    ray->found = (ClrtExplainedRay){.weight = number_at(&notes, LEVEL_WEIGHT),
+                                    .primitive = noted_word(&notes, LEVEL_PRIMITIVE)};
+    vec3_store_doubles(ray->found.origin, denormalize_point(explainer->normalization, origin));
+    vec3_store_doubles(ray->found.direction, vec3_normalize(direction));
+    if (ray->found.primitive == NOTHING)
         return;
-    ray->distance = number_at(&notes, LEVEL_T) * unit;
-    ray->error = number_at(&notes, LEVEL_ERROR) * unit;
-    take_surface(ray, &notes, explainer->lights + (size_t)level * explainer->frame.light_count);
+    ray->found.distance = number_at(&notes, LEVEL_T) * unit;
+    ray->found.distance_error = number_at(&notes, LEVEL_ERROR) * unit;
+    take_surface(ray, &notes, sample->lights + (size_t)level * explainer->frame.light_count);
 }
 
+// Reads the kernel's outputs. Fills sample->found and allocates the rays and lights.
 static bool read_back(const Explainer *explainer, ExplainedSample *sample, Error *error)
 {
+    ClrtExplainedSample *found = &sample->found;
     double result[4]; // fits floats and doubles
     const Device *device = explainer->renderer.kernel->device;
     const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
@@ -231,12 +230,15 @@ static bool read_back(const Explainer *explainer, ExplainedSample *sample, Error
         !device_read(device, explainer->words, explainer->host_words,
                      levels * level_words(explainer) * sizeof(uint32_t), error) ||
         !device_read(device, explainer->result, result, 4 * scalar, error) ||
-        !device_read(device, explainer->count, &sample->ray_count, sizeof sample->ray_count, error))
+        !device_read(device, explainer->count, &found->ray_count, sizeof found->ray_count, error))
         return false;
     for (size_t i = 0; i < 3; i++)
-        sample->steps[i] = scalar_at(explainer, result, i);
-    sample->background_weight = scalar_at(explainer, result, 3);
-    return true;
+        found->color[i] = scalar_at(explainer, result, i) * 0x1p-32;
+    found->background_weight = scalar_at(explainer, result, 3);
+    const size_t lights = (size_t)found->ray_count * explainer->frame.light_count;
+    sample->rays = memory_zeroed(found->ray_count, sizeof *sample->rays, error);
+    sample->lights = memory_raw(lights, sizeof *sample->lights, error);
+    return sample->rays != NULL && sample->lights != NULL;
 }
 
 bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
@@ -246,16 +248,25 @@ bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t ind
     const cl_uint place[2] = {pixel[0] * side + index % side, pixel[1] * side + index / side};
     const cl_mem outputs[OUTPUTS] = {explainer->values, explainer->words, explainer->result,
                                      explainer->count};
-    *sample = (ExplainedSample){.rays = explainer->rays};
+    *sample = (ExplainedSample){0};
     if (!run_kernel(&explainer->renderer, &explainer->frame, place, outputs, error) ||
-        !read_back(explainer, sample, error))
+        !read_back(explainer, sample, error)) {
+        explained_sample_free(sample);
         return false;
-    for (uint32_t level = 0; level < sample->ray_count; level++)
-        take_ray(explainer, level);
+    }
+    for (uint32_t level = 0; level < sample->found.ray_count; level++)
+        take_ray(explainer, sample, level);
     for (int channel = 0; channel < 3; channel++)
-        explainer->sums[channel] =
-            (index == 0 ? 0 : explainer->sums[channel]) + (uint64_t)sample->steps[channel];
+        explainer->sums[channel] = (index == 0 ? 0 : explainer->sums[channel]) +
+                                   (uint64_t)(sample->found.color[channel] * 0x1p32);
     return true;
+}
+
+void explained_sample_free(ExplainedSample *sample)
+{
+    free(sample->rays);
+    free(sample->lights);
+    *sample = (ExplainedSample){0};
 }
 
 // Must match pixel_colors of kernels/render.cl.

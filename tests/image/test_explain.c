@@ -33,38 +33,39 @@ static double component(Vec3 v, int axis)
 static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
 {
     const Scene *scene = explainer->scene;
-    const Material *material = &scene->materials.data[ray->material];
+    const Material *material = &scene->materials.data[ray->found.material];
     double diffuse[3] = {scene->ambient, scene->ambient, scene->ambient}, specular[3] = {0, 0, 0};
-    for (size_t i = 0; ray->uses_lights && i < scene->lights.count; i++) {
+    for (size_t i = 0; i < ray->found.light_count; i++) {
         for (int axis = 0; axis < 3; axis++) {
             const double part = component(scene->lights.data[i].color, axis);
             diffuse[axis] += part * (double)material->kd * ray->lights[i].diffuse;
             specular[axis] += part * (double)material->ks * ray->lights[i].specular;
         }
-        assert_true((ray->lights[i].blocker != NOTHING) == (ray->lights[i].state == LIGHT_BLOCKED));
-        assert_true((ray->lights[i].cosine > 0) == (ray->lights[i].state != LIGHT_BEHIND));
+        assert_true((ray->lights[i].blocker != NOTHING) ==
+                    (ray->lights[i].state == CLRT_LIGHT_BLOCKED));
+        assert_true((ray->lights[i].cosine > 0) == (ray->lights[i].state != CLRT_LIGHT_BEHIND));
     }
     for (int axis = 0; axis < 3; axis++) {
         const double own = component(ray->diffuse, axis);
         const double lit = own * diffuse[axis] + (double)material->specular[axis] * specular[axis];
         const double color = material->shader == SHADER_SILHOUETTE ? own : clamped(lit);
-        assert_true(fabs(color - component(ray->shaded, axis)) < 1e-5);
+        assert_true(fabs(color - ray->found.shaded[axis]) < 1e-5);
     }
 }
 
 // Checks that a sample's color is the weighted sum of its surfaces and the background.
 static void check_sample(const Explainer *explainer, const ExplainedSample *sample)
 {
-    Vec3 color = vec3_scale(explainer->scene->background, sample->background_weight);
-    for (uint32_t level = 0; level < sample->ray_count; level++) {
+    Vec3 color = vec3_scale(explainer->scene->background, sample->found.background_weight);
+    for (uint32_t level = 0; level < sample->found.ray_count; level++) {
         const ExplainedRay *ray = &sample->rays[level];
-        if (ray->primitive == NOTHING)
+        if (ray->found.primitive == NOTHING)
             continue;
         check_surface(explainer, ray);
-        color = vec3_add(color, vec3_scale(ray->shaded, ray->share));
+        color = vec3_add(color, vec3_scale(vec3_of_doubles(ray->found.shaded), ray->found.share));
     }
     for (int axis = 0; axis < 3; axis++)
-        assert_true(fabs(clamped(component(color, axis)) - sample->steps[axis] * 0x1p-32) < 1e-6);
+        assert_true(fabs(clamped(component(color, axis)) - sample->found.color[axis]) < 1e-6);
 }
 
 #define PIXELS 40
@@ -82,6 +83,7 @@ static void check_pixels(Explainer *explainer, const Framebuffer *picture, void 
             ExplainedSample sample;
             trace(explainer, (uint32_t[]){x, y}, place, &sample);
             check_sample(explainer, &sample);
+            explained_sample_free(&sample);
         }
         explainer_mix(explainer, color);
         assert_memory_equal(color, picture->pixels[(size_t)y * picture->width + x], sizeof color);
@@ -129,16 +131,18 @@ static void judge_distance(Bounds *bounds, const Explainer *explainer, const Exp
                            const OraclePath *path)
 {
     const double scale = explainer->normalization->scale;
-    if (ray->primitive == NOTHING || ray->primitive != path->surface.id)
+    const ClrtExplainedRay *found = &ray->found;
+    if (found->primitive == NOTHING || found->primitive != path->surface.id)
         return;
-    const Vec3 eye = normalize_point(explainer->normalization, ray->origin);
+    const Vec3 origin = vec3_of_doubles(found->origin);
+    const Vec3 eye = normalize_point(explainer->normalization, origin);
     const Vec3 apart = vec3_sub(path->surface.point, eye);
     const double distance = sqrt(vec3_dot(apart, apart));
     // The oracle and this test round, too.
     const double rounding = 0x1p-48 * (distance + vec3_extent(eye));
     bounds->compared++;
-    bounds->largest = fmax(bounds->largest, fabs(ray->distance * scale - distance) /
-                                                (ray->error * scale + rounding));
+    bounds->largest = fmax(bounds->largest, fabs(found->distance * scale - distance) /
+                                                (found->distance_error * scale + rounding));
 }
 
 // Checks only camera rays, because the oracle's reflected rays start at slightly different points.
@@ -158,8 +162,10 @@ static void check_bounds(Explainer *explainer, const Framebuffer *picture, void 
         for (uint32_t x = 0; x < picture->width; x += 3) {
             ExplainedSample sample;
             trace(explainer, (uint32_t[]){x, y}, 0, &sample);
-            const OraclePath path = oracle_follow(&view, sample.rays[0].direction);
+            const OraclePath path =
+                oracle_follow(&view, vec3_of_doubles(sample.rays[0].found.direction));
             judge_distance(bounds, explainer, &sample.rays[0], &path);
+            explained_sample_free(&sample);
         }
 }
 
