@@ -34,13 +34,13 @@ static uint32_t deepest_level(uint32_t triangle_count)
     return 10 + 1 + levels;
 }
 
-static void axes_by_extent(const Bounds *box, int axes[3])
+static void axes_by_extent(const BuildBox *box, int axes[3])
 {
     for (int axis = 0; axis < 3; axis++)
         axes[axis] = axis;
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < 2; i++)
-            if (bounds_extent(box, axes[i]) < bounds_extent(box, axes[i + 1])) {
+            if (build_box_extent(box, axes[i]) < build_box_extent(box, axes[i + 1])) {
                 const int longer = axes[i + 1];
                 axes[i + 1] = axes[i];
                 axes[i] = longer;
@@ -49,17 +49,17 @@ static void axes_by_extent(const Bounds *box, int axes[3])
 
 static bool makes_progress(const BuildRange *range, Split *split)
 {
-    const float largest = LARGEST_CHILD * bounds_extent(&range->box, split->axis);
-    Bounds sides[2] = {bounds_empty(), bounds_empty()};
+    const float largest = LARGEST_CHILD * build_box_extent(&range->box, split->axis);
+    BuildBox sides[2] = {build_box_empty(), build_box_empty()};
     uint32_t counts[2] = {0};
     for (uint32_t i = 0; i < range->count; i++) {
         const bool left = split_is_left(split, &range->items[i]);
-        bounds_unite(&sides[left], &range->items[i].bounds);
+        build_box_unite(&sides[left], &range->items[i].box);
         counts[left]++;
     }
     split->left = counts[1];
-    return counts[0] > 0 && counts[1] > 0 && bounds_extent(&sides[0], split->axis) <= largest &&
-           bounds_extent(&sides[1], split->axis) <= largest;
+    return counts[0] > 0 && counts[1] > 0 && build_box_extent(&sides[0], split->axis) <= largest &&
+           build_box_extent(&sides[1], split->axis) <= largest;
 }
 
 Split split_midpoint(const BuildRange *range)
@@ -104,7 +104,7 @@ static const Costs costs_of[] = {[LEAVES_SINGLE] = {1, 0, 1.0f}, [LEAVES_BLOCKS]
 
 // Each bin holds all three axes, so that vector operations price three planes at once.
 typedef struct {
-    Bounds bounds[BINS][3];
+    BuildBox boxes[BINS][3];
     Uint4 counts[BINS];
 } Bins;
 
@@ -128,11 +128,11 @@ static Float4 units_of(const Costs *costs, Uint4 counts)
     return __builtin_convertvector(units, Float4);
 }
 
-static Binning binning_of(const Bounds *centers, uint32_t count)
+static Binning binning_of(const BuildBox *centers, uint32_t count)
 {
     Binning binning = {centers->low, {0}, count <= FEW_ITEMS ? FEW_BINS : BINS};
     for (int axis = 0; axis < 3; axis++) {
-        const float extent = bounds_extent(centers, axis);
+        const float extent = build_box_extent(centers, axis);
         const float scale = (float)binning.bins * 0.999999f / extent;
         binning.scale[axis] = extent > 0 && scale < INFINITY ? scale : 0;
     }
@@ -144,18 +144,18 @@ static void clear_bins(Bins *bins, int count)
 {
     for (int bin = 0; bin < count; bin++) {
         for (int axis = 0; axis < 3; axis++)
-            bins->bounds[bin][axis] = bounds_empty();
+            bins->boxes[bin][axis] = build_box_empty();
         bins->counts[bin] = (Uint4){0};
     }
 }
 
 static void fill_item(Bins *bins, const BuildItem *item, const Binning *binning)
 {
-    const Bounds bounds = item->bounds;
-    const Float4 place = (bounds.low - bounds.negated_high - binning->origin) * binning->scale;
+    const BuildBox box = item->box;
+    const Float4 place = (box.low - box.negated_high - binning->origin) * binning->scale;
     for (int axis = 0; axis < 3; axis++) {
         const int bin = (int)place[axis];
-        bounds_unite(&bins->bounds[bin][axis], &bounds);
+        build_box_unite(&bins->boxes[bin][axis], &box);
         bins->counts[bin][axis]++;
     }
 }
@@ -167,21 +167,21 @@ static void fill_bins(Bins *bins, const BuildRange *range, const Binning *binnin
         fill_item(bins, &range->items[i], binning);
 }
 
-// The bounds and triangle counts on one side of three planes, one plane per axis.
+// The boxes and triangle counts on one side of three planes, one plane per axis.
 typedef struct {
-    Bounds bounds[3];
+    BuildBox boxes[3];
     Uint4 counts;
 } Sides;
 
 static Sides sides_empty(void)
 {
-    return (Sides){{bounds_empty(), bounds_empty(), bounds_empty()}, {0}};
+    return (Sides){{build_box_empty(), build_box_empty(), build_box_empty()}, {0}};
 }
 
 static void sides_add(Sides *sides, const Bins *bins, int bin)
 {
     for (int axis = 0; axis < 3; axis++)
-        bounds_unite(&sides->bounds[axis], &bins->bounds[bin][axis]);
+        build_box_unite(&sides->boxes[axis], &bins->boxes[bin][axis]);
     sides->counts += bins->counts[bin];
 }
 
@@ -189,7 +189,7 @@ static void sides_add(Sides *sides, const Bins *bins, int bin)
 // empty side's price is NaN.
 static Float4 sides_price(const Sides *sides, const Costs *costs)
 {
-    return bounds_half_areas(sides->bounds) * units_of(costs, sides->counts);
+    return build_box_half_areas(sides->boxes) * units_of(costs, sides->counts);
 }
 
 // Returns the cheapest plane. Sweeps once from the right to price the right sides, and once from
@@ -233,7 +233,7 @@ Split split_sah(const BuildRange *range)
         fill_bins(&bins, range, &binning);
         best = cheapest_plane(&bins, binning.bins, costs);
     }
-    const float area = bounds_half_area(&range->box);
+    const float area = build_box_half_area(&range->box);
     const float units = units_of(costs, (Uint4){range->count})[0];
     const bool pays = best.price + costs->node * area < units * area;
     if (best.axis >= 0 && (pays || range->count > LARGEST_LEAF))
@@ -252,15 +252,15 @@ static BuildRange range_of(const Build *build, const BuildTask *task)
 {
     BuildRange range = {.items = items_of(build, task),
                         .count = task->count,
-                        .box = bounds_empty(),
-                        .centers = bounds_empty(),
+                        .box = build_box_empty(),
+                        .centers = build_box_empty(),
                         .depth = task->depth,
                         .total = build->total,
                         .leaves = build->leaves};
     for (uint32_t i = 0; i < range.count; i++) {
-        const Bounds center = bounds_of_center(&range.items[i].bounds);
-        bounds_unite(&range.box, &range.items[i].bounds);
-        bounds_unite(&range.centers, &center);
+        const BuildBox center = build_box_of_center(&range.items[i].box);
+        build_box_unite(&range.box, &range.items[i].box);
+        build_box_unite(&range.centers, &center);
     }
     return range;
 }
@@ -279,11 +279,11 @@ static void move_sides(const BuildRange *range, const Split *split, BuildItem *o
     }
 }
 
-static int longest_axis(const Bounds *bounds)
+static int longest_axis(const BuildBox *box)
 {
     int longest = 0;
     for (int axis = 1; axis < 3; axis++)
-        if (bounds_extent(bounds, axis) > bounds_extent(bounds, longest))
+        if (build_box_extent(box, axis) > build_box_extent(box, longest))
             longest = axis;
     return longest;
 }
@@ -303,7 +303,7 @@ static void move_halves(const BuildRange *range, BuildItem *other)
 {
     int axis = longest_axis(&range->centers);
     memcpy(other, range->items, range->count * sizeof *other);
-    if (bounds_extent(&range->centers, axis) > 0)
+    if (build_box_extent(&range->centers, axis) > 0)
         qsort_r(other, range->count, sizeof *other, compare_centers, &axis);
 }
 
@@ -322,7 +322,7 @@ void build_divide(const Build *build, BuildTask *task)
     assert(task->depth <= BVH_MAX_DEPTH);
     const BuildRange range = range_of(build, task);
     const Split split = build->split(&range);
-    build->bvh->nodes[task->node].box = bounds_box(&range.box);
+    build->bvh->nodes[task->node].box = build_box_plain(&range.box);
     task->left = split.left;
     switch (split.kind) {
     case SPLIT_NONE:

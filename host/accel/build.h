@@ -18,11 +18,11 @@ typedef uint32_t Uint4 __attribute__((vector_size(16)));
 
 typedef struct {
     Float4 low, negated_high; // x, y, z; in a BuildItem, low[3] holds the triangle's index
-} Bounds;
+} BuildBox;
 
 // A triangle to sort.
 typedef union {
-    Bounds bounds;
+    BuildBox box;
     struct {
         float low[3];
         uint32_t number;
@@ -43,36 +43,36 @@ static inline Float4 float4_minimum(Float4 a, Float4 b)
 #endif
 }
 
-static inline Bounds bounds_empty(void)
+static inline BuildBox build_box_empty(void)
 {
     const Float4 nowhere = {INFINITY, INFINITY, INFINITY, INFINITY};
-    return (Bounds){nowhere, nowhere};
+    return (BuildBox){nowhere, nowhere};
 }
 
-static inline void bounds_unite(Bounds *bounds, const Bounds *other)
+static inline void build_box_unite(BuildBox *box, const BuildBox *other)
 {
-    bounds->low = float4_minimum(bounds->low, other->low);
-    bounds->negated_high = float4_minimum(bounds->negated_high, other->negated_high);
+    box->low = float4_minimum(box->low, other->low);
+    box->negated_high = float4_minimum(box->negated_high, other->negated_high);
 }
 
-static inline float bounds_extent(const Bounds *bounds, int axis)
+static inline float build_box_extent(const BuildBox *box, int axis)
 {
-    return -(bounds->low[axis] + bounds->negated_high[axis]);
+    return -(box->low[axis] + box->negated_high[axis]);
 }
 
-// Returns half the surface area; INFINITY for empty bounds.
-static inline float bounds_half_area(const Bounds *bounds)
+// Returns half the surface area; INFINITY for an empty box.
+static inline float build_box_half_area(const BuildBox *box)
 {
-    const Float4 sides = bounds->low + bounds->negated_high;
+    const Float4 sides = box->low + box->negated_high;
     return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
 }
 
-// Returns half the surface area of each of three bounds. The fourth component repeats the third.
-static inline Float4 bounds_half_areas(const Bounds bounds[3])
+// Returns half the surface area of each of three boxes. The fourth component repeats the third.
+static inline Float4 build_box_half_areas(const BuildBox boxes[3])
 {
-    const Float4 a = bounds[0].low + bounds[0].negated_high;
-    const Float4 b = bounds[1].low + bounds[1].negated_high;
-    const Float4 c = bounds[2].low + bounds[2].negated_high;
+    const Float4 a = boxes[0].low + boxes[0].negated_high;
+    const Float4 b = boxes[1].low + boxes[1].negated_high;
+    const Float4 c = boxes[2].low + boxes[2].negated_high;
     const Float4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const Float4 x = __builtin_shufflevector(ab, c, 0, 1, 4, 4);
     const Float4 y = __builtin_shufflevector(ab, c, 2, 3, 5, 5);
@@ -81,14 +81,14 @@ static inline Float4 bounds_half_areas(const Bounds bounds[3])
     return x * y + y * z + z * x;
 }
 
-static inline Box bounds_box(const Bounds *bounds)
+static inline Box build_box_plain(const BuildBox *box)
 {
-    Box box;
+    Box plain;
     for (int axis = 0; axis < 3; axis++) {
-        box.low[axis] = bounds->low[axis];
-        box.high[axis] = 0 - bounds->negated_high[axis];
+        plain.low[axis] = box->low[axis];
+        plain.high[axis] = 0 - box->negated_high[axis];
     }
-    return box;
+    return plain;
 }
 
 static inline Float4 float4_corner(const Triangles *triangles, uint32_t triangle, int corner)
@@ -97,20 +97,20 @@ static inline Float4 float4_corner(const Triangles *triangles, uint32_t triangle
     return (Float4){point[0], point[1], point[2], point[3]};
 }
 
-static inline Bounds bounds_of_triangle(const Triangles *triangles, uint32_t triangle)
+static inline BuildBox build_box_of_triangle(const Triangles *triangles, uint32_t triangle)
 {
     const Float4 zero = {0}, a = float4_corner(triangles, triangle, 0),
                  b = float4_corner(triangles, triangle, 1),
                  c = float4_corner(triangles, triangle, 2);
     // Adding zero turns -0 into 0.
-    return (Bounds){float4_minimum(float4_minimum(a, b), c) + zero,
-                    float4_minimum(float4_minimum(-a, -b), -c) + zero};
+    return (BuildBox){float4_minimum(float4_minimum(a, b), c) + zero,
+                      float4_minimum(float4_minimum(-a, -b), -c) + zero};
 }
 
-// Returns a single point as bounds: the doubled center (low + high) of the given bounds.
-static inline Bounds bounds_of_center(const Bounds *bounds)
+// Returns a single point as a box: the doubled center (low + high) of the given box.
+static inline BuildBox build_box_of_center(const BuildBox *box)
 {
-    return (Bounds){bounds->low - bounds->negated_high, bounds->negated_high - bounds->low};
+    return (BuildBox){box->low - box->negated_high, box->negated_high - box->low};
 }
 
 static inline float item_center(const BuildItem *item, int axis)
@@ -122,10 +122,10 @@ static inline float item_center(const BuildItem *item, int axis)
 typedef struct {
     const BuildItem *items; // the node's triangles
     uint32_t count;
-    Bounds box;     // bounds of the triangles
-    Bounds centers; // bounds of their doubled centers
-    uint32_t depth; // depth of the node; 1 for the root
-    uint32_t total; // triangles in the whole tree
+    BuildBox box;     // of the triangles
+    BuildBox centers; // of their doubled centers
+    uint32_t depth;   // depth of the node; 1 for the root
+    uint32_t total;   // triangles in the whole tree
     BvhLeaves leaves;
 } BuildRange;
 

@@ -28,7 +28,7 @@ static void make_items(void *context, uint32_t first, uint32_t end)
     const Whole *whole = context;
     for (uint32_t number = first; number < end; number++) {
         BuildItem *item = &whole->build.items[1][number];
-        item->bounds = bounds_of_triangle(whole->triangles, number);
+        item->box = build_box_of_triangle(whole->triangles, number);
         item->number = number;
         item->unused = 0;
     }

@@ -200,14 +200,12 @@ static size_t count_aims(const AimSource *source)
 
 static void find_sphere(Aims *aims, const Triangles *triangles)
 {
-    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    BoundingBox box = bounding_box_empty();
     for (uint32_t triangle = 0; triangle < triangles->count; triangle++)
-        for (int corner = 0; corner < 3; corner++) {
-            low = vec3_lower(low, corner_of(triangles, triangle, corner));
-            high = vec3_upper(high, corner_of(triangles, triangle, corner));
-        }
-    aims->center = vec3_scale(vec3_add(low, high), 0.5);
-    aims->radius = length_of(vec3_sub(high, low)) / 2;
+        for (int corner = 0; corner < 3; corner++)
+            bounding_box_add(&box, corner_of(triangles, triangle, corner));
+    aims->center = bounding_box_center(&box);
+    aims->radius = length_of(bounding_box_sides(&box)) / 2;
 }
 
 bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error)

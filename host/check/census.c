@@ -76,9 +76,8 @@ static Vec3 corner_position(const Mesh *mesh, size_t triangle, int corner)
 static double signed_volume(const Mesh *mesh)
 {
     double volume = 0;
-    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    mesh_add_bounds(mesh, &low, &high);
-    const double scale = 1 / vec3_extent(vec3_sub(high, low));
+    const BoundingBox box = mesh_bounds(mesh);
+    const double scale = 1 / vec3_extent(bounding_box_sides(&box));
     const Vec3 origin = corner_position(mesh, 0, 0);
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
         Vec3 corners[3];

@@ -103,12 +103,11 @@ static bool is_float(Vec3 v)
 
 static void find_bounds(Features *features, const Mesh *mesh)
 {
-    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    mesh_add_bounds(mesh, &low, &high);
+    const BoundingBox box = mesh_bounds(mesh);
     if (mesh->triangle_count == 0)
         return;
-    features->extent = vec3_extent(vec3_sub(high, low));
-    features->offset = vec3_extent(vec3_scale(vec3_add(low, high), 0.5));
+    features->extent = vec3_extent(bounding_box_sides(&box));
+    features->offset = vec3_extent(bounding_box_center(&box));
 }
 
 Features features_of(const Mesh *mesh, const Normalization *normalization)
@@ -122,10 +121,10 @@ Features features_of(const Mesh *mesh, const Normalization *normalization)
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
         const Shape written = shape_of(mesh, triangle);
         const Shape scaled = scaled_shape(&written, scale);
-        const Shape framed = normalized_shape(&written, normalization);
+        const Shape normalized = normalized_shape(&written, normalization);
         take_shorter(&features.written_edge, edge_squares(&scaled).shortest, step_at(&scaled),
                      triangle);
-        add_normalized(&features, &framed, triangle);
+        add_normalized(&features, &normalized, triangle);
         if (is_flat(&written))
             mesh_fault_add(&features.flat, triangle);
         for (int corner = 0; corner < 3; corner++)

@@ -42,8 +42,8 @@ static double half_solid_angle(Vec3 a, Vec3 b, Vec3 c)
 static bool mesh_contains(const Mesh *mesh, Vec3 eye)
 {
     double sum = 0;
-    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    mesh_add_bounds(mesh, &low, &high);
+    const BoundingBox box = mesh_bounds(mesh);
+    const Vec3 low = box.low, high = box.high;
     if (eye.x < low.x || eye.y < low.y || eye.z < low.z || eye.x > high.x || eye.y > high.y ||
         eye.z > high.z)
         return false;
@@ -123,9 +123,10 @@ static bool is_outside(const CameraData *camera, const Vec3 corners[8], const Sc
 // Returns whether the bounding box of an object with triangles is outside every view.
 static bool is_out_of_view(const Scene *scene, const Normalization *normalization, size_t object)
 {
-    Vec3 corners[8], low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    Vec3 corners[8];
     const Mesh *mesh = &scene->objects.data[object].mesh;
-    mesh_add_bounds(mesh, &low, &high);
+    const BoundingBox box = mesh_bounds(mesh);
+    const Vec3 low = box.low, high = box.high;
     for (int i = 0; i < 8; i++)
         corners[i] =
             normalize_point(normalization, vec3(i & 1 ? low.x : high.x, i & 2 ? low.y : high.y,

@@ -10,15 +10,15 @@
 
 static bool measure(Comparison *comparison, Error *error)
 {
-    ImagePair *pair = &comparison->pair;
-    if (!image_pair_check(pair, error))
+    ComparedImages *compared = &comparison->compared;
+    if (!compared_images_check(compared, error))
         return false;
-    difference_measure(&comparison->difference, pair);
-    causes_find(&comparison->causes, pair);
+    difference_measure(&comparison->difference, compared);
+    causes_find(&comparison->causes, compared);
     if (comparison->limits->given[LIMIT_HITS] && !comparison->difference.has_hits)
         return error_set(error,
                          "%s and %s do not both have a channel '%s', which a limit on hits needs",
-                         pair->paths[0], pair->paths[1], DIFFERENCE_HITS);
+                         compared->paths[0], compared->paths[1], DIFFERENCE_HITS);
     return true;
 }
 
@@ -28,7 +28,7 @@ static bool write_map(const Comparison *comparison, const Options *options, Erro
     if (options->output_path == NULL)
         return true;
     const ImageSettings settings = {.format = options->format};
-    const bool ok = difference_picture_make(&map, &comparison->pair,
+    const bool ok = difference_picture_make(&map, &comparison->compared,
                                             !image_format_is_float(options->format), error) &&
                     image_write(&map, options->output_path, &settings, error);
     framebuffer_free(&map);
@@ -47,7 +47,7 @@ static ExitCode report(const Comparison *comparison, const Options *options, Err
 static ExitCode run(StoredImage images[2], const Options *options, Error *error)
 {
     const char *const paths[] = {options->scene_path, options->other_path};
-    Comparison comparison = {.pair = {{&images[0], &images[1]}, {paths[0], paths[1]}, {{0}}},
+    Comparison comparison = {.compared = {{&images[0], &images[1]}, {paths[0], paths[1]}, {{0}}},
                              .limits = &options->limits};
     if (options->output_path != NULL && !output_file_check(options->output_path, error))
         return EXIT_OUTPUT;

@@ -37,7 +37,7 @@ static bool tile_done(void *context, const RenderProgress *render)
            progress_tile_done(&watch->progress, render);
 }
 
-static bool draw_frame(Picture *picture, Error *error)
+static bool draw_once(Picture *picture, Error *error)
 {
     double moment = clock_seconds();
     TileWatch watch = {picture, progress_begin(picture->options->quiet), error};
@@ -48,16 +48,15 @@ static bool draw_frame(Picture *picture, Error *error)
     const double seconds = stage_lap(&moment);
     if (picture->options->verbose && ok)
         fprintf(stderr, "traced in %.4f s\n", seconds);
-    picture->frame_seconds[picture->frame_count++] = seconds;
+    picture->repetition_seconds[picture->repetition_count++] = seconds;
     return ok && !picture->resume.is_broken;
 }
 
 static bool draw(Picture *picture, Error *error)
 {
     bool ok = true;
-    for (uint32_t frame = 0; ok && picture->stopped_by == 0 && frame < picture->options->repeat;
-         frame++)
-        ok = draw_frame(picture, error);
+    for (uint32_t i = 0; ok && picture->stopped_by == 0 && i < picture->options->repeat; i++)
+        ok = draw_once(picture, error);
     picture->complete = ok && picture->drawn.is_complete;
     return ok;
 }
@@ -219,7 +218,7 @@ static void clear(Picture *picture)
     certainty_map_free(&picture->certainty);
     free(picture->drawn.pixel_samples);
     picture->drawn.pixel_samples = NULL;
-    picture->frame_count = 0;
+    picture->repetition_count = 0;
 }
 
 static void set_view(Picture *picture, uint32_t number)

@@ -41,7 +41,7 @@ typedef struct {
     bool complete; // all colors and channels are drawn
     StageSeconds stages;
     double certainty_seconds, write_seconds, total_seconds;
-    double frame_seconds[REPEAT_MAX]; // one entry per repetition
-    uint32_t frame_count;
+    double repetition_seconds[REPEAT_MAX]; // one entry per repetition
+    uint32_t repetition_count;
     char pixel_hash[FRAMEBUFFER_HASH_SIZE];
 } Picture;

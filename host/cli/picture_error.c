@@ -45,12 +45,12 @@ static bool measure(Picture *picture, const ReferencePicture *reference, Error *
     MeasuredReference *measured = &picture->reference;
     const StoredImage drawn = stored_view(&picture->framebuffer);
     const StoredImage truth = stored_view(&measured->picture);
-    ImagePair pair = {{&truth, &drawn}, {"the reference", "the picture"}, {{0}}};
+    ComparedImages compared = {{&truth, &drawn}, {"the reference", "the picture"}, {{0}}};
     measured->own_error = reference->own_error;
     measured->samples = picture->request.reference_samples;
-    if (!image_pair_check(&pair, error))
+    if (!compared_images_check(&compared, error))
         return false;
-    difference_measure(&measured->difference, &pair);
+    difference_measure(&measured->difference, &compared);
     store_errors(picture);
     return true;
 }

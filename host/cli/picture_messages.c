@@ -59,7 +59,7 @@ ExitCode picture_fail_goal(const Picture *picture, Error *error)
 {
     if (picture->request.goal.seconds > 0)
         error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
-                  picture->frame_seconds[0]);
+                  picture->repetition_seconds[0]);
     else
         error_set(error, "the error may be %.2g %%, more than --error allows",
                   100 * fmax(picture->drawn.bound, picture->truncation));

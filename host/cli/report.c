@@ -27,11 +27,11 @@ const char *report_tree_name(const Bvh *tree, BvhBuilder builder)
     return builder == BVH_MIDPOINT ? "midpoint" : "sah";
 }
 
-static json_t *frames_json(const Picture *picture)
+static json_t *repetitions_json(const Picture *picture)
 {
     json_t *list = json_array();
-    for (uint32_t frame = 0; frame < picture->frame_count; frame++)
-        json_array_append_new(list, json_real(picture->frame_seconds[frame]));
+    for (uint32_t i = 0; i < picture->repetition_count; i++)
+        json_array_append_new(list, json_real(picture->repetition_seconds[i]));
     return list;
 }
 
@@ -73,8 +73,8 @@ static json_t *settings_json(const Picture *picture)
                 FIELD("height", render_whole_height(settings)), FIELD("crop", crop_json(settings)),
                 FIELD("samples", settings->samples), FIELD("max_level", settings->max_level),
                 FIELD("truncation_bound", picture->truncation),
-                FIELD("tile", json_pair(settings->tile_width, settings->tile_height)),
-                FIELD("work_group", json_pair(group[0], group[1])),
+                FIELD("tile", json_two(settings->tile_width, settings->tile_height)),
+                FIELD("work_group", json_two(group[0], group[1])),
                 FIELD("specialized", picture->drawn.is_special),
                 FIELD("kernel", kernel_family_name(choice->family)),
                 FIELD("nodes", kernel_nodes_name(choice->nodes)), FIELD("lanes", choice->lanes),
@@ -126,8 +126,8 @@ static json_t *seconds_json(const Picture *picture)
                 FIELD("device", picture->session->device_seconds),
                 FIELD("upload", picture->drawn.upload_seconds),
                 FIELD("kernel_build", picture->drawn.build_seconds),
-                FIELD("trace", picture->frame_seconds[0]), FIELD("write", picture->write_seconds),
-                FIELD("total", picture->total_seconds));
+                FIELD("trace", picture->repetition_seconds[0]),
+                FIELD("write", picture->write_seconds), FIELD("total", picture->total_seconds));
 }
 
 static json_t *reference_json(const MeasuredReference *reference)
@@ -138,7 +138,7 @@ static json_t *reference_json(const MeasuredReference *reference)
         return json_null();
     return JSON(FIELD("samples", reference->samples), FIELD("rmse", difference->rmse),
                 FIELD("own_error", reference->own_error), FIELD("maximum", difference->maximum),
-                FIELD("maximum_at", json_pair(difference->maximum_x, difference->maximum_y)),
+                FIELD("maximum_at", json_two(difference->maximum_x, difference->maximum_y)),
                 FIELD("share_off_by_1", ratio(difference->off_by_1, pixels)),
                 FIELD("share_off_by_4", ratio(difference->off_by_4, pixels)),
                 FIELD("seconds", reference->seconds));
@@ -174,7 +174,7 @@ static json_t *report_json(const Picture *picture)
         FIELD("tiles", tiles_json(picture)),
         FIELD("samples", samples_json(&picture->drawn, picture->options->picture.contrast)),
         FIELD("rays", rays_json(tallies)), FIELD("tests", tests_json(tallies)),
-        FIELD("seconds", seconds_json(picture)), FIELD("frame_seconds", frames_json(picture)),
+        FIELD("seconds", seconds_json(picture)), FIELD("frame_seconds", repetitions_json(picture)),
         FIELD("reference", reference_json(&picture->reference)),
         FIELD("certainty", certainty_json(picture)));
 }
@@ -308,9 +308,9 @@ static json_t *stored_settings_json(const Picture *picture)
     if (options->picture.seconds > 0)
         json_object_set_new(json, "time", json_real(options->picture.seconds));
     if (settings->parts > 0)
-        json_object_set_new(json, "part", json_pair(settings->part + 1, settings->parts));
+        json_object_set_new(json, "part", json_two(settings->part + 1, settings->parts));
     if (settings->parts > 0 || is_unfinished)
-        json_object_set_new(json, "tile", json_pair(settings->tile_width, settings->tile_height));
+        json_object_set_new(json, "tile", json_two(settings->tile_width, settings->tile_height));
     if (is_unfinished)
         json_object_set_new(json, "tiles_done", json_count(picture->drawn.progress.tiles_done));
     return json;

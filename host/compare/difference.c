@@ -15,46 +15,46 @@ static float value_at(const StoredImage *image, size_t pixel, uint32_t channel)
     return image->values[pixel * image->channel_count + channel];
 }
 
-double image_pair_difference(const ImagePair *pair, size_t pixel, int color)
+double compared_images_difference(const ComparedImages *compared, size_t pixel, int color)
 {
-    return (double)value_at(pair->images[1], pixel, pair->colors[1][color]) -
-           (double)value_at(pair->images[0], pixel, pair->colors[0][color]);
+    return (double)value_at(compared->images[1], pixel, compared->colors[1][color]) -
+           (double)value_at(compared->images[0], pixel, compared->colors[0][color]);
 }
 
-static bool check_finite(const ImagePair *pair, int side, Error *error)
+static bool check_finite(const ComparedImages *compared, int side, Error *error)
 {
-    const StoredImage *image = pair->images[side];
+    const StoredImage *image = compared->images[side];
     const size_t pixels = (size_t)image->width * image->height;
     for (size_t pixel = 0; pixel < pixels; pixel++)
         for (int color = 0; color < 3; color++)
-            if (!isfinite(value_at(image, pixel, pair->colors[side][color])))
-                return error_set(error, "%s: %s of pixel %zu,%zu is not finite", pair->paths[side],
-                                 image->names[pair->colors[side][color]], pixel % image->width,
-                                 pixel / image->width);
+            if (!isfinite(value_at(image, pixel, compared->colors[side][color])))
+                return error_set(error, "%s: %s of pixel %zu,%zu is not finite",
+                                 compared->paths[side], image->names[compared->colors[side][color]],
+                                 pixel % image->width, pixel / image->width);
     return true;
 }
 
-bool image_pair_check(ImagePair *pair, Error *error)
+bool compared_images_check(ComparedImages *compared, Error *error)
 {
-    const StoredImage *a = pair->images[0], *b = pair->images[1];
+    const StoredImage *a = compared->images[0], *b = compared->images[1];
     if (a->width != b->width || a->height != b->height)
-        return error_set(error, "%s has %u x %u pixels and %s has %u x %u", pair->paths[0],
-                         a->width, a->height, pair->paths[1], b->width, b->height);
+        return error_set(error, "%s has %u x %u pixels and %s has %u x %u", compared->paths[0],
+                         a->width, a->height, compared->paths[1], b->width, b->height);
     for (int side = 0; side < 2; side++) {
-        if (!stored_image_colors(pair->images[side], pair->colors[side]))
-            return error_set(error, "%s: it has no channels R, G and B", pair->paths[side]);
-        if (!check_finite(pair, side, error))
+        if (!stored_image_colors(compared->images[side], compared->colors[side]))
+            return error_set(error, "%s: it has no channels R, G and B", compared->paths[side]);
+        if (!check_finite(compared, side, error))
             return false;
     }
     return true;
 }
 
 // Adds a pixel to the maximum and the counts. Returns the pixel's sum of squared differences.
-static double add_pixel(Difference *difference, const ImagePair *pair, size_t pixel)
+static double add_pixel(Difference *difference, const ComparedImages *compared, size_t pixel)
 {
     double squares = 0, largest = 0;
     for (int color = 0; color < 3; color++) {
-        const double off = fabs(image_pair_difference(pair, pixel, color));
+        const double off = fabs(compared_images_difference(compared, pixel, color));
         squares += off * off;
         largest = fmax(largest, off);
         if (off > difference->maximum) {
@@ -70,22 +70,22 @@ static double add_pixel(Difference *difference, const ImagePair *pair, size_t pi
 }
 
 // Counts pixels with different first hits. Compares bits, because the channel may contain integers.
-static void count_hits(Difference *difference, const ImagePair *pair)
+static void count_hits(Difference *difference, const ComparedImages *compared)
 {
     int places[2];
     for (int side = 0; side < 2; side++)
-        places[side] = stored_image_channel(pair->images[side], DIFFERENCE_HITS);
+        places[side] = stored_image_channel(compared->images[side], DIFFERENCE_HITS);
     difference->has_hits = places[0] >= 0 && places[1] >= 0;
     for (size_t pixel = 0; difference->has_hits && pixel < difference->pixels; pixel++) {
-        const float ids[] = {value_at(pair->images[0], pixel, (uint32_t)places[0]),
-                             value_at(pair->images[1], pixel, (uint32_t)places[1])};
+        const float ids[] = {value_at(compared->images[0], pixel, (uint32_t)places[0]),
+                             value_at(compared->images[1], pixel, (uint32_t)places[1])};
         difference->wrong_hits += memcmp(&ids[0], &ids[1], sizeof ids[0]) != 0;
     }
 }
 
-void difference_measure(Difference *difference, const ImagePair *pair)
+void difference_measure(Difference *difference, const ComparedImages *compared)
 {
-    const StoredImage *image = pair->images[0];
+    const StoredImage *image = compared->images[0];
     *difference = (Difference){.width = image->width,
                                .height = image->height,
                                .pixels = (uint64_t)image->width * image->height};
@@ -93,11 +93,11 @@ void difference_measure(Difference *difference, const ImagePair *pair)
     for (size_t row = 0; row < image->height; row++) {
         double row_squares = 0;
         for (size_t column = 0; column < image->width; column++)
-            row_squares += add_pixel(difference, pair, row * image->width + column);
+            row_squares += add_pixel(difference, compared, row * image->width + column);
         squares += row_squares;
     }
     difference->rmse = sqrt(squares / (3 * (double)difference->pixels));
-    count_hits(difference, pair);
+    count_hits(difference, compared);
 }
 
 double difference_psnr(const Difference *difference)
@@ -112,16 +112,16 @@ static double brighten(double difference)
     return fmin(1, sqrt(difference / FULL));
 }
 
-bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool for_the_eye,
+bool difference_picture_make(Framebuffer *picture, const ComparedImages *compared, bool for_the_eye,
                              Error *error)
 {
-    const StoredImage *image = pair->images[0];
+    const StoredImage *image = compared->images[0];
     if (!framebuffer_make(picture, image->width, image->height, error))
         return false;
     const size_t pixels = (size_t)image->width * image->height;
     for (size_t pixel = 0; pixel < pixels; pixel++)
         for (int color = 0; color < 3; color++) {
-            const double off = fabs(image_pair_difference(pair, pixel, color));
+            const double off = fabs(compared_images_difference(compared, pixel, color));
             picture->pixels[pixel][color] = (float)(for_the_eye ? brighten(off) : off);
         }
     return true;
@@ -301,16 +301,16 @@ static CauseKind cause_in_channels(const Side sides[2], size_t pixel)
     return CAUSE_COVERAGE;
 }
 
-void causes_find(Causes *causes, const ImagePair *pair)
+void causes_find(Causes *causes, const ComparedImages *compared)
 {
-    const Side sides[] = {side_of(pair->images[0]), side_of(pair->images[1])};
-    const size_t pixels = (size_t)pair->images[0]->width * pair->images[0]->height;
+    const Side sides[] = {side_of(compared->images[0]), side_of(compared->images[1])};
+    const size_t pixels = (size_t)compared->images[0]->width * compared->images[0]->height;
     *causes = (Causes){.known = is_complete(&sides[0]) && is_complete(&sides[1])};
     const bool same_grid = have_same_grid(sides);
     for (size_t pixel = 0; causes->known && pixel < pixels; pixel++) {
         double squares = 0, largest = 0;
         for (int color = 0; color < 3; color++) {
-            const double off = fabs(image_pair_difference(pair, pixel, color));
+            const double off = fabs(compared_images_difference(compared, pixel, color));
             squares += off * off / (3 * (double)pixels);
             largest = fmax(largest, off);
         }

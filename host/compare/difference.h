@@ -29,24 +29,24 @@ typedef struct {
     const StoredImage *images[2];
     const char *paths[2];
     uint32_t colors[2][3];
-} ImagePair;
+} ComparedImages;
 
-// Fills pair->colors. Returns false if sizes differ, colors are missing or values are not finite.
-// The error message names the file.
-bool image_pair_check(ImagePair *pair, Error *error);
+// Fills compared->colors. Returns false if sizes differ, colors are missing or values are not
+// finite. The error message names the file.
+bool compared_images_check(ComparedImages *compared, Error *error);
 
-// Measures a pair that image_pair_check has accepted.
-void difference_measure(Difference *difference, const ImagePair *pair);
+// Measures images that compared_images_check has accepted.
+void difference_measure(Difference *difference, const ComparedImages *compared);
 
 // Returns the PSNR in decibels, for a peak of 1; INFINITY for equal pictures.
 double difference_psnr(const Difference *difference);
 
 // Returns the difference of one color: the second picture's value minus the first's.
-double image_pair_difference(const ImagePair *pair, size_t pixel, int color);
+double compared_images_difference(const ComparedImages *compared, size_t pixel, int color);
 
 // Makes a picture of the absolute differences of two pictures. With for_the_eye, each color is
 // sqrt(difference / (64/255)), at most 1. The scale is fixed, so that users can compare pictures.
-bool difference_picture_make(Framebuffer *picture, const ImagePair *pair, bool for_the_eye,
+bool difference_picture_make(Framebuffer *picture, const ComparedImages *compared, bool for_the_eye,
                              Error *error);
 
 typedef enum {
@@ -94,8 +94,8 @@ typedef struct {
     uint64_t pixels[CAUSE_KINDS]; // pixels with any difference, by cause
 } Causes;
 
-// Splits the error of a pair by cause. image_pair_check must have accepted the pair.
-void causes_find(Causes *causes, const ImagePair *pair);
+// Splits the error of two images by cause. compared_images_check must have accepted the pair.
+void causes_find(Causes *causes, const ComparedImages *compared);
 
 // The causes' names and meanings, as reports print them.
 extern const char *const cause_names[CAUSE_KINDS], *const cause_meanings[CAUSE_KINDS];

@@ -58,7 +58,7 @@ static json_t *limits_json(const Comparison *comparison)
 static json_t *report_json(const Comparison *comparison)
 {
     const Difference *difference = &comparison->difference;
-    const char *const *paths = comparison->pair.paths;
+    const char *const *paths = comparison->compared.paths;
     json_t *files = json_pack("[oo]", json_file_path(paths[0]), json_file_path(paths[1]));
     json_t *maximum =
         JSON(FIELD("value", difference->maximum), FIELD("x", difference->maximum_x),

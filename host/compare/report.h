@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 typedef struct {
-    ImagePair pair;
+    ComparedImages compared;
     Difference difference;
     Causes causes;
     const Limits *limits;

@@ -302,8 +302,8 @@ static json_t *report_json(const ExplainReport *report, Explainer *explainer, FI
     explainer_mix(explainer, color);
     encode_channels(color, 3, report->encoding, 1, bytes);
     return REPORT(1, FIELD("scene", report->scene_path),
-                  FIELD("pixel", json_pair(report->pixel[0], report->pixel[1])),
-                  FIELD("size", json_pair(settings->width, settings->height)),
+                  FIELD("pixel", json_two(report->pixel[0], report->pixel[1])),
+                  FIELD("size", json_two(settings->width, settings->height)),
                   FIELD("view", report->view),
                   FIELD("background", color_json(report->scene->background)),
                   FIELD("samples", samples), FIELD("color", color_json(vec3_of_floats(color))),

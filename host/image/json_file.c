@@ -30,7 +30,7 @@ json_t *json_count(uint64_t count)
     return json_integer((json_int_t)count);
 }
 
-json_t *json_pair(uint32_t one, uint32_t other)
+json_t *json_two(uint32_t one, uint32_t other)
 {
     return json_pack("[oo]", json_count(one), json_count(other));
 }

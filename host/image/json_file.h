@@ -15,7 +15,7 @@
 json_t *json_file_path(const char *path);
 
 json_t *json_count(uint64_t count);
-json_t *json_pair(uint32_t one, uint32_t other);
+json_t *json_two(uint32_t one, uint32_t other);
 
 // Returns null if value is not finite, because JSON has no infinity.
 json_t *json_finite(double value);

@@ -18,17 +18,21 @@ bool mesh_allocate_vertices(Mesh *mesh, bool has_normals, bool has_colors, Error
            (mesh->colors != NULL || !has_colors);
 }
 
-void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high)
+void mesh_add_bounds(const Mesh *mesh, BoundingBox *box)
 {
-    Vec3 least = *low, most = *high;
+    BoundingBox grown = *box;
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
-        for (int corner = 0; corner < 3; corner++) {
-            const Vec3 p = vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]);
-            least = vec3_lower(least, p);
-            most = vec3_upper(most, p);
-        }
-    *low = least;
-    *high = most;
+        for (int corner = 0; corner < 3; corner++)
+            bounding_box_add(&grown,
+                             vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]));
+    *box = grown;
+}
+
+BoundingBox mesh_bounds(const Mesh *mesh)
+{
+    BoundingBox box = bounding_box_empty();
+    mesh_add_bounds(mesh, &box);
+    return box;
 }
 
 Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to)

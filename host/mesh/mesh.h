@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/array.h"
-#include "base/vec.h"
+#include "base/bounding_box.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -41,8 +41,11 @@ typedef struct {
 // the mesh must then be freed.
 bool mesh_allocate_vertices(Mesh *mesh, bool has_normals, bool has_colors, Error *error);
 
-// Extends low and high to contain all vertices that triangles use.
-void mesh_add_bounds(const Mesh *mesh, Vec3 *low, Vec3 *high);
+// Extends the box to contain all vertices that triangles use.
+void mesh_add_bounds(const Mesh *mesh, BoundingBox *box);
+
+// Returns the box of all vertices that triangles use.
+BoundingBox mesh_bounds(const Mesh *mesh);
 
 // Returns the direction from a vertex to another. It has length 1, or is zero if both coincide.
 Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to);

@@ -18,25 +18,11 @@
 #define TOUCH  0.01 // points touch the table up to this height
 #define MARGIN 0.03 // least distance of the outermost points from the center
 
-typedef struct {
-    double low[3], high[3];
-} MeshBox;
-
-static void extend(MeshBox *box, const double *point)
-{
-    for (int axis = 0; axis < 3; axis++) {
-        if (point[axis] < box->low[axis])
-            box->low[axis] = point[axis];
-        if (point[axis] > box->high[axis])
-            box->high[axis] = point[axis];
-    }
-}
-
 // Returns the bounding box of the corners whose coordinate on the axis is at most `most`. Ignores
 // triangles with fewer than `least` such corners.
-static MeshBox box_below(const Scene *scene, int axis, double most, int least)
+static BoundingBox box_below(const Scene *scene, int axis, double most, int least)
 {
-    MeshBox box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    BoundingBox box = bounding_box_empty();
     for (size_t i = 0; i < scene->objects.count; i++) {
         const Mesh *mesh = &scene->objects.data[i].mesh;
         for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
@@ -46,23 +32,25 @@ static MeshBox box_below(const Scene *scene, int axis, double most, int least)
                 below += mesh->positions[corners[corner]][axis] <= most;
             for (int corner = 0; below >= least && corner < 3; corner++)
                 if (mesh->positions[corners[corner]][axis] <= most)
-                    extend(&box, mesh->positions[corners[corner]]);
+                    bounding_box_add(&box, vec3_of_doubles(mesh->positions[corners[corner]]));
         }
     }
     return box;
 }
 
-static bool stands(const Scene *scene, const MeshBox *body, int up, int least)
+static bool stands(const Scene *scene, const BoundingBox *body, int up, int least)
 {
-    double extent = 0;
+    double bottom[3], low[3], high[3], center[3];
+    const double extent = vec3_extent(bounding_box_sides(body));
+    vec3_store_doubles(bottom, body->low);
+    const BoundingBox base = box_below(scene, up, bottom[up] + TOUCH * extent, least);
+    vec3_store_doubles(low, base.low);
+    vec3_store_doubles(high, base.high);
+    vec3_store_doubles(center, bounding_box_center(body));
     for (int axis = 0; axis < 3; axis++)
-        extent = fmax(extent, body->high[axis] - body->low[axis]);
-    const MeshBox base = box_below(scene, up, body->low[up] + TOUCH * extent, least);
-    for (int axis = 0; axis < 3; axis++) {
-        const double center = (body->low[axis] + body->high[axis]) / 2;
-        if (axis != up && fmin(center - base.low[axis], base.high[axis] - center) < MARGIN * extent)
+        if (axis != up &&
+            fmin(center[axis] - low[axis], high[axis] - center[axis]) < MARGIN * extent)
             return false;
-    }
     return true;
 }
 
@@ -71,7 +59,7 @@ static bool stands(const Scene *scene, const MeshBox *body, int up, int least)
 // on a few points by chance if y is up.
 static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 {
-    const MeshBox body = box_below(scene, 0, INFINITY, 0);
+    const BoundingBox body = box_below(scene, 0, INFINITY, 0);
     const bool stands_on_y = stands(scene, &body, 1, usual == UP_Y ? 1 : 3);
     const bool stands_on_z = stands(scene, &body, 2, 1);
     if (usual == UP_Y)
@@ -95,7 +83,7 @@ static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 // bounding box lets farthest() skip most runs.
 typedef struct {
     Mesh mesh; // borrowed
-    Vec3 low, high;
+    BoundingBox box;
 } TriangleRun;
 
 typedef struct {
@@ -108,11 +96,10 @@ static bool add_runs(Framing *framing, const Mesh *mesh, Error *error)
 {
     for (size_t first = 0; first < mesh->triangle_count; first += RUN_TRIANGLES) {
         const size_t rest = mesh->triangle_count - first;
-        TriangleRun run = {
-            *mesh, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+        TriangleRun run = {.mesh = *mesh};
         run.mesh.triangles += first;
         run.mesh.triangle_count = rest < RUN_TRIANGLES ? rest : RUN_TRIANGLES;
-        mesh_add_bounds(&run.mesh, &run.low, &run.high);
+        run.box = mesh_bounds(&run.mesh);
         if (!array_push(&framing->runs, run, error))
             return false;
     }
@@ -125,8 +112,9 @@ static Vec3 farthest(const Framing *framing, Vec3 d)
     double most = -INFINITY;
     for (size_t i = 0; i < framing->runs.count; i++) {
         const TriangleRun *run = &framing->runs.data[i];
-        if (fmax(d.x * run->low.x, d.x * run->high.x) + fmax(d.y * run->low.y, d.y * run->high.y) +
-                fmax(d.z * run->low.z, d.z * run->high.z) <=
+        const Vec3 low = run->box.low, high = run->box.high;
+        if (fmax(d.x * low.x, d.x * high.x) + fmax(d.y * low.y, d.y * high.y) +
+                fmax(d.z * low.z, d.z * high.z) <=
             most)
             continue;
         for (size_t corner = 0; corner < 3 * run->mesh.triangle_count; corner++) {
@@ -233,15 +221,16 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size)
 
 static bool add_studio(Scene *scene, Error *error)
 {
-    Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
+    BoundingBox box = bounding_box_empty();
     for (size_t object = 0; object < scene->objects.count; object++)
-        mesh_add_bounds(&scene->objects.data[object].mesh, &low, &high);
+        mesh_add_bounds(&scene->objects.data[object].mesh, &box);
     const bool is_empty = scene_triangle_count(scene) == 0;
     if (is_empty)
-        low = vec3(-1, -1, -1), high = vec3(1, 1, 1);
-    const Vec3 half = vec3_scale(vec3_sub(high, low), 0.5), center = vec3_add(low, half);
+        box = (BoundingBox){{-1, -1, -1}, {1, 1, 1}};
+    const Vec3 half = vec3_scale(bounding_box_sides(&box), 0.5);
+    const Vec3 center = vec3_add(box.low, half);
     const double radius = sqrt(vec3_dot(half, half)), depth = FLOOR_RADIUS * radius;
-    const Sphere floor = {vec3(center.x, center.y, low.z - depth), depth, MESH_FLOOR};
+    const Sphere floor = {vec3(center.x, center.y, box.low.z - depth), depth, MESH_FLOOR};
     scene->viewpoints.count = scene->lights.count = scene->spheres.count = 0;
     scene->has_course_views = false;
     bool ok = mesh_frame_add_views(scene, center, radius, error) &&

@@ -5,52 +5,41 @@
 
 #define LARGEST_RATIO 0x1p40
 
-typedef struct {
-    Vec3 low, high;
-} SceneBox;
-
-static void bounds_add(SceneBox *bounds, Vec3 point)
+static BoundingBox box_of(const Scene *scene)
 {
-    bounds->low = vec3_lower(bounds->low, point);
-    bounds->high = vec3_upper(bounds->high, point);
-}
-
-static SceneBox bounds_of(const Scene *scene)
-{
-    SceneBox bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    BoundingBox box = bounding_box_empty();
     for (size_t i = 0; i < scene->objects.count; i++)
-        mesh_add_bounds(&scene->objects.data[i].mesh, &bounds.low, &bounds.high);
+        mesh_add_bounds(&scene->objects.data[i].mesh, &box);
     if (scene_triangle_count(scene) > 0)
-        return bounds;
+        return box;
     for (size_t i = 0; i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.data[i];
         const Vec3 reach = {sphere->radius, sphere->radius, sphere->radius};
-        bounds_add(&bounds, vec3_sub(sphere->center, reach));
-        bounds_add(&bounds, vec3_add(sphere->center, reach));
+        bounding_box_add(&box, vec3_sub(sphere->center, reach));
+        bounding_box_add(&box, vec3_add(sphere->center, reach));
     }
-    return bounds;
+    return box;
 }
 
 // Returns the longest side; a negative number if the scene has no objects.
-static double extent_of(const SceneBox *bounds)
+static double extent_of(const BoundingBox *box)
 {
-    return bounds->low.x <= bounds->high.x ? vec3_extent(vec3_sub(bounds->high, bounds->low)) : -1;
+    return box->low.x <= box->high.x ? vec3_extent(bounding_box_sides(box)) : -1;
 }
 
 double scene_extent(const Scene *scene)
 {
-    const SceneBox bounds = bounds_of(scene);
-    return extent_of(&bounds);
+    const BoundingBox box = box_of(scene);
+    return extent_of(&box);
 }
 
 Normalization normalization_of(const Scene *scene)
 {
-    const SceneBox bounds = bounds_of(scene);
-    const double extent = extent_of(&bounds);
+    const BoundingBox box = box_of(scene);
+    const double extent = extent_of(&box);
     if (extent < 0)
         return (Normalization){{0, 0, 0}, 1};
-    return (Normalization){vec3_scale(vec3_add(bounds.low, bounds.high), 0.5),
-                           extent > 0 ? scalbn(1, -ilogb(extent)) : 1};
+    return (Normalization){bounding_box_center(&box), extent > 0 ? scalbn(1, -ilogb(extent)) : 1};
 }
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point)

@@ -36,11 +36,11 @@ static void add(StoredImage *image, int pixel, int channel, float value)
 
 static Causes find(StoredImage images[2])
 {
-    ImagePair pair = {{&images[0], &images[1]}, {"a", "b"}, {{0}}};
+    ComparedImages pair = {{&images[0], &images[1]}, {"a", "b"}, {{0}}};
     Causes causes;
     Difference difference;
     Error error = {0};
-    assert_true(image_pair_check(&pair, &error));
+    assert_true(compared_images_check(&pair, &error));
     causes_find(&causes, &pair);
     difference_measure(&difference, &pair);
     double sum = 0;

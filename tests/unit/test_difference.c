@@ -24,8 +24,8 @@ static const float plain[PIXELS][4] = {{0, 0, 0, 1}, {1, 1, 1, 2}, {0, 0.5f, 1, 
 
 static bool measure(Difference *difference, StoredImage images[2], Error *error)
 {
-    ImagePair pair = {{&images[0], &images[1]}, {"a", "b"}, {{0}}};
-    const bool ok = image_pair_check(&pair, error);
+    ComparedImages pair = {{&images[0], &images[1]}, {"a", "b"}, {{0}}};
+    const bool ok = compared_images_check(&pair, error);
     if (ok)
         difference_measure(difference, &pair);
     stored_image_free(&images[0]);

@@ -29,7 +29,8 @@ static bool read_integer(const char *text, int64_t low, int64_t high, int64_t *n
 }
 
 // Reads two integers, each from low to high, with a separator between them.
-static bool read_pair(const char *text, char separator, int64_t low, int64_t high, int64_t pair[2])
+static bool read_two_integers(const char *text, char separator, int64_t low, int64_t high,
+                              int64_t pair[2])
 {
     const char *middle = integer_parse(text, text + strlen(text), &pair[0]);
     return middle != NULL && *middle == separator && pair[0] >= low && pair[0] <= high &&
@@ -63,7 +64,7 @@ static bool store_area(const Option *option, uint32_t *area, const char *text, E
 {
     int64_t sides[2];
     const bool is_side = read_integer(text, 1, option->limit, &sides[0]);
-    if (!read_pair(text, 'x', 1, option->limit, sides))
+    if (!read_two_integers(text, 'x', 1, option->limit, sides))
         return error_set(error,
                          "--%s wants WIDTHxHEIGHT, each between 1 and %lld, not '%s'%s%s%s%s",
                          option->name, (long long)option->limit, text, is_side ? ", perhaps " : "",
@@ -330,7 +331,7 @@ bool set_normals(Options *options, const char *text, Error *error)
 bool set_pixel(Options *options, const char *text, Error *error)
 {
     int64_t place[2];
-    if (!read_pair(text, ',', 0, PICTURE_SIZE_MAX - 1, place))
+    if (!read_two_integers(text, ',', 0, PICTURE_SIZE_MAX - 1, place))
         return error_set(error,
                          "'%s' is no pixel: explain wants X,Y counted from 0, X from the left and "
                          "Y from the top",
