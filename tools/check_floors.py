@@ -66,7 +66,6 @@ SHARED_HEADERS = {
     "image/stored_image.h": "also image_read, which needs libraries",
     "library/clrt.h": "the public header",
     "library/handles.h": "the data behind clrt.h",
-    "mesh/ply_reader.h": "the parts of the PLY reader",
     "scene/mesh_load.h": "also mesh_scene.c, which reads its studio with scn.c",
     "session/session.h": "the session, whose scene has a file of its own",
     "view/viewer_inside.h": "the viewer's data, which its files share",

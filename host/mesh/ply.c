@@ -10,7 +10,7 @@
 // the vertex count.
 #include "mesh/ply.h"
 
-#include "mesh/ply_reader.h"
+#include "mesh/ply_header.h"
 
 #include <math.h>
 
@@ -186,11 +186,6 @@ static bool read_property(Loader *loader, const PlyElement *element, const PlyPr
     return read_component(loader, property);
 }
 
-static size_t smaller(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
-
 static bool allocate_vertices(Loader *loader)
 {
     const PlyHeader *header = &loader->header;
@@ -211,36 +206,6 @@ static size_t smallest_size(const PlyReader *reader, PlyProperties properties)
     return size;
 }
 
-static bool read_triangles_in_bulk(Loader *loader, const PlyElement *element)
-{
-    PlyReader *reader = &loader->reader;
-    const PlyProperties properties = ply_header_properties(&loader->header, element);
-    const size_t size = ply_bulk_triangle_size(reader, properties);
-    const size_t held = loader->triangles.count;
-    const size_t fitting = size == 0 ? 0 : (size_t)(reader->end - reader->next) / size;
-    const size_t room = smaller(smaller(fitting, (size_t)(element->count - reader->index)),
-                                (size_t)PLY_COUNT_LIMIT - held);
-    if (room == 0)
-        return true;
-    if (!array_reserve(&loader->triangles.memory, &loader->triangles.capacity, held + room,
-                       sizeof(Triangle), reader->error))
-        return false;
-    loader->triangles.count += ply_bulk_triangles(reader, properties, loader->header.vertex_count,
-                                                  room, &loader->triangles.data[held]);
-    return true;
-}
-
-// Reads as many elements as the fast path accepts, possibly none. Returns false if memory runs out.
-static bool read_in_bulk(Loader *loader, const PlyElement *element)
-{
-    if (element->kind == PLY_FACE)
-        return read_triangles_in_bulk(loader, element);
-    if (element->kind == PLY_VERTEX)
-        ply_bulk_vertices(&loader->reader, ply_header_properties(&loader->header, element),
-                          element->count, loader->mesh);
-    return true;
-}
-
 static bool read_element(Loader *loader, const PlyElement *element)
 {
     PlyReader *reader = &loader->reader;
@@ -255,10 +220,6 @@ static bool read_element(Loader *loader, const PlyElement *element)
     if (element->kind == PLY_VERTEX && element->count > 0 && !allocate_vertices(loader))
         return false;
     for (reader->index = 0; reader->index < element->count; reader->index++) {
-        if (!read_in_bulk(loader, element))
-            return false;
-        if (reader->index == element->count)
-            break;
         for (size_t index = 0; index < properties.count; index++) {
             if (!read_property(loader, element, &properties.data[index]))
                 return false;

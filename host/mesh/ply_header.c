@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Header lines -> elements and their properties, in one pass. The elements and properties that a
 // mesh uses may each occur only once.
-#include "mesh/ply_reader.h"
+#include "mesh/ply_header.h"
 
 #include "base/number.h"
 

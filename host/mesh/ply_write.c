@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes numbers in the machine's byte order, which ply_parse reads fastest.
+// Writes numbers in the machine's byte order.
 #include "mesh/ply_write.h"
 
 #include "mesh/ply_reader.h"

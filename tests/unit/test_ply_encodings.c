@@ -239,8 +239,7 @@ TEST(every_integer_type_counts_and_numbers_corners)
     }
 }
 
-// Colors are between the values that the reader needs. A quad is among the triangles, which the
-// reader of binary files reads in bulk.
+// Colors are between the values that the reader needs. A quad is among the triangles.
 TEST(unusual_elements_among_usual_ones_are_read_in_their_order)
 {
     static const double faces[4][4] = {{0, 1, 2}, {0, 1, 2, 3}, {3, 2, 1}, {1, 2, 3}};
