@@ -20,7 +20,7 @@ typedef struct {
     ThreadPool *pool;
     ARRAY(BuildTask) subtrees;
     ARRAY(BuildTask) large; // nodes above the subtrees, level by level
-    size_t level;           // index in large of the first node of the level to divide
+    size_t next;            // index in large of the first node to divide
 } Whole;
 
 static void make_items(void *context, uint32_t first, uint32_t end)
@@ -37,7 +37,7 @@ static void make_items(void *context, uint32_t first, uint32_t end)
 static void divide_large(void *context, uint32_t number)
 {
     const Whole *whole = context;
-    build_divide(&whole->build, &whole->large.data[whole->level + number]);
+    build_divide(&whole->build, &whole->large.data[whole->next + number]);
 }
 
 static void build_small(void *context, uint32_t number)
@@ -54,14 +54,14 @@ static bool add_task(Whole *whole, const BuildTask *task, Error *error)
 
 // Divides a level of large nodes. A node's two children get the indices after all nodes below the
 // left child and before all nodes below the right child.
-static bool divide_level(Whole *whole, Error *error)
+static bool divide_next(Whole *whole, Error *error)
 {
     const size_t end = whole->large.count;
     bool ok = true;
-    thread_pool_run(whole->pool, (uint32_t)(end - whole->level), divide_large, whole);
-    for (; ok && whole->level < end; whole->level++) {
+    thread_pool_run(whole->pool, (uint32_t)(end - whole->next), divide_large, whole);
+    for (; ok && whole->next < end; whole->next++) {
         BuildTask children[2];
-        const BuildTask task = whole->large.data[whole->level];
+        const BuildTask task = whole->large.data[whole->next];
         if (task.left == 0)
             continue;
         build_set_children(&whole->build, &task, 2 * (task.first + task.left) - 1, children);
@@ -79,7 +79,7 @@ static int compare_subtrees(const void *first, const void *second)
 }
 
 // Counts the nodes of a subtree. The depth of the tree bounds the recursion.
-static void count_nodes(Bvh *bvh, uint32_t number, uint32_t level)
+static void count_nodes(Bvh *bvh, uint32_t number, uint32_t parents)
 {
     BvhNode *node = &bvh->nodes[number];
     bvh->node_count++;
@@ -87,12 +87,12 @@ static void count_nodes(Bvh *bvh, uint32_t number, uint32_t level)
         node->leaf_count = 1;
         bvh->leaf_count++;
         bvh->largest_leaf = node->count > bvh->largest_leaf ? node->count : bvh->largest_leaf;
-        bvh->depth = level + 1 > bvh->depth ? level + 1 : bvh->depth;
+        bvh->depth = parents + 1 > bvh->depth ? parents + 1 : bvh->depth;
         return;
     }
-    bvh->inner_counts[level]++;
-    count_nodes(bvh, node->first, level + 1);
-    count_nodes(bvh, node->first + 1, level + 1);
+    bvh->inner_counts[parents]++;
+    count_nodes(bvh, node->first, parents + 1);
+    count_nodes(bvh, node->first + 1, parents + 1);
     node->leaf_count = bvh->nodes[node->first].leaf_count + bvh->nodes[node->first + 1].leaf_count;
 }
 
@@ -110,8 +110,8 @@ static bool build_all(Whole *whole, Error *error)
         return false;
     thread_pool_share(whole->pool, total, CHUNK_ELEMENTS, make_items, whole);
     bool ok = add_task(whole, &root, error);
-    while (ok && whole->level < whole->large.count)
-        ok = divide_level(whole, error);
+    while (ok && whole->next < whole->large.count)
+        ok = divide_next(whole, error);
     if (!ok)
         return false;
     const uint32_t subtrees = (uint32_t)whole->subtrees.count;

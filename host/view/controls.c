@@ -46,9 +46,9 @@ Orbit orbit_of(const Viewpoint *viewpoint, bool is_course)
 
 Viewpoint orbit_viewpoint(const Orbit *orbit)
 {
-    const double level = orbit->distance * cosine_of_degrees(orbit->azimuth);
-    const double x = level * cosine_of_degrees(orbit->rotation);
-    const double y = level * sine_of_degrees(orbit->rotation);
+    const double radius = orbit->distance * cosine_of_degrees(orbit->azimuth);
+    const double x = radius * cosine_of_degrees(orbit->rotation);
+    const double y = radius * sine_of_degrees(orbit->rotation);
     const double z = -orbit->distance * sine_of_degrees(orbit->azimuth);
     const Vec3 across = vec3_add(vec3_scale(orbit->axes[0], x), vec3_scale(orbit->axes[1], y));
     const Vec3 arm = vec3_add(across, vec3_scale(orbit->axes[2], z));
@@ -138,11 +138,11 @@ static void turn(State *state, double right, double down)
     move(state);
 }
 
-static void change_level(State *state, const StateScene *scene, int step)
+static void change_depth(State *state, const StateScene *scene, int step)
 {
     state->boxes = state->boxes || step > 0;
     if (state->boxes)
-        state->level = (uint32_t)limited((int)state->level + step, 0, (int)scene->levels);
+        state->box_depth = (uint32_t)limited((int)state->box_depth + step, 0, (int)scene->deepest);
 }
 
 // Returns the setting that a key toggles, or NULL.
@@ -192,9 +192,9 @@ static void apply_key(State *state, const StateScene *scene, int key)
     if (turned != NULL)
         *turned = !*turned;
     if (key == 'B')
-        state->level = 0;
+        state->box_depth = 0;
     if (key == ']' || key == '[')
-        change_level(state, scene, key == ']' ? 1 : -1);
+        change_depth(state, scene, key == ']' ? 1 : -1);
     if (key == '+' || key == '=' || key == '-')
         change_exposure(state, key == '-' ? -1 : 1);
     if (key >= '1' && key <= '9')
@@ -256,7 +256,7 @@ void state_advance(State *state, double seconds)
 
 void state_adopt(State *state, const StateScene *scene)
 {
-    state->level = (uint32_t)limited((int)state->level, 0, (int)scene->levels);
+    state->box_depth = (uint32_t)limited((int)state->box_depth, 0, (int)scene->deepest);
     if (!state->moved || state->view > scene->viewpoint_count)
         choose_view(state, scene, state->view <= scene->viewpoint_count ? state->view : 1);
 }

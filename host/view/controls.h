@@ -60,8 +60,8 @@ enum {
 typedef struct {
     const Viewpoint *viewpoints;
     size_t viewpoint_count;
-    bool is_course;  // the viewpoints are the course's
-    uint32_t levels; // number of levels with inner nodes; 0 without a tree
+    bool is_course;   // the viewpoints are the course's
+    uint32_t deepest; // depth of the deepest inner nodes; 0 without a tree
 } StateScene;
 
 typedef struct {
@@ -72,10 +72,10 @@ typedef struct {
     bool help, text;     // overlays that are displayed
     bool turning;        // the camera turns automatically
     bool full_screen;
-    uint32_t level; // displayed boxes: 0 for leaves; n for inner nodes at level n, the root at 1
-    int exposure;   // in half stops
-    uint32_t view;  // number of the latest viewpoint, from 1
-    bool moved;     // the camera has left this viewpoint
+    uint32_t box_depth; // of the displayed boxes, where the root has 1; 0: those of the leaves
+    int exposure;       // in half stops
+    uint32_t view;      // number of the latest viewpoint, from 1
+    bool moved;         // the camera has left this viewpoint
     Orbit orbit;
     Viewpoint camera;
 } State;

@@ -46,10 +46,10 @@ static void add_boxes(Buffer *buffer, const State *state, const Figures *figures
 {
     if (!state->boxes)
         return;
-    if (state->level == 0)
+    if (state->box_depth == 0)
         add(buffer, ", boxes of leaves: %u", figures->box_count);
     else
-        add(buffer, ", boxes at level %u: %u", state->level, figures->box_count);
+        add(buffer, ", boxes at level %u: %u", state->box_depth, figures->box_count);
 }
 
 static void add_state(Buffer *buffer, const State *state, const Figures *figures)

@@ -20,7 +20,7 @@ static void describe_scene(Viewer *viewer)
         .viewpoints = scene->viewpoints.data,
         .viewpoint_count = scene->viewpoints.count,
         .is_course = scene->has_course_views,
-        .levels = viewer->status.has_tree ? boxes_levels(&viewer->model->stages.bvh) : 0};
+        .deepest = viewer->status.has_tree ? boxes_deepest(&viewer->model->stages.bvh) : 0};
 }
 
 bool viewer_watch_files(Viewer *viewer, Error *error)

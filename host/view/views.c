@@ -41,14 +41,14 @@ bool views_load(Views *views, const Model *model, Error *error)
 static bool load_boxes(Views *views, const Frame *frame, Error *error)
 {
     Boxes boxes = {0};
-    const uint32_t level = frame->state->level;
-    if (views->has_boxes && views->level == level)
+    const uint32_t depth = frame->state->box_depth;
+    if (views->has_boxes && views->boxes_depth == depth)
         return true;
-    const bool ok = !frame->has_tree || boxes_make(&boxes, &frame->model->stages.bvh, level, error);
+    const bool ok = !frame->has_tree || boxes_make(&boxes, &frame->model->stages.bvh, depth, error);
     line_view_load(&views->boxes, boxes.data, ok ? boxes.count : 0);
     boxes_free(&boxes);
     views->has_boxes = frame->has_tree;
-    views->level = level;
+    views->boxes_depth = depth;
     return ok;
 }
 
@@ -99,7 +99,7 @@ static bool draw_lines(Views *views, const Frame *frame, const Lens *lens, Error
     bool ok = true;
     if (state->boxes) {
         ok = load_boxes(views, frame, error);
-        line_view_draw(&views->boxes, lens, state->level == 0 ? blue : red);
+        line_view_draw(&views->boxes, lens, state->box_depth == 0 ? blue : red);
     }
     if (state->normals) {
         ok = load_normals(views, frame->model, error) && ok;

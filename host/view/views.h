@@ -15,8 +15,8 @@ typedef struct {
     LineView boxes, normals;
     RayView rays;
     TextView text;
-    bool has_boxes, has_normals; // the loaded lines match the model and level
-    uint32_t level;
+    bool has_boxes, has_normals; // the loaded lines match the model and boxes_depth
+    uint32_t boxes_depth;
 } Views;
 
 // The contents of a frame.

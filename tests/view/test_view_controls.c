@@ -170,15 +170,15 @@ TEST(levels_go_from_the_leaves_to_the_deepest_inner_nodes)
     assert_false(fixture.state.boxes);
     press(&fixture, "]]");
     assert_true(fixture.state.boxes);
-    assert_int_equal(fixture.state.level, 2);
+    assert_int_equal(fixture.state.box_depth, 2);
     press(&fixture, "]]]]");
-    assert_int_equal(fixture.state.level, 3);
+    assert_int_equal(fixture.state.box_depth, 3);
     press(&fixture, "[");
-    assert_int_equal(fixture.state.level, 2);
+    assert_int_equal(fixture.state.box_depth, 2);
     press(&fixture, "[[[[");
-    assert_int_equal(fixture.state.level, 0);
+    assert_int_equal(fixture.state.box_depth, 0);
     press(&fixture, "]BB");
-    assert_int_equal(fixture.state.level, 0); // showing boxes again starts with the leaves
+    assert_int_equal(fixture.state.box_depth, 0); // showing boxes again starts with the leaves
 }
 
 TEST(exposure_goes_by_half_stops)
@@ -238,11 +238,11 @@ TEST(a_scene_read_again_moves_only_a_camera_at_its_place)
     happen(&fixture, EVENT_TURN, 4, 0);
     const Viewpoint moved = fixture.state.camera;
     FREED_BY(release) Fixture again = opened("camera 9 0 0 0 0 0 45");
-    again.facts.levels = 1;
+    again.facts.deepest = 1;
     press(&fixture, "B]]]");
     state_adopt(&fixture.state, &again.facts);
     assert_memory_equal(&moved, &fixture.state.camera, sizeof moved);
-    assert_int_equal(fixture.state.level, 1);
+    assert_int_equal(fixture.state.box_depth, 1);
 }
 
 TEST(another_scene_is_seen_through_its_first_camera)

@@ -88,14 +88,14 @@ TEST(brute_force_is_expected_to_be_slow)
     assert_true(plan_first_guess(1000000, false) > 1e-4);
 }
 
-// Returns the number of boxes of a level by recursion.
-static uint32_t count_level(const Bvh *bvh, uint32_t number, uint32_t depth, uint32_t level)
+// Returns the number of boxes at a depth by recursion.
+static uint32_t count_at(const Bvh *bvh, uint32_t number, uint32_t depth, uint32_t wanted)
 {
     const BvhNode *node = &bvh->nodes[number];
     if (node->count > 0)
-        return level == 0;
-    return (depth == level) + count_level(bvh, node->first, depth + 1, level) +
-           count_level(bvh, node->first + 1, depth + 1, level);
+        return wanted == 0;
+    return (depth == wanted) + count_at(bvh, node->first, depth + 1, wanted) +
+           count_at(bvh, node->first + 1, depth + 1, wanted);
 }
 
 TEST(every_level_has_a_box_for_each_of_its_nodes)
@@ -106,13 +106,13 @@ TEST(every_level_has_a_box_for_each_of_its_nodes)
     FREED_BY(triangles_free) Triangles triangles = triangle_set((TriangleSet)0, 500);
     const BvhSettings settings = {BVH_SAH, LEAVES_SINGLE};
     assert_true(bvh_build(&bvh, &triangles, &settings, NULL, &error));
-    for (uint32_t level = 0; level <= boxes_levels(&bvh); level++) {
+    for (uint32_t depth = 0; depth <= boxes_deepest(&bvh); depth++) {
         FREED_BY(boxes_free) Boxes boxes = {0};
-        assert_true(boxes_make(&boxes, &bvh, level, &error));
-        assert_int_equal(boxes.count, count_level(&bvh, 0, 1, level));
+        assert_true(boxes_make(&boxes, &bvh, depth, &error));
+        assert_int_equal(boxes.count, count_at(&bvh, 0, 1, depth));
         assert_true(boxes.count > 0);
-        inner += level > 0 ? (uint32_t)boxes.count : 0;
-        if (level == 1)
+        inner += depth > 0 ? (uint32_t)boxes.count : 0;
+        if (depth == 1)
             assert_memory_equal(&boxes.data[0], &bvh.nodes[0].box, sizeof(Box));
     }
     assert_int_equal(inner, bvh.node_count - bvh.leaf_count);
@@ -124,12 +124,12 @@ TEST(a_tree_of_nothing_or_one_leaf_has_no_inner_boxes)
     FREED_BY(boxes_free) Boxes boxes = {0};
     Error error = {0};
     Bvh none = {0};
-    assert_int_equal(boxes_levels(&none), 0);
+    assert_int_equal(boxes_deepest(&none), 0);
     assert_true(boxes_make(&boxes, &none, 0, &error));
     assert_int_equal(boxes.count, 0);
     BvhNode leaf = {.count = 3};
     const Bvh single = {.nodes = &leaf, .node_count = 1, .leaf_count = 1, .depth = 1};
-    assert_int_equal(boxes_levels(&single), 0);
+    assert_int_equal(boxes_deepest(&single), 0);
     assert_true(boxes_make(&boxes, &single, 0, &error));
     assert_int_equal(boxes.count, 1);
 }

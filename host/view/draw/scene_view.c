@@ -226,29 +226,29 @@ void line_view_draw(const LineView *view, const Lens *lens, const float color[3]
 typedef struct {
     Boxes *boxes;
     const Bvh *bvh;
-    uint32_t level; // 0 for leaves, 1 for the root
+    uint32_t depth; // 0 for leaves, 1 for the root
     Error *error;
 } Collection;
 
-// Adds a subtree's boxes of collection->level. The depth of the tree bounds the recursion.
-static bool collect(const Collection *collection, uint32_t number, uint32_t level)
+// Adds the boxes of a subtree at collection->depth. The depth of the tree bounds the recursion.
+static bool collect(const Collection *collection, uint32_t number, uint32_t depth)
 {
     const BvhNode *node = &collection->bvh->nodes[number];
     const bool is_leaf = node->count > 0;
-    if (is_leaf ? collection->level == 0 : collection->level == level)
+    if (is_leaf ? collection->depth == 0 : collection->depth == depth)
         return array_push(collection->boxes, node->box, collection->error);
-    return is_leaf || (collect(collection, node->first, level + 1) &&
-                       collect(collection, node->first + 1, level + 1));
+    return is_leaf || (collect(collection, node->first, depth + 1) &&
+                       collect(collection, node->first + 1, depth + 1));
 }
 
-uint32_t boxes_levels(const Bvh *bvh)
+uint32_t boxes_deepest(const Bvh *bvh)
 {
     return bvh->depth > 0 ? bvh->depth - 1 : 0;
 }
 
-bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t level, Error *error)
+bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t depth, Error *error)
 {
-    const Collection collection = {boxes, bvh, level, error};
+    const Collection collection = {boxes, bvh, depth, error};
     return bvh->node_count == 0 || collect(&collection, 0, 1);
 }
 

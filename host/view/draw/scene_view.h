@@ -42,15 +42,15 @@ bool line_view_open(LineView *view, bool is_diagonal, Error *error);
 void line_view_load(LineView *view, const Box *boxes, size_t count);
 void line_view_draw(const LineView *view, const Lens *lens, const float color[3]);
 
-// The boxes that a LineView draws: those of one level of a Bvh, or a model's normals as diagonals.
+// The boxes that a LineView draws: those at one depth of a Bvh, or a model's normals as diagonals.
 typedef ARRAY(Box) Boxes;
 
-// Returns the number of levels of inner nodes.
-uint32_t boxes_levels(const Bvh *bvh);
+// Returns the depth of the deepest inner nodes; 0 without any.
+uint32_t boxes_deepest(const Bvh *bvh);
 
-// Fills an empty array with the boxes of a level: 0 for the leaves, 1 for the root, and higher
-// levels for deeper inner nodes. The caller frees the boxes, also after a failure.
-bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t level, Error *error);
+// Fills an empty array with the boxes of the inner nodes at a depth, where the root has depth 1. If
+// depth is 0, the boxes are those of the leaves. The caller frees them, also after a failure.
+bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t depth, Error *error);
 void boxes_free(Boxes *boxes);
 
 // Fills an empty array with the normals of a model, as lines from low to high in normalized
