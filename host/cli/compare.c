@@ -6,7 +6,7 @@
 #include "base/output_file.h"
 #include "compare/report.h"
 #include "image/image_file.h"
-#include "image/stored_image.h"
+#include "image/image_read.h"
 
 static bool measure(Comparison *comparison, Error *error)
 {

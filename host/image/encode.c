@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Colors as floats -> bytes. Rounds to the nearest byte, because truncation would double the
 // largest error.
-#include "image/image_file.h"
+#include "image/encode.h"
 
 #include <math.h>
 
@@ -19,15 +19,4 @@ void encode_channels(const float *values, size_t count, Encoding encoding, doubl
         const double shown = encoding == ENCODE_SRGB ? srgb_curve(value) : value;
         bytes[i] = (unsigned char)(shown * 255 + 0.5);
     }
-}
-
-unsigned char *encode_bytes(const Framebuffer *framebuffer, const ImageSettings *settings,
-                            Error *error)
-{
-    const size_t count = (size_t)framebuffer->width * framebuffer->height;
-    unsigned char *bytes = memory_raw(count, 3, error);
-    if (bytes != NULL)
-        encode_channels(framebuffer->pixels[0], 3 * count, settings->encoding,
-                        exp2(settings->exposure), bytes);
-    return bytes;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Reads tiled OpenEXR files that clrt wrote: their texts, and each tile as compressed bytes or as
 // values. Tiles may be missing, and a file may be larger than the memory. Threads may share an open
-// file. The file also writes the header of such files.
+// file.
 #pragma once
 
-#include "image/image_file.h"
+#include "image/framebuffer.h"
 #include "image/stored_image.h"
 
 #include <openexr.h>
@@ -56,12 +56,6 @@ typedef struct {
 } ExrTileHead;
 
 ExrTileHead exr_tile_head(const exr_chunk_info_t *tile, uint64_t size);
-
-// Writes the header of a whole picture of this size, even if the file will contain only the tiles
-// of a part. The caller then writes the table of the tiles' positions and the tiles. Returns false
-// if writing fails. The caller ends the context with exr_finish in both cases.
-bool exr_file_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
-                    uint32_t height, FILE *stream);
 
 // An error handler that ignores messages, because OpenEXRCore's functions also return failures.
 void exr_file_ignore(exr_const_context_t context, exr_result_t code, const char *message);

@@ -5,10 +5,10 @@
 // OpenEXRCore writes the header and compresses the tiles, but it cannot omit tiles. The code here
 // therefore writes the table and the tiles itself. Threads compress tiles concurrently and write
 // them one after another, in the order of their numbers, so equal pictures give equal files.
+#include "image/exr_write.h"
+
 #include "base/processors.h"
 #include "base/thread_pool.h"
-#include "image/exr_file.h"
-#include "image/formats.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -72,8 +72,8 @@ static bool add_texts(exr_context_t context, const ImageSettings *settings)
     return ok;
 }
 
-bool exr_file_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
-                    uint32_t height, FILE *stream)
+bool exr_write_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
+                     uint32_t height, FILE *stream)
 {
     const exr_context_initializer_t initial = {.size = sizeof initial,
                                                .error_handler_fn = exr_file_ignore,
@@ -190,8 +190,8 @@ bool exr_write(const Framebuffer *framebuffer, const ImageSettings *settings, FI
                          .turn = PTHREAD_COND_INITIALIZER};
     int32_t count = 0;
     bool ok =
-        exr_file_begin(&writer.context, settings, part != NULL ? part->width : framebuffer->width,
-                       part != NULL ? part->height : framebuffer->height, stream) &&
+        exr_write_begin(&writer.context, settings, part != NULL ? part->width : framebuffer->width,
+                        part != NULL ? part->height : framebuffer->height, stream) &&
         exr_get_chunk_count(writer.context, 0, &count) == EXR_ERR_SUCCESS;
     writer.starts = memory_zeroed((size_t)count, sizeof *writer.starts, cause);
     ok = ok && writer.starts != NULL && write_tiles(&writer, (uint32_t)count);

@@ -3,10 +3,13 @@
 #include "image/image_file.h"
 
 #include "base/output_file.h"
-#include "image/formats.h"
+#include "image/exr_write.h"
 #include "image/image_process.h"
+#include "image/pfm.h"
+#include "image/png_file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -90,6 +93,19 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
     return most == 0 || (width <= most && height <= most) ||
            error_set(error, "a picture in the format %s has at most %u pixels a side", format,
                      most);
+}
+
+// Returns a whole picture as width * height * 3 bytes, which the caller frees; NULL if memory runs
+// out.
+static unsigned char *encode_bytes(const Framebuffer *framebuffer, const ImageSettings *settings,
+                                   Error *error)
+{
+    const size_t count = (size_t)framebuffer->width * framebuffer->height;
+    unsigned char *bytes = memory_raw(count, 3, error);
+    if (bytes != NULL)
+        encode_channels(framebuffer->pixels[0], 3 * count, settings->encoding,
+                        exp2(settings->exposure), bytes);
+    return bytes;
 }
 
 // The functions below store the reason for a failure in cause. image_write adds the file name.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Selects the reader by the file's first bytes. clrt reads only formats that it writes, because
 // every further decoder of OpenImageIO would be a target for hostile files.
-#include "image/stored_image.h"
+#include "image/image_read.h"
 
-#include "image/formats.h"
 #include "image/image_process.h"
+#include "image/pfm.h"
+#include "image/png_file.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // PFM needs no library, so every build reads and writes it.
-#include "image/formats.h"
+#include "image/pfm.h"
 
 #include "base/number.h"
 

@@ -2,7 +2,7 @@
 // Writes and reads PNG by libpng, row by row. libpng converts every kind of PNG to red, green and
 // blue. It reports faults by a longjmp to write_picture or read_picture. The jump skips the rest of
 // every function between. The functions that these two call therefore own no memory.
-#include "image/formats.h"
+#include "image/png_file.h"
 
 #include <errno.h>
 #include <math.h>

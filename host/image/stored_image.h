@@ -60,9 +60,3 @@ bool stored_image_colors(const StoredImage *image, uint32_t places[3]);
 
 // Converts each 8-bit value v to v / 255.
 void stored_image_values(const unsigned char *bytes, size_t count, float *values);
-
-// Reads a picture file. The file's first bytes determine the format, not its name. libpng reads
-// PNG, and pfm.c reads PFM. OpenImageIO reads the other formats that clrt writes, except GIF, in a
-// child process that may crash without harm. On failure, returns false with a message that names
-// the file. The caller frees the image.
-bool image_read(StoredImage *image, const char *path, Error *error);

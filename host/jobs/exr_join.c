@@ -4,6 +4,7 @@
 // any order.
 #include "jobs/exr_join.h"
 
+#include "image/exr_write.h"
 #include "jobs/stored_tiles.h"
 
 #include <errno.h>
@@ -36,7 +37,7 @@ bool exr_join_write_head(ExrJoin *join, const ImageSettings *settings, const Ren
                          FILE *stream)
 {
     exr_context_t context = NULL;
-    const bool ok = exr_file_begin(&context, settings, place->width, place->height, stream);
+    const bool ok = exr_write_begin(&context, settings, place->width, place->height, stream);
     exr_finish(&context);
     uint64_t next = (uint64_t)ftello(stream) + join->count * sizeof next;
     for (uint64_t tile = 0; tile < join->count; tile++) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "image/exr_file.h"
+#include "image/image_settings.h"
 #include "session/picture.h"
 
 #include <stdatomic.h>

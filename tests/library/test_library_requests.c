@@ -2,7 +2,7 @@
 // Requests beyond a plain picture: goals, crops, turns, levels, statistics, channels, certainty and
 // references. Their pixels equal the program's, bit for bit.
 #include "base/error.h"
-#include "image/stored_image.h"
+#include "image/image_read.h"
 #include "library/faults.h"
 #include "library/filled.h"
 #include "library/program.h"

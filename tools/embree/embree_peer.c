@@ -2,7 +2,7 @@
 // Draws the same picture as clrt with Embree 3, for the comparison in tools/bench. Prints the
 // measurements as JSON.
 #include "base/clock.h"
-#include "image/formats.h"
+#include "image/pfm.h"
 #include "peer_draw.h"
 
 #include <errno.h>

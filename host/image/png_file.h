@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// PNG files, written and read by libpng.
+#pragma once
+
+#include "image/image_settings.h"
+#include "image/stored_image.h"
+
+#include <stdio.h>
+
+// Writes PNG with 8 bits per channel and the encoding and texts of settings. Returns false on
+// failure. The reason is in error, or in errno if the last bytes could not be written.
+bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *settings, FILE *stream,
+                    Error *error);
+
+// Reads the colors of any PNG with up to 16 bits per channel, and ignores transparency. Rejects
+// pictures of more than `most` values. On failure returns false and the reason without the file
+// name. The caller frees the image in both cases.
+bool png_file_read(StoredImage *image, FILE *stream, uint64_t most, Error *cause);
