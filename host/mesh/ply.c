@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Converts PLY elements to vertices and triangles. ply_header.c parses the header, which lists the
-// elements, and ply_reader.c reads the values. Elements of unusual layout are read value by value.
-// For the usual binary layout, a fast path reads whole runs of elements.
+// elements, and ply_reader.c reads the values.
 //
 // A file may list its faces before its vertices. Triangles with equal corners are therefore dropped
 // in a last step.
