@@ -6,6 +6,7 @@ usage: test_python.py CLRT SCENES"""
 import pathlib
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 
@@ -18,6 +19,9 @@ except ImportError as missing:
 
 import clrt
 import clrt.trimesh
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from pictures import read_exr  # noqa: E402 pylint: disable=wrong-import-position
 
 CLRT, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
 CREATURE = SCENES / "creature.scn"
@@ -61,6 +65,27 @@ class Pictures(unittest.TestCase):
         self.assertEqual(clrt.hash(picture), clrt.hash(draw(bytes_ / 255)))
         self.assertTrue((picture == draw((bytes_.astype(np.uint16) * 257))).all())
         self.assertGreater(len(np.unique(picture)), 50)
+
+    def test_arrays_have_the_bits_of_the_programs_exr_file(self):
+        # The numbers of tests depend on the kernel.
+        names = [name for name in clrt.channel_kinds() if not name.endswith("tests")]
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "creature.exr")
+            subprocess.run([CLRT, CREATURE, "-o", path, "-s", "64x48", "--aov", ",".join(names)],
+                           check=True, capture_output=True)
+            _, stored = read_exr(path)
+        picture = clrt.load(CREATURE).render(64, 48, channels=names)
+        arrays = {"R": picture[..., 0], "G": picture[..., 1], "B": picture[..., 2]}
+        for name, array in picture.channels.items():
+            prefix = {"depth": "Z", "normal": "N", "position": "P"}.get(name, name)
+            if array.ndim == 2:
+                arrays[prefix] = array
+            else:
+                arrays.update({f"{prefix}.{axis}": array[..., i] for i, axis in enumerate("XYZ")})
+        self.assertEqual(sorted(stored), sorted(arrays))
+        for name, values in stored.items():
+            expected = np.array(values, arrays[name].dtype)
+            self.assertEqual(arrays[name].tobytes(), expected.tobytes(), name)
 
     def test_channels_are_arrays_and_agree_with_rays(self):
         scene, renderer = clrt.load(CREATURE), clrt.Renderer()

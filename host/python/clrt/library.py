@@ -2,7 +2,6 @@
 """Calls libclrt. cffi reads clrt.h, so every struct is defined once."""
 
 import contextlib
-import functools
 import os
 import pathlib
 import re
@@ -13,8 +12,9 @@ import numpy as np
 
 _FOLDER = pathlib.Path(__file__).parent
 _ADVICE = (
-    "\nclrt needs an OpenCL driver. PoCL runs on every CPU: apt install pocl-opencl-icd (Debian),"
-    " dnf install pocl (Fedora), conda install pocl-cpu-minimal (conda-forge).")
+    "\nclrt needs an OpenCL driver and libOpenCL. PoCL runs on every CPU: apt install"
+    " pocl-opencl-icd ocl-icd-libopencl1 (Debian), dnf install pocl 'libOpenCL.so.1()(64bit)'"
+    " (Fedora), conda install pocl-cpu-minimal ocl-icd (conda-forge).")
 
 NOTHING = 0xFFFFFFFF
 
@@ -57,7 +57,8 @@ def _open():
     try:
         return ffi.dlopen(os.environ.get("CLRT_LIBRARY", str(own if own.exists() else own.name)))
     except OSError as error:
-        raise ImportError(f"{error}{_ADVICE if 'OpenCL' in str(error) else ''}") from None
+        text = str(error).partition(".  Additionally")[0]
+        raise ImportError(text + _ADVICE if "OpenCL" in text else text) from None
 
 
 ffi.cdef(_declarations())
@@ -77,27 +78,21 @@ def call(name, *arguments):
 _kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 
-@functools.cache
-def _fields(kind):
-    return {name: field.type for name, field in ffi.typeof(kind).fields}
-
-
 def struct(kind, **members):
     """Makes a struct of clrt.h. Arrays in it live as long as the struct. None is the default."""
-    made = ffi.new(kind + " *", (ffi.sizeof(kind),))
-    _kept[made] = kept = []
-    for name, value in members.items():
-        if name not in _fields(kind):
-            raise TypeError(f"there is no setting {name!r}")
-        if isinstance(value, np.ndarray):
-            kept.append(value)
-            value = ffi.cast(_fields(kind)[name], value.ctypes.data)
-        elif isinstance(value, str):
-            value = ffi.new("char[]", os.fsencode(value))
-        if value is not None:
-            kept.append(value)
-            setattr(made, name, value)
+    given = {name: _c_value(value) for name, value in members.items() if value is not None}
+    try:
+        made = ffi.new(kind + " *", {"size": ffi.sizeof(kind), **given})
+    except KeyError as unknown:
+        raise TypeError(f"there is no setting {unknown}") from None
+    _kept[made] = members, given
     return made
+
+
+def _c_value(value):
+    if isinstance(value, np.ndarray):
+        return ffi.cast("void *", value.ctypes.data)
+    return ffi.new("char[]", os.fsencode(value)) if isinstance(value, str) else value
 
 
 def values_of(given):
