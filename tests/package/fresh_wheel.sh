@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds the Python wheel in one bare Debian and installs it in a virtual environment of another, which
+# has only Python and PoCL. There runs the README's Python example, and prints its seconds. Exit status
+# 77: this machine cannot make the roots. Needs root, mmdebstrap, git and PyPI.
+# Usage: fresh_wheel.sh SUITE (bookworm or trixie)
+set -eu
+. "$(dirname "$(readlink -f "$0")")/bare_debian.sh"
+
+make_root "$1"
+copy_checkout .
+run_in_root '
+    tools/setup python meshes
+    python3 -m venv /root/build
+    time /root/build/bin/pip wheel -q . --no-deps -w /root/wheels
+    ls -l /root/wheels
+    # A checkout can be installed in the same way.
+    /root/build/bin/pip install -q .
+    cd / && /root/build/bin/python -c "import clrt; print(clrt.__version__, clrt.__file__)"' || exit 1
+wheels=$root/root/wheels
+
+make_root "$1"
+copy_checkout README.md scenes/ball.scn scenes/plateau.ply scenes/cone.ply
+cp -r "$wheels" "$root/root/wheels"
+sed -n '/^```python/,/^```/{/^```/d;p}' "$checkout/README.md" >"$root/root/clrt/example.py"
+echo 'print(picture.shape, clrt.hash(picture), hits.distance)' >>"$root/root/clrt/example.py"
+run_in_root '
+    apt-get update -qq
+    apt-get install -y -qq --no-install-recommends python3 python3-venv ca-certificates
+    python3 -m venv /root/venv
+    /root/venv/bin/pip install -q /root/wheels/*.whl
+    cat example.py
+    # Without libOpenCL or a driver, the message names the packages.
+    advice="apt install pocl-opencl-icd ocl-icd-libopencl1 (Debian)"
+    ! /root/venv/bin/python example.py 2>message
+    cat message && grep -qF "$advice" message
+    apt-get install -y -qq --no-install-recommends ocl-icd-libopencl1
+    ! /root/venv/bin/python example.py 2>message
+    cat message && grep -qF "$advice" message
+    apt-get install -y -qq --no-install-recommends pocl-opencl-icd
+    time /root/venv/bin/python example.py
+    time /root/venv/bin/python example.py' || exit 1
