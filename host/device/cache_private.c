@@ -7,6 +7,7 @@
 #include "device/cache_private.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <fcntl.h>
 #include <fts.h>
 #include <limits.h>
@@ -49,10 +50,25 @@ static void remove_tree(const char *path)
     fts_close(tree);
 }
 
+static void lock_path(char path[PRIVATE_SIZE], const char *folder)
+{
+    snprintf(path, PRIVATE_SIZE, "%s" LOCK_NAME, folder);
+}
+
+// Returns whether the lock still has its name. Its link count does not tell, because network file
+// systems rename an open file instead of removing it.
+static bool has_lock(const char *folder)
+{
+    char path[PRIVATE_SIZE];
+    lock_path(path, folder);
+    return access(path, F_OK) == 0;
+}
+
+// Returns the open and locked file of a private folder, or -1 with errno.
 static int open_lock(const char *folder, int flags)
 {
     char path[PRIVATE_SIZE];
-    snprintf(path, sizeof path, "%s" LOCK_NAME, folder);
+    lock_path(path, folder);
     const int lock = open(path, O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600);
     if (lock < 0 || flock(lock, LOCK_EX | LOCK_NB) == 0)
         return lock;
@@ -67,20 +83,22 @@ static void write_prefix(char prefix[PREFIX_SIZE])
     snprintf(prefix, PREFIX_SIZE, "clrt-%s-", host);
 }
 
-// Removes the private folder at path if its process was killed. A new folder is not locked yet, so
-// it may be removed too. Its process then makes another (make_private).
+// Removes the private folder at path if its process has ended. A new folder is not locked yet, so
+// it may be removed too. Its process then makes another (make_private). The lock is the first file
+// in a folder, so a folder that has other files and no lock is left from a process that has ended:
+// a network file system keeps the folder of a file that is still open.
 static void remove_abandoned(const char *path)
 {
     struct stat status;
-    if (lstat(path, &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != geteuid())
+    if (lstat(path, &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != geteuid() ||
+        rmdir(path) == 0)
         return;
     const int lock = open_lock(path, 0);
-    if (lock >= 0) {
-        remove_tree(path);
+    if (lock < 0 && errno != ENOENT)
+        return;
+    remove_tree(path);
+    if (lock >= 0)
         close(lock);
-    } else {
-        rmdir(path);
-    }
 }
 
 static void remove_all_abandoned(const char *base)
@@ -101,7 +119,6 @@ static void remove_all_abandoned(const char *base)
 static bool make_private(Cache *cache, const char *base)
 {
     char prefix[PREFIX_SIZE];
-    struct stat status;
     write_prefix(prefix);
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
         const int length =
@@ -109,8 +126,7 @@ static bool make_private(Cache *cache, const char *base)
         if (length >= CACHE_PATH_SIZE || mkdtemp(cache->private_folder) == NULL)
             break;
         cache->private_lock = open_lock(cache->private_folder, O_CREAT);
-        if (cache->private_lock >= 0 && fstat(cache->private_lock, &status) == 0 &&
-            status.st_nlink > 0)
+        if (cache->private_lock >= 0 && has_lock(cache->private_folder))
             return true;
         cache_close(cache);
     }

@@ -6,8 +6,8 @@
 
 // Opens the cache and sets POCL_CACHE_DIR to a private folder. The private folder is in the cache's
 // folder. If that folder is not writable or has no free space, the private folder is in $TMPDIR or
-// /tmp. Without a private folder, PoCL lists no device. Removes private folders of killed
-// processes. Only main may call cache_open, before the first OpenCL call.
+// /tmp. Without a private folder, PoCL lists no device. Removes what other processes left of
+// theirs. Only main may call cache_open, before the first OpenCL call.
 void cache_open(Cache *cache);
 
 // Removes the private folder. No OpenCL object may be in use.

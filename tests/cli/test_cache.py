@@ -5,6 +5,7 @@
 # Usage: test_cache.py CLRT [TEST...]
 import random
 import shutil
+import socket
 import unittest
 
 from cache_work import PICTURE, CacheWork
@@ -65,6 +66,15 @@ class Damage(CacheWork):
         self.assertEqual(len(self.private_folders()), 1)
         self.assert_heals("killed while it compiled")
         self.assertEqual(self.private_folders(), [])
+
+    # A network file system keeps the folders of files that are open at the end, such as kernels.
+    def test_the_rest_of_a_private_folder_is_removed_by_the_next_process(self):
+        left = self.cache / "clrt" / f"clrt-{socket.gethostname()}-abcdef" / "IP" / "render_tile"
+        others = self.cache / "clrt" / "clrt-another.host-abcdef" / "IP"
+        left.mkdir(parents=True)
+        others.mkdir(parents=True)
+        self.assertEqual(self.draw(), self.expected)
+        self.assertEqual(self.private_folders(), [others.parent])
 
     def test_a_running_process_keeps_its_private_folder(self):
         running = self.start_clrt(*PICTURE, "--aa=60", "-s", "800x600", "-o", "long.pfm")
