@@ -27,6 +27,12 @@ class Faults(Work):
         self.target = self.work / "target"
         self.target.mkdir()
 
+    # Runs clrt once without a fault, because runs that fail do not store the kernels that they compiled.
+    def compile_kernels(self, *words):
+        self.clrt(*words)
+        for name in os.listdir(self.target):
+            os.remove(self.target / name)
+
     # Runs clrt with a new disk, mounted at target for this process alone. Then lists the disk's files.
     def clrt_on_disk(self, options, *words):
         script = 'mount -t tmpfs -o "$1" clrt-test target && shift && echo old >target/old && \
@@ -190,6 +196,7 @@ class Device(Faults):
         return self.run_clrt(*words, LD_PRELOAD=FAIL_DEVICE, CLRT_FAIL_NAME=name, CLRT_FAIL_CALL=str(call))
 
     def count_failures(self, name, sentence, *words):
+        self.compile_kernels(*words)
         for call in range(1, 1000):
             run = self.fail(name, call, *words)
             if run.returncode == 0:
@@ -230,7 +237,6 @@ class Device(Faults):
         self.assertIn("resumed: 8 of 12 tiles were finished before", talk)
         self.assert_same_bytes("a.pfm", "whole.pfm")
 
-
     def test_all_frames_and_their_references_share_a_device(self):
         words = [SCENE, "-s", "8x8", "-q", "--frames", "1-3", "-o", "a.pfm", "--reference", "--reference-samples=2"]
         self.assertEqual(self.fail("clCreateContext", 2, *words).returncode, 0)
@@ -247,6 +253,7 @@ class Memory(Faults):
     # steps.
     def count_failures(self, *words):
         first, failures = 1, 0
+        self.compile_kernels(*words)
         while True:
             run = self.run_clrt(*words, LD_PRELOAD=FAIL_MEMORY, CLRT_FAIL_MEMORY=str(first))
             if run.returncode == 0:
