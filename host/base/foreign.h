@@ -38,7 +38,7 @@ typedef struct {
 // Replaces all characters that are not printable ASCII, because a terminal could interpret them.
 void foreign_make_printable(char *text, size_t size, char substitute);
 
-// Runs clrt-foreign with the arguments in words, of which the last ones may be NULL, and collects
+// Runs clrt-foreign with `words` as its arguments, of which the last ones may be NULL, and collects
 // its output. On failure, returns false and stores the reason in *cause, without the name of the
 // file. The caller frees stream.
 #define FOREIGN_WORDS 3
