@@ -108,7 +108,7 @@ static inline Corners triangle_corners(const Tracer *tracer, uint index)
                      real3_of(c[0], c[stride], c[2 * stride])};
 }
 
-// Returns the look of a triangle with this shading word.
+// Finds the indices that a shading word stands for (TRIANGLE_COLORED in shared.h).
 static inline Look look_of(const Tracer *tracer, UInt material, UInt shading)
 {
     Look look = {material, shading, (UInt)(NOTHING)};

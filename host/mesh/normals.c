@@ -215,9 +215,9 @@ static bool have_same_color(const Mesh *mesh, uint32_t vertex, uint32_t other)
            memcmp(mesh->colors[vertex], mesh->colors[other], sizeof *mesh->colors) == 0;
 }
 
-// Gives a corner its own vertex if the file has a normal for the corner, or if the corner's color
-// differs from the fan's. Does the same if the fan's mean normal is zero, or differs from the
-// face's normal by more than the crease angle. This happens at the tip of a cone.
+// Gives a corner its own vertex in four cases. The file has a normal for the corner; the corner's
+// color differs from the fan's; the fan's mean normal is zero; or the mean differs from the face's
+// normal by more than the crease angle, as at the tip of a cone.
 static bool split_corners(Smoothing *smoothing, Error *error)
 {
     for (size_t i = 0; i < 3 * smoothing->mesh->triangle_count; i++) {

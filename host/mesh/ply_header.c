@@ -185,7 +185,8 @@ static bool check_property(const Parser *parser, const PlyProperty *property, Pl
     return true;
 }
 
-// Returns whether the property's type says which number is the brightest.
+// Returns whether the property can be a color. The types of other integers do not show which number
+// is the brightest.
 static bool has_color_type(const PlyProperty *property)
 {
     return !property->is_list && (property->type == PLY_UINT8 || property->type == PLY_UINT16 ||

@@ -20,9 +20,9 @@ typedef struct {
 // The choice of `material own`, which is also the choice before the first statement.
 extern const MaterialChoice material_own;
 
-// Reads the arguments of `material`: the number of a course material or a defined name, or own and
-// a material for meshes without own ones. As in the course, numbers outside 0 to 3 select material
-// 0, the silhouette.
+// Reads the arguments of `material`: the number of a course material, a defined name, or the word
+// `own`. After `own`, a second material may follow for meshes that have none of their own. As in
+// the course, numbers outside 0 to 3 select material 0, the silhouette.
 bool materials_select(const Scene *scene, Tokens *tokens, MaterialChoice *choice);
 
 // Reads the rest of a mesh or ply_file statement and adds the file's objects. Paths are relative to

@@ -8,8 +8,8 @@
 #include <string.h>
 
 // The following functions draw triangles. They share vertices as in the meshes, and each object
-// takes one draw call. If any mesh has colors, the colors of all vertices follow the
-// vertices in buffer 0. A mesh without colors has one color.
+// takes one draw call. If any mesh has colors, the colors of all vertices follow the vertices in
+// buffer 0. A mesh without colors sets one color for all its vertices.
 
 typedef struct {
     float position[3];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws triangles with smooth or flat normals, and with one color or a color per vertex. The derivatives of the position yield the face's
-// normal.
+// Draws triangles with smooth or flat normals, and with one color or a color per vertex. The
+// derivatives of the position yield the face's normal.
 #include "lens.glsl"
 #ifdef VERTEX
 in vec3 position, normal, tint;
