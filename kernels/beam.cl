@@ -28,7 +28,8 @@ typedef struct {
     Bounds bounds;       // over all rays
     Bounds own[PACKETS]; // over each packet's rays, if its bit is set in bounded
     uint bounded;
-    uint own_index;       // index of the triangle that all rays start on, or NOTHING
+    uint own_block;       // the block of the triangle that all rays start on, or NOTHING
+    uint others;          // bits of this block's triangles that the rays may hit
     uint live[PACKETS];   // bits of the lanes that search
     float reach[PACKETS]; // largest search_reach of the live lanes
     Hit *hits;            // of the packets
@@ -120,8 +121,8 @@ static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint packets
 {
     const BlockPlace start = block_start(beam->tracer, block);
     uint near = triangles_near(start.block, bounds_of(beam, packets), reach_of(beam, packets));
-    if (beam->own_index / WIDE == block)
-        near &= ~(1u << beam->own_index % WIDE);
+    if (block == beam->own_block)
+        near &= beam->others;
     bool any = false;
     if (near == 0)
         return false;
@@ -178,11 +179,13 @@ static inline void walk_tree(Beam *beam)
     expand_node(beam, 0, searching);
     while (searching != 0 && pop_child(&beam->stack, reach, &slot)) {
         uint bits[PACKETS];
+        const uint child = beam->tracer->nodes[slot / WIDE].child[slot % WIDE];
+        if (child == (beam->own_block | WIDE_LEAF) && beam->others == 0)
+            continue;
         const uint parents = beam->inside[beam->stack.count] & searching;
         const uint packets = packets_entering(beam, slot, parents, bits);
         if (packets == 0)
             continue;
-        const uint child = beam->tracer->nodes[slot / WIDE].child[slot % WIDE];
         if ((child & WIDE_LEAF) != 0) {
             if (!intersect_beam_block(beam, child & ~WIDE_LEAF, packets, bits))
                 continue;
@@ -217,6 +220,40 @@ static inline uint shared_own(const Beam *beam, const Ray *rays)
     return any_lane(other) ? NOTHING : own;
 }
 
+// Returns which triangles of the block have all corners at this coordinate of the axis.
+static inline int8 lie_level(global const TriangleBlock *block, uint axis, float level)
+{
+    return block_row(block, 0, axis) == level && block_row(block, 1, axis) == level &&
+           block_row(block, 2, axis) == level;
+}
+
+// Returns whether rounding explains the height of all rays' starts over a plane that is
+// perpendicular to the axis (docs/numerics.md, B16).
+static inline bool start_level(const Ray *rays, uint count, uint axis, float level)
+{
+    Mask apart = 0;
+    for (uint number = 0; number < count; number++) {
+        const Real start = component(rays[number].origin, (UInt)(axis));
+        apart = apart || !(fabs(start - level) <= 15.0f * UNIT_ROUNDOFF * fabs(start));
+    }
+    return !any_lane(apart);
+}
+
+// Returns the bits of the triangles in a block that rays from one of them may hit. They do not hit
+// their own triangle. If it is perpendicular to an axis, they do not hit coplanar ones either.
+static inline uint triangles_beside(const Beam *beam, const Ray *rays, uint own)
+{
+    global const TriangleBlock *block = beam->tracer->triangles + own / WIDE;
+    uint others = lane_bits(vload8(0, block->id) != NOTHING) & ~(1u << own % WIDE);
+    for (uint axis = 0; axis < 3 && plain_kind(beam->kind) != RAY_CAMERA; axis++) {
+        const float level = block->corners[0][axis][own % WIDE];
+        const uint flat = lane_bits(lie_level(block, axis, level));
+        if ((flat >> own % WIDE & 1) != 0 && start_level(rays, beam->count, axis, level))
+            others &= ~flat;
+    }
+    return others;
+}
+
 // Sets up a beam of rays whose directions share their signs. The count and the hits must be set.
 static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *rays)
 {
@@ -229,7 +266,10 @@ static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *ray
     }
     beam->bounds = bounds_over(beam->packets, (1u << beam->count) - 1);
     beam->bounded = 0;
-    beam->own_index = shared_own(beam, rays);
+    const uint own = shared_own(beam, rays);
+    beam->own_block = own == NOTHING ? NOTHING : own / WIDE;
+    if (own != NOTHING)
+        beam->others = triangles_beside(beam, rays, own);
 }
 
 // Finds the nearest hits of the beam's rays, or any hit of each shadow ray. At least one lane must

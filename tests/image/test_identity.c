@@ -100,6 +100,63 @@ TEST(boxes_smaller_than_the_errors_of_a_large_triangle_are_not_culled)
     unlink(scene);
 }
 
+// Writes a floor of many triangles at the height 0.1, and triangular fins that stand on it.
+#define TILES_A_SIDE 6
+#define FINS         200
+static void write_floor_and_fins(char path[TEMPORARY_PATH])
+{
+    enum { SIDE = TILES_A_SIDE + 1, FLOOR = SIDE * SIDE, HALVES = 2 * TILES_A_SIDE * TILES_A_SIDE };
+    static double positions[FLOOR + 3 * FINS][3];
+    static uint32_t triangles[HALVES + FINS][3];
+    uint64_t state = 3;
+    for (uint32_t i = 0; i < FLOOR; i++) {
+        positions[i][0] = (i % SIDE + random_between(&state, -0.3, 0.3)) / TILES_A_SIDE - 0.5;
+        positions[i][1] = (i / SIDE + random_between(&state, -0.3, 0.3)) / TILES_A_SIDE - 0.5;
+        positions[i][2] = 0.1;
+    }
+    for (uint32_t i = 0; i < HALVES; i++) {
+        const uint32_t tile = i / 2, corner = tile / TILES_A_SIDE * SIDE + tile % TILES_A_SIDE;
+        triangles[i][0] = corner;
+        triangles[i][1] = i % 2 == 0 ? corner + 1 : corner + SIDE + 1;
+        triangles[i][2] = i % 2 == 0 ? corner + SIDE + 1 : corner + SIDE;
+    }
+    for (uint32_t i = 0; i < FINS; i++) {
+        const double x = random_between(&state, -0.4, 0.4), y = random_between(&state, -0.4, 0.4);
+        for (uint32_t corner = 0; corner < 3; corner++) {
+            const uint32_t place = FLOOR + 3 * i + corner;
+            positions[place][0] = x + random_between(&state, -0.1, 0.1);
+            positions[place][1] = y + random_between(&state, -0.1, 0.1);
+            positions[place][2] = corner < 2 ? 0.1 : 0.2;
+            triangles[HALVES + i][corner] = place;
+        }
+    }
+    temporary_mesh(path, &(Mesh){.positions = positions,
+                                 .triangles = triangles,
+                                 .vertex_count = FLOOR + 3 * FINS,
+                                 .triangle_count = HALVES + FINS});
+}
+
+// A beam that starts on one triangle skips the coplanar ones of its block (docs/numerics.md, B16).
+// The three floors are perpendicular to one axis each.
+TEST(floors_of_many_triangles_reflect_all_that_stands_on_them)
+{
+    char mesh[TEMPORARY_PATH], scene[TEMPORARY_PATH];
+    write_floor_and_fins(mesh);
+    FILE *stream = temporary_open(scene);
+    fprintf(stream,
+            "define it matte diffuse 0.8 0.7 0.6 kd 0.8 reflectivity 0.5\n"
+            "material it\nsides two\nnormals flat\nmax_level 5\n"
+            "light 3 4 6 .8\ncamera 1 0.9 1.1  -0.1 -0.1 -0.1  50\n"
+            "mesh %s\nmesh %s up x translate -0.6 0 0.6\nmesh %s up y translate 0 -0.6 0.6\n",
+            mesh, mesh, mesh);
+    temporary_close(stream);
+    PictureRequest request = picture_request(scene, 1);
+    request.width = request.height = 131;
+    expect_same_in_every_form_and_tree(request);
+    unlink(mesh);
+    unlink(scene);
+}
+
 TEST(every_form_draws_pictures_of_a_few_pixels)
 {
     static const uint32_t sizes[][2] = {{1, 1}, {1, 5}, {3, 2}, {9, 1}};
