@@ -69,6 +69,23 @@ static ALWAYS_INLINE Corners corners_from(const BlockPlace *at, const BlockRows 
                      corner_from(at, 2, packet)};
 }
 
+// Returns the bits among `near` of the triangles inside whose edges a ray of the packet passes. All
+// rays must have the same axes. The loop has no branches.
+static ALWAYS_INLINE uint triangles_entered(const BlockPlace *start, const BlockRows *rows,
+                                            const Packet *packet, Mask lanes, uint near)
+{
+    uint entered = 0;
+    for (; near != 0; near &= near - 1) {
+        const BlockPlace at = {start->block, lowest_bit(near), 0};
+        const Corners relative = corners_from(&at, rows, packet, true);
+        const Corners sheared = corners_sheared(&relative, &packet->rays.shear);
+        const Edges edges = edges_of(&sheared);
+        const uint inside = lane_bits(lanes && edges_contain(&edges));
+        entered |= inside != 0 ? near & -near : 0;
+    }
+    return entered;
+}
+
 // Tests a block's triangles against the rays of the lanes whose bits are set. `near` has the bits
 // of the triangles that these rays may hit. Returns whether a hit changed.
 static ALWAYS_INLINE bool intersect_packet_block(const BlockPlace *start, const Packet *packet,
@@ -78,6 +95,8 @@ static ALWAYS_INLINE bool intersect_packet_block(const BlockPlace *start, const 
     const Mask lanes = lanes_of(bits);
     const BlockRows rows = rows_ordered(start->block, packet);
     const bool one_axis = packet->one_axis;
+    if (one_axis && plain_kind(packet->rays.ray->kind) != RAY_CAMERA)
+        near = triangles_entered(start, &rows, packet, lanes, near);
     for (; near != 0; near &= near - 1) {
         const uint place = lowest_bit(near);
         const BlockPlace at = {start->block, place, start->index + place};
