@@ -25,7 +25,7 @@ typedef struct {
     Real3 point;
     Real3 normal;        // the shading normal, of length 1
     Real3 face;          // the normal of the plane or sphere, of length 1, on the ray's side
-    Real3 on_face;       // a corner of the triangle, exact; for a sphere the point
+    Real3 a, b, c;       // the triangle's corners, exact; for a sphere the point
     Real3 toward_viewer; // unit
     UInt id, material;
     UInt index;      // of a triangle; NOTHING for spheres
@@ -128,7 +128,9 @@ static inline Surface triangle_surface(const Tracer *tracer, const Ray *ray, con
     const Real3 face = triangle_face(&corners, surface.toward_viewer);
     const Real3 normal = triangle_normal(tracer, look.normals, weights, face);
     surface.face = choose3(front, face, negative3(face));
-    surface.on_face = corners.a;
+    surface.a = corners.a;
+    surface.b = corners.b;
+    surface.c = corners.c;
     surface.normal = choose3(front, normal, negative3(normal));
     surface.id = hit->id;
     surface.index = hit->index;
@@ -157,7 +159,9 @@ static inline Surface sphere_surface(const Tracer *tracer, const Ray *ray, const
     surface.point = sphere_point(&sphere, ray->origin, ray->direction, hit->t, &surface.normal);
     const Mask outside = comes_from_outside(&sphere, ray, hit);
     surface.face = choose3(outside, surface.normal, negative3(surface.normal));
-    surface.on_face = surface.point;
+    surface.a = surface.point;
+    surface.b = surface.point;
+    surface.c = surface.point;
     surface.id = hit->id;
     surface.index = NOTHING;
     surface.room = 0.0f;
@@ -173,7 +177,9 @@ static inline Surface choose_surface(Mask first, const Surface *a, const Surface
     return (Surface){choose3(first, a->point, b->point),
                      choose3(first, a->normal, b->normal),
                      choose3(first, a->face, b->face),
-                     choose3(first, a->on_face, b->on_face),
+                     choose3(first, a->a, b->a),
+                     choose3(first, a->b, b->b),
+                     choose3(first, a->c, b->c),
                      a->toward_viewer,
                      first ? a->id : b->id,
                      first ? a->material : b->material,
@@ -232,10 +238,10 @@ typedef struct {
     Mask to_front;
 } Leaving;
 
-static inline Leaving leaving_from(const Tracer *tracer, const Surface *surface, Mask known)
+static inline Leaving leaving_from(const Surface *surface)
 {
     Leaving leaving;
-    const Corners corners = fetch_corners(tracer, known ? surface->index : (UInt)(0));
+    const Corners corners = {surface->a, surface->b, surface->c};
     const Real3 ab = difference(corners.b, corners.a), ac = difference(corners.c, corners.a);
     leaving.corners = corners;
     leaving.to_front = dot_product(cross_product(ab, ac), surface->face) > 0.0f;
@@ -269,10 +275,10 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
 // the start moves toward the triangle's middle. Its distances from the surface point are
 // UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, and end at the middle. A reflected ray that
 // still misses its triangle is lifted.
-static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
-                                     Real sine, Mask near_edge)
+static NOT_INLINE Real3 point_inside(const Surface *surface, Heading *heading, Real sine,
+                                     Mask near_edge)
 {
-    const Leaving leaving = leaving_from(tracer, surface, near_edge);
+    const Leaving leaving = leaving_from(surface);
     const Real third = RATIO(1.0f, 3.0f);
     const Real3 middle = weighted(real3_of(third, third, third), &leaving.corners);
     const Real3 inward = difference(middle, surface->point);
@@ -295,20 +301,19 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
 // line should pass through the surface's triangle. Rounding can prevent this only near edges: a
 // point with coordinates up to 1 is off by some units of rounding, and along the plane the line is
 // off by this error divided by the sine (docs/numerics.md, B14).
-static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Heading *heading,
-                               Real sine, Mask active)
+static inline Real3 point_left(const Surface *surface, Heading *heading, Real sine, Mask active)
 {
     const Real least = 8.0f * POINT_BLUR * UNIT_ROUNDOFF * surface->edge;
     const Mask near_edge = active && surface->index != NOTHING && !(surface->room * sine > least);
     if (!CLRT_TRIANGLES || !any_lane(near_edge))
         return surface->point;
-    return point_inside(tracer, surface, heading, sine, near_edge);
+    return point_inside(surface, heading, sine, near_edge);
 }
 
 // Returns the reflected ray. An interpolated normal can send it into the surface that it leaves.
 // Such a ray is mirrored out at the face. Its direction then still changes continuously with the
 // normal.
-static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Mask active)
+static inline Ray ray_reflected(const Surface *surface, Mask active)
 {
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);
     const Real3 direction =
@@ -318,7 +323,7 @@ static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Ma
     const Real3 turned = choose3(height < 0.0f, outward, direction);
     Heading heading = {turned, false};
     const Real sine = fabs(dot_product(surface->face, turned));
-    const Real3 point = point_left(tracer, surface, &heading, sine, active);
+    const Real3 point = point_left(surface, &heading, sine, active);
     return (Ray){point, heading.to, surface->id, surface->index, RAY_REFLECTED, active};
 }
 
