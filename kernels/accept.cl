@@ -100,8 +100,8 @@ static inline Real stop_distances(const Search *search, const TriangleName *name
     if (!any_lane(met.near))
         return met.clear;
     const Corners corners = triangle_corners(search->tracer, name->index);
-    const SurfaceRay surface = {ray->origin,    met.front,          met.inner,
-                                search->behind, length_of_ray(ray), blur_of(ray)};
+    const SurfaceRay surface = {ray->origin,           met.front,          met.inner,
+                                search_behind(search), length_of_ray(ray), blur_of(ray)};
     const Real error = triangle_depth_error(&test->sheared) * fabs(test->shear.inverse_z);
     Mask in_doubt;
     const Real distance = surface_ray_distance(&corners, &surface, met.t, error, &in_doubt);

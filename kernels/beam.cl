@@ -28,6 +28,7 @@ typedef struct {
     Bounds bounds;       // over all rays
     Bounds own[PACKETS]; // over each packet's rays, if its bit is set in bounded
     uint bounded;
+    bool sheared;         // the packets are prepared for tests against triangles
     uint own_block;       // the block of the triangle that all rays start on, or NOTHING
     uint others;          // bits of this block's triangles that the rays may hit
     uint live[PACKETS];   // bits of the lanes that search
@@ -48,6 +49,14 @@ static inline const Bounds *bounds_of(Beam *beam, uint packets)
         beam->own[number] = bounds_over(beam->packets, packets);
     beam->bounded |= packets;
     return &beam->own[number];
+}
+
+// Prepares the packets for tests against triangles, on first use.
+static inline void shear_packets(Beam *beam)
+{
+    for (uint number = 0; number < beam->count && !beam->sheared; number++)
+        packet_shear(&beam->packets[number]);
+    beam->sheared = true;
 }
 
 static inline float reach_of(const Beam *beam, uint packets)
@@ -126,6 +135,7 @@ static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint packets
     bool any = false;
     if (near == 0)
         return false;
+    shear_packets(beam);
     for (; packets != 0; packets &= packets - 1) {
         const uint number = lowest_bit(packets);
         Hit hit = beam->hits[number];
@@ -161,6 +171,7 @@ static inline uint lanes_in(uint packets, const uint bits[PACKETS])
 // Searches below a child for the given lanes of the given packets, ray by ray.
 static NOT_INLINE void search_apart(Beam *beam, uint child, uint packets, const uint bits[PACKETS])
 {
+    shear_packets(beam);
     for (; packets != 0; packets &= packets - 1) {
         const uint number = lowest_bit(packets);
         intersect_lanes(&beam->packets[number].rays, bits[number], child, &beam->hits[number]);
@@ -260,12 +271,13 @@ static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *ray
     beam->tracer = tracer;
     beam->kind = rays->kind;
     for (uint number = 0; number < beam->count; number++) {
-        packet_prepare(&beam->packets[number], tracer, &rays[number], beam->hits[number].t);
+        search_boxes(&beam->packets[number].rays, tracer, &rays[number], beam->hits[number].t);
         beam->live[number] = lane_bits(rays[number].active);
         update_packet(beam, number);
     }
     beam->bounds = bounds_over(beam->packets, (1u << beam->count) - 1);
     beam->bounded = 0;
+    beam->sheared = false;
     const uint own = shared_own(beam, rays);
     beam->own_block = own == NOTHING ? NOTHING : own / WIDE;
     if (own != NOTHING)

@@ -14,9 +14,10 @@ typedef struct {
     uint axes[3];  // if one_axis is set, the shear's x, y and z axes
 } Packet;
 
-static inline void packet_prepare(Packet *packet, const Tracer *tracer, const Ray *ray, Real limit)
+// Prepares the tests against triangles. Many packets need none.
+static inline void packet_shear(Packet *packet)
 {
-    packet->rays = search_along(tracer, ray, limit);
+    search_shear(&packet->rays);
     const ShearAxes axes = packet->rays.axes;
     packet->axes[0] = lane_uint(&axes.x, 0);
     packet->axes[1] = lane_uint(&axes.y, 0);

@@ -76,32 +76,51 @@ static inline Slabs slabs_of(Real3 origin, Real3 direction)
 typedef struct {
     const Tracer *tracer;
     const Ray *ray;
+    Slabs slabs;
+    Real limit; // distance of the nearest sphere, or the end of a shadow ray
+    Real tie;   // rounding may exchange two triangles whose distances differ by this or less
     ShearAxes axes;
     Shear shear;
     Real3 backward; // minus the origin, in the order of the axes
-    Slabs slabs;
-    Real limit;  // distance of the nearest sphere, or the end of a shadow ray
-    Real tie;    // rounding may exchange two triangles whose distances differ by this or less
-    Real behind; // rounding may put the start of a ray that leaves a triangle this far ahead
 } Search;
 
-// `limit` is the distance of the nearest hit so far, which is no triangle.
+// Prepares the tests against boxes. `limit` is the distance of the nearest hit so far, which is no
+// triangle.
+static inline void search_boxes(Search *search, const Tracer *tracer, const Ray *ray, Real limit)
+{
+    search->tracer = tracer;
+    search->ray = ray;
+    search->slabs = slabs_of(ray->origin, ray->direction);
+    search->limit = limit;
+    // triangle_depth_error is at most 54 u (far + 1), as corners are at most 1 (B4). The longest
+    // axis has the smallest inverse.
+    const Real3 inverse = magnitudes(search->slabs.inverse);
+    const Real unit = UNIT_ROUNDOFF * min(min(inverse.x, inverse.y), inverse.z);
+    search->tie = 128.0f * unit * (largest_component(ray->origin) + 1.0f);
+}
+
+// Prepares the tests against triangles.
+static inline void search_shear(Search *search)
+{
+    const Ray *ray = search->ray;
+    search->axes = shear_axes(ray->direction);
+    search->shear = shear_along(ray->direction, &search->axes);
+    search->backward = axes_ordered(negative3(ray->origin), &search->axes);
+}
+
 static inline Search search_along(const Tracer *tracer, const Ray *ray, Real limit)
 {
     Search search;
-    search.tracer = tracer;
-    search.ray = ray;
-    search.slabs = slabs_of(ray->origin, ray->direction);
-    search.axes = shear_axes(ray->direction);
-    search.shear = shear_along(ray->direction, &search.axes);
-    search.backward = axes_ordered(negative3(ray->origin), &search.axes);
-    search.limit = limit;
-    // triangle_depth_error is at most 54 u (far + 1), as corners are at most 1 (B4).
-    const Real unit = UNIT_ROUNDOFF * fabs(search.shear.inverse_z);
-    const Real far = largest_component(ray->origin);
-    search.tie = 128.0f * unit * (far + 1.0f);
-    search.behind = 256.0f * unit * far;
+    search_boxes(&search, tracer, ray, limit);
+    search_shear(&search);
     return search;
+}
+
+// Returns how far ahead rounding may put the start of a ray that leaves a triangle (B9).
+static inline Real search_behind(const Search *search)
+{
+    return 256.0f * UNIT_ROUNDOFF * fabs(search->shear.inverse_z) *
+           largest_component(search->ray->origin);
 }
 
 // Returns the distance beyond which no triangle precedes the best hit. By nearness, a triangle may

@@ -152,9 +152,9 @@ static inline float8 block_distances(const BlockPlace *start, const Search *sear
         return met.clear;
     const WideCorners corners = {block_corner(block, 0), block_corner(block, 1),
                                  block_corner(block, 2)};
-    const WideSurfaceRay surface = {
-        splat3(&ray->origin, lane),       met.front,          met.inner,
-        lane_real(&search->behind, lane), length_of_ray(ray), blur_of(ray)};
+    const Real behind = search_behind(search);
+    const WideSurfaceRay surface = {splat3(&ray->origin, lane), met.front,          met.inner,
+                                    lane_real(&behind, lane),   length_of_ray(ray), blur_of(ray)};
     const float8 error = triangle_depth_error(&test->sheared) * fabs(test->shear.inverse_z);
     int8 in_doubt, stops = 0;
     const float8 distance = surface_ray_distance(&corners, &surface, met.t, error, &in_doubt);
