@@ -12,7 +12,6 @@
 
 #include "device/buffer.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #define SLOTS 2
@@ -21,7 +20,7 @@
 typedef struct {
     cl_command_queue queue; // one per slot, so that tiles overlap
     cl_mem outputs[2];
-    void *values[2]; // host copies of the outputs
+    void *values[2]; // of the outputs while they are mapped, else NULL
     cl_event done;
     Tile tile;
 } Slot;
@@ -36,10 +35,21 @@ static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer
     bool ok = cl_succeeded(status, "create an OpenCL queue", error);
     for (int i = 0; ok && i < pass->outputs; i++) {
         const size_t size = pass->sizes[i] > 0 ? count * pass->sizes[i] : 64;
-        slot->values[i] = memory_raw(size, 1, error);
-        ok = slot->values[i] != NULL && device_buffer(device, size, &slot->outputs[i], error);
+        ok = device_buffer(device, size, &slot->outputs[i], error);
     }
     return ok;
+}
+
+static cl_int unmap_outputs(Slot *slot)
+{
+    cl_int status = CL_SUCCESS;
+    for (int i = 0; i < 2; i++) {
+        if (slot->values[i] != NULL)
+            status |= clEnqueueUnmapMemObject(slot->queue, slot->outputs[i], slot->values[i], 0,
+                                              NULL, NULL);
+        slot->values[i] = NULL;
+    }
+    return status;
 }
 
 // Waits until the device has finished the slot's tile, and frees the slot.
@@ -47,14 +57,14 @@ static void close_slot(Slot *slot)
 {
     if (slot->queue != NULL) {
         clFinish(slot->queue);
+        unmap_outputs(slot);
+        clFinish(slot->queue);
         clReleaseCommandQueue(slot->queue);
     }
     if (slot->done != NULL)
         clReleaseEvent(slot->done);
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++)
         device_release(&slot->outputs[i]);
-        free(slot->values[i]);
-    }
     *slot = (Slot){0};
 }
 
@@ -85,8 +95,8 @@ static bool launch(const Slot *slot, const TilePass *pass, const Renderer *rende
     return cl_succeeded(status, "run the kernel", error);
 }
 
-// Starts the kernel for the slot's tile, and then the copies of its outputs. The first output is
-// copied last, so slot->done signals the end of this copy.
+// Starts the kernel for the slot's tile, and then maps its outputs, which copies nothing on CPUs.
+// The first output is mapped last, so slot->done signals the end of this mapping.
 static bool start_tile(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
     const size_t count = (size_t)slot->tile.width * slot->tile.height;
@@ -97,12 +107,12 @@ static bool start_tile(Slot *slot, const TilePass *pass, const Renderer *rendere
     cl_int status = CL_SUCCESS;
     for (int i = pass->outputs - 1; i >= 0 && status == CL_SUCCESS; i--)
         if (pass->sizes[i] > 0)
-            status = clEnqueueReadBuffer(slot->queue, slot->outputs[i], CL_FALSE, 0,
-                                         count * pass->sizes[i], slot->values[i], 0, NULL,
-                                         i == 0 ? &slot->done : NULL);
+            slot->values[i] = clEnqueueMapBuffer(slot->queue, slot->outputs[i], CL_FALSE,
+                                                 CL_MAP_READ, 0, count * pass->sizes[i], 0, NULL,
+                                                 i == 0 ? &slot->done : NULL, &status);
     if (status == CL_SUCCESS)
         status = clFlush(slot->queue);
-    return cl_succeeded(status, "read a tile back", error);
+    return cl_succeeded(status, "map a tile", error);
 }
 
 static bool finish_tile(Slot *slot, const TilePass *pass, Error *error)
@@ -112,7 +122,7 @@ static bool finish_tile(Slot *slot, const TilePass *pass, Error *error)
     clReleaseEvent(slot->done);
     slot->done = NULL;
     pass->take(pass->context, &slot->tile, slot->values);
-    return true;
+    return cl_succeeded(unmap_outputs(slot), "unmap a tile", error);
 }
 
 bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderObserver *observer,
