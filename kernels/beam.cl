@@ -46,7 +46,7 @@ static inline const Bounds *bounds_of(Beam *beam, uint packets)
         return &beam->bounds;
     const uint number = lowest_bit(packets);
     if ((beam->bounded & packets) == 0)
-        beam->own[number] = bounds_over(beam->packets, packets);
+        bounds_over(beam->packets, beam->hits, packets, &beam->own[number]);
     beam->bounded |= packets;
     return &beam->own[number];
 }
@@ -81,8 +81,8 @@ static inline void expand_node(Beam *beam, uint number, uint packets)
 static inline Mask lanes_in_child(global const BvhWide *node, uint child, const Packet *packet,
                                   const Bounds *bounds, Real reach)
 {
-    const uint x = bounds->axes[0].negative, y = bounds->axes[1].negative;
-    const uint z = bounds->axes[2].negative;
+    const uint x = bounds->negative[0], y = bounds->negative[1];
+    const uint z = bounds->negative[2];
     const Real3 i = packet->rays.slabs.inverse;
     const Real3 near = packet->rays.slabs.near_offset, far = packet->rays.slabs.far_offset;
     const Real near_x = fma((Real)(node->planes[0][x][child]), i.x, near.x);
@@ -117,8 +117,10 @@ static inline uint packets_entering(Beam *beam, uint child, uint packets, uint b
 static inline void update_packet(Beam *beam, uint number)
 {
     const Hit *hit = &beam->hits[number];
-    if (ends_at_any_hit(beam->kind))
+    if (ends_at_any_hit(beam->kind)) {
         beam->live[number] &= lane_bits(hit->id == NOTHING);
+        return;
+    }
     const Real reach = search_reach(&beam->packets[number].rays, hit);
     beam->reach[number] = highest(lanes_of(beam->live[number]) ? reach : (Real)(0.0f));
 }
@@ -273,9 +275,11 @@ static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *ray
     for (uint number = 0; number < beam->count; number++) {
         search_boxes(&beam->packets[number].rays, tracer, &rays[number], beam->hits[number].t);
         beam->live[number] = lane_bits(rays[number].active);
-        update_packet(beam, number);
     }
-    beam->bounds = bounds_over(beam->packets, (1u << beam->count) - 1);
+    const float reach =
+        bounds_over(beam->packets, beam->hits, (1u << beam->count) - 1, &beam->bounds);
+    for (uint number = 0; number < PACKETS; number++)
+        beam->reach[number] = reach;
     beam->bounded = 0;
     beam->sheared = false;
     const uint own = shared_own(beam, rays);

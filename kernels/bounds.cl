@@ -13,15 +13,12 @@
 
 // All rays cross a near plane of a box at or after the smaller of fma(plane, inverse_low, near_low)
 // and fma(plane, inverse_high, near_high). They cross a far plane at or before the larger of
-// fma(plane, inverse_low, far_low) and fma(plane, inverse_high, far_high).
+// fma(plane, inverse_low, far_low) and fma(plane, inverse_high, far_high). Each array has a number
+// for each axis.
 typedef struct {
-    uint negative; // the rays enter by the higher plane
-    float inverse_low, inverse_high;
-    float near_low, near_high, far_low, far_high;
-} AxisBounds;
-
-typedef struct {
-    AxisBounds axes[3];
+    uint negative[4]; // 1 if the rays enter by the higher plane, else 0
+    float inverse_low[4], inverse_high[4];
+    float near_low[4], near_high[4], far_low[4], far_high[4];
 } Bounds;
 
 static inline float lowest(Real v)
@@ -43,58 +40,110 @@ static inline float highest(Real v)
     return -lowest(-v);
 }
 
-// The extremes of rays' inverse directions and origins on an axis, lane by lane. Each origin moves
-// by its own slack, and by the slack of node boxes, which the boxes of single triangles lack.
+#if CLRT_LANES == 4
+static inline float8 folded(Real v)
+{
+    return (float8)(v, v);
+}
+#elif CLRT_LANES == 8
+static inline float8 folded(Real v)
+{
+    return v;
+}
+#else
+static inline float8 folded(Real v)
+{
+    return min(v.lo, v.hi);
+}
+#endif
+
+// Returns the lowest elements of a and b, each in half of the elements of both halves.
+static inline float8 lowest_of_two(float8 a, float8 b)
+{
+    return min((float8)(a.lo, b.lo), (float8)(a.hi, b.hi));
+}
+
+// Returns the lowest elements of four vectors. Reducing them together takes half the instructions
+// of one after the other.
+static inline float4 lowest_of_four(Real a, Real b, Real c, Real d)
+{
+    const float8 ab = lowest_of_two(folded(a), folded(b)), cd = lowest_of_two(folded(c), folded(d));
+    const float8 pairs =
+        min((float8)(ab.s01, ab.s45, cd.s01, cd.s45), (float8)(ab.s23, ab.s67, cd.s23, cd.s67));
+    return min(pairs.even, pairs.odd);
+}
+
+static inline Real3 lower3(Real3 a, Real3 b)
+{
+    return real3_of(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z));
+}
+
+// The extremes of rays, lane by lane. Maxima are stored as minima of the negated numbers. Each
+// origin moves by its own slack, and by the slack of node boxes, which the boxes of single
+// triangles lack.
 typedef struct {
-    Real inverse_low, inverse_high, behind, ahead;
-} AxisRange;
+    Real3 inverse, minus_inverse, behind, minus_ahead;
+    Real minus_reach;
+} Extremes;
 
-static inline void include_rays(AxisRange *range, Real inverse, Real origin, Real slack)
+static inline void include_rays(Extremes *extremes, const Search *rays, Real reach)
 {
-    range->inverse_low = min(range->inverse_low, inverse);
-    range->inverse_high = max(range->inverse_high, inverse);
-    range->behind = min(range->behind, origin - slack);
-    range->ahead = max(range->ahead, origin + slack);
+    const Real3 inverse = rays->slabs.inverse, origin = rays->ray->origin;
+    // Triangle coordinates are at most 1.
+    const Real slack = BVH_SLACK * (largest_component(origin) + 1.0f);
+    const Real3 slacks = real3_of(slack, slack, slack);
+    extremes->inverse = lower3(extremes->inverse, inverse);
+    extremes->minus_inverse = lower3(extremes->minus_inverse, negative3(inverse));
+    extremes->behind = lower3(extremes->behind, difference(origin, slacks));
+    extremes->minus_ahead = lower3(extremes->minus_ahead, negative3(sum3(origin, slacks)));
+    extremes->minus_reach = min(extremes->minus_reach, -reach);
 }
 
-// The origin farthest forward gives the earliest entry, the one farthest back the latest exit.
-static inline AxisBounds axis_bounds(const AxisRange *range)
+// Stores bounds over the packets whose bits are set. At least one bit must be set. Returns the
+// largest distance at which the packets search.
+static NOT_INLINE float bounds_over(const Packet *packets, const Hit *hits, uint bits,
+                                    Bounds *bounds)
 {
-    const float low = lowest(range->inverse_low), high = highest(range->inverse_high);
-    const float least = lowest(range->behind), most = highest(range->ahead);
-    const bool negative = high < 0.0f;
-    const float near = negative ? least : most, far = negative ? most : least;
-    return (AxisBounds){negative, low, high, -near * low, -near * high, -far * low, -far * high};
-}
-
-// Returns bounds over the packets whose bits are set. At least one bit must be set.
-static NOT_INLINE Bounds bounds_over(const Packet *packets, uint bits)
-{
-    const AxisRange none = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-    AxisRange x = none, y = none, z = none;
+    const Real3 none = real3_of(INFINITY, INFINITY, INFINITY);
+    Extremes extremes = {none, none, none, none, 0.0f};
     for (; bits != 0; bits &= bits - 1) {
         const Search *rays = &packets[lowest_bit(bits)].rays;
-        const Real3 inverse = rays->slabs.inverse, origin = rays->ray->origin;
-        // Triangle coordinates are at most 1.
-        const Real slack = BVH_SLACK * (largest_component(origin) + 1.0f);
-        include_rays(&x, inverse.x, origin.x, slack);
-        include_rays(&y, inverse.y, origin.y, slack);
-        include_rays(&z, inverse.z, origin.z, slack);
+        include_rays(&extremes, rays, search_reach(rays, &hits[lowest_bit(bits)]));
     }
-    return (Bounds){{axis_bounds(&x), axis_bounds(&y), axis_bounds(&z)}};
+    const Real3 i = extremes.inverse, j = extremes.minus_inverse;
+    const Real3 b = extremes.behind, a = extremes.minus_ahead;
+    const float4 low = lowest_of_four(i.x, i.y, i.z, extremes.minus_reach);
+    const float4 high = -lowest_of_four(j.x, j.y, j.z, j.z);
+    const float4 behind = lowest_of_four(b.x, b.y, b.z, b.z);
+    const float4 ahead = -lowest_of_four(a.x, a.y, a.z, a.z);
+    // The origin farthest forward gives the earliest entry, the one farthest back the latest exit.
+    const int4 negative = high < 0.0f;
+    const float4 near = negative ? behind : ahead, far = negative ? ahead : behind;
+    vstore4(as_uint4(negative) & 1, 0, bounds->negative);
+    vstore4(low, 0, bounds->inverse_low);
+    vstore4(high, 0, bounds->inverse_high);
+    vstore4(-near * low, 0, bounds->near_low);
+    vstore4(-near * high, 0, bounds->near_high);
+    vstore4(-far * low, 0, bounds->far_low);
+    vstore4(-far * high, 0, bounds->far_high);
+    return -low.w;
 }
 
-static inline float8 entry_bound(float8 plane, const AxisBounds *bounds)
+static inline float8 entry_bound(float8 plane, const Bounds *bounds, uint axis)
 {
-    const float8 low = fma(plane, (float8)(bounds->inverse_low), (float8)(bounds->near_low));
-    const float8 high = fma(plane, (float8)(bounds->inverse_high), (float8)(bounds->near_high));
+    const float8 low =
+        fma(plane, (float8)(bounds->inverse_low[axis]), (float8)(bounds->near_low[axis]));
+    const float8 high =
+        fma(plane, (float8)(bounds->inverse_high[axis]), (float8)(bounds->near_high[axis]));
     return min(low, high);
 }
 
-static inline float8 leave_bound(float8 plane, const AxisBounds *bounds)
+static inline float8 leave_bound(float8 plane, const Bounds *bounds, uint axis)
 {
-    const float8 low = fma(plane, (float8)(bounds->inverse_low), (float8)(bounds->far_low));
-    const float8 high = fma(plane, (float8)(bounds->inverse_high), (float8)(bounds->far_high));
+    const float8 low =
+        fma(plane, (float8)(bounds->inverse_low[axis]), (float8)(bounds->far_low[axis]));
+    const float8 high =
+        fma(plane, (float8)(bounds->inverse_high[axis]), (float8)(bounds->far_high[axis]));
     return max(low, high);
 }
 
@@ -103,7 +152,7 @@ static inline float8 leave_bound(float8 plane, const AxisBounds *bounds)
 static inline float8 node_plane(global const BvhWide *node, const Bounds *bounds, uint axis,
                                 uint other)
 {
-    return vload8(0, node->planes[axis][bounds->axes[axis].negative ^ other]);
+    return vload8(0, node->planes[axis][bounds->negative[axis] ^ other]);
 }
 
 // Returns the children that some ray may enter before `reach`. Stores lower bounds of the entry
@@ -111,12 +160,12 @@ static inline float8 node_plane(global const BvhWide *node, const Bounds *bounds
 static inline int8 children_near(global const BvhWide *node, const Bounds *bounds, float reach,
                                  float8 *entry)
 {
-    const float8 near_x = entry_bound(node_plane(node, bounds, 0, 0), &bounds->axes[0]);
-    const float8 near_y = entry_bound(node_plane(node, bounds, 1, 0), &bounds->axes[1]);
-    const float8 near_z = entry_bound(node_plane(node, bounds, 2, 0), &bounds->axes[2]);
-    const float8 far_x = leave_bound(node_plane(node, bounds, 0, 1), &bounds->axes[0]);
-    const float8 far_y = leave_bound(node_plane(node, bounds, 1, 1), &bounds->axes[1]);
-    const float8 far_z = leave_bound(node_plane(node, bounds, 2, 1), &bounds->axes[2]);
+    const float8 near_x = entry_bound(node_plane(node, bounds, 0, 0), bounds, 0);
+    const float8 near_y = entry_bound(node_plane(node, bounds, 1, 0), bounds, 1);
+    const float8 near_z = entry_bound(node_plane(node, bounds, 2, 0), bounds, 2);
+    const float8 far_x = leave_bound(node_plane(node, bounds, 0, 1), bounds, 0);
+    const float8 far_y = leave_bound(node_plane(node, bounds, 1, 1), bounds, 1);
+    const float8 far_z = leave_bound(node_plane(node, bounds, 2, 1), bounds, 2);
     *entry = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
     return *entry <= min(min(far_x, far_y), min(far_z, (float8)(reach)));
 }
@@ -128,7 +177,7 @@ static inline float8 block_plane(global const TriangleBlock *block, const Bounds
 {
     const float8 a = block_row(block, 0, axis), b = block_row(block, 1, axis);
     const float8 c = block_row(block, 2, axis);
-    return (bounds->axes[axis].negative ^ other) ? max(max(a, b), c) : min(min(a, b), c);
+    return (bounds->negative[axis] ^ other) ? max(max(a, b), c) : min(min(a, b), c);
 }
 
 // Returns the bits of the triangles that some ray may hit before `reach`, on average a third of the
@@ -137,12 +186,12 @@ static inline float8 block_plane(global const TriangleBlock *block, const Bounds
 static inline uint triangles_near(global const TriangleBlock *block, const Bounds *bounds,
                                   float reach)
 {
-    const float8 near_x = entry_bound(block_plane(block, bounds, 0, 0), &bounds->axes[0]);
-    const float8 near_y = entry_bound(block_plane(block, bounds, 1, 0), &bounds->axes[1]);
-    const float8 near_z = entry_bound(block_plane(block, bounds, 2, 0), &bounds->axes[2]);
-    const float8 far_x = leave_bound(block_plane(block, bounds, 0, 1), &bounds->axes[0]);
-    const float8 far_y = leave_bound(block_plane(block, bounds, 1, 1), &bounds->axes[1]);
-    const float8 far_z = leave_bound(block_plane(block, bounds, 2, 1), &bounds->axes[2]);
+    const float8 near_x = entry_bound(block_plane(block, bounds, 0, 0), bounds, 0);
+    const float8 near_y = entry_bound(block_plane(block, bounds, 1, 0), bounds, 1);
+    const float8 near_z = entry_bound(block_plane(block, bounds, 2, 0), bounds, 2);
+    const float8 far_x = leave_bound(block_plane(block, bounds, 0, 1), bounds, 0);
+    const float8 far_y = leave_bound(block_plane(block, bounds, 1, 1), bounds, 1);
+    const float8 far_z = leave_bound(block_plane(block, bounds, 2, 1), bounds, 2);
     const float8 entry = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
     return lane_bits(entry <= min(min(far_x, far_y), min(far_z, (float8)(reach))));
 }
