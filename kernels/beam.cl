@@ -13,11 +13,14 @@
 
 #if CLRT_WIDE_NODES
 
+// The rays of a full beam.
+#define BEAM_LANES (PACKETS * CLRT_LANES)
+
 // If at most this many lanes of a beam enter a subtree, it is searched ray by ray. The limit is
 // higher in dense scenes, in which rays separate more. With the two limits exchanged, scenes of 6
 // thousand triangles take 9 % longer, and scenes of a million take 10 % longer.
-#define MOST_LANES_LEAVING       12
-#define MOST_LANES_LEAVING_DENSE 40
+#define MOST_LANES_LEAVING       (3 * BEAM_LANES / 16)
+#define MOST_LANES_LEAVING_DENSE (5 * BEAM_LANES / 8)
 
 // The stack stores children as WIDE * node + slot.
 typedef struct {
