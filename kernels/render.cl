@@ -79,9 +79,11 @@ static inline void add_colors(ColorSum *sum, Real3 color)
 static inline void pixel_colors(const Tracer *tracer, const Places pixels[PACKETS],
                                 Real3 colors[PACKETS])
 {
-    ColorSum sums[PACKETS] = {0};
+    ColorSum sums[PACKETS];
     Places samples[PACKETS];
     const uint side = tracer->frame->samples, count = side * side;
+    for (uint i = 0; i < PACKETS && count > 1; i++)
+        sums[i] = (ColorSum){0, 0, 0};
     for (uint sample = 0; sample < count; sample++) {
         for (uint i = 0; i < PACKETS; i++)
             samples[i] = (Places){pixels[i].x * side + sample % side,

@@ -195,6 +195,8 @@ static inline Surface choose_surface(Mask first, const Surface *a, const Surface
 static inline Hit hit_everywhere(const Hit *hit, Mask met)
 {
     Hit filled = *hit;
+    if (lane_bits(met) == ALL_LANES)
+        return filled;
     filled.id = met ? hit->id : first_lane(hit->id, met);
     filled.index = met ? hit->index : first_lane(hit->index, met);
     return filled;
