@@ -69,7 +69,7 @@ static inline Mask meet_spheres(const Tracer *tracer, const Ray *ray, Hit *hit)
 {
     if (!any_lane(ray->active))
         return 0;
-    if (CLRT_SPHERES)
+    if (CLRT_SPHERES && tracer->frame->sphere_count != 0)
         intersect_spheres(tracer, ray, hit);
     return is_searchable(ray);
 }
