@@ -28,8 +28,8 @@ typedef struct {
     RayKind kind;
     uint count;
     Packet packets[PACKETS];
-    Bounds bounds;       // over all rays
-    Bounds own[PACKETS]; // over each packet's rays, if its bit is set in bounded
+    BeamBounds bounds;       // over all rays
+    BeamBounds own[PACKETS]; // over each packet's rays, if its bit is set in bounded
     uint bounded;
     bool sheared;         // the packets are prepared for tests against triangles
     uint own_block;       // the block of the triangle that all rays start on, or NOTHING
@@ -43,7 +43,7 @@ typedef struct {
 
 // Returns bounds over the packets whose bits are set. At least one bit must be set. If several are
 // set, returns the whole beam's bounds.
-static inline const Bounds *bounds_of(Beam *beam, uint packets)
+static inline const BeamBounds *bounds_of(Beam *beam, uint packets)
 {
     if ((packets & (packets - 1)) != 0 || beam->count == 1)
         return &beam->bounds;
@@ -82,20 +82,19 @@ static inline void expand_node(Beam *beam, uint number, uint packets)
 
 // Returns the lanes whose rays enter the child's box before `reach`.
 static inline Mask lanes_in_child(global const BvhWide *node, uint child, const Packet *packet,
-                                  const Bounds *bounds, Real reach)
+                                  const BeamBounds *bounds, Real reach)
 {
     const uint x = bounds->negative[0], y = bounds->negative[1];
     const uint z = bounds->negative[2];
     const Real3 i = packet->rays.slabs.inverse;
     const Real3 near = packet->rays.slabs.near_offset, far = packet->rays.slabs.far_offset;
-    const Real near_x = fma((Real)(node->planes[0][x][child]), i.x, near.x);
-    const Real near_y = fma((Real)(node->planes[1][y][child]), i.y, near.y);
-    const Real near_z = fma((Real)(node->planes[2][z][child]), i.z, near.z);
-    const Real far_x = fma((Real)(node->planes[0][1 - x][child]), i.x, far.x);
-    const Real far_y = fma((Real)(node->planes[1][1 - y][child]), i.y, far.y);
-    const Real far_z = fma((Real)(node->planes[2][1 - z][child]), i.z, far.z);
-    const Real entry = max(max(near_x, near_y), max(near_z, (Real)(0.0f)));
-    return entry <= min(min(far_x, far_y), min(far_z, reach));
+    const Real3 entries = {fma((Real)(node->planes[0][x][child]), i.x, near.x),
+                           fma((Real)(node->planes[1][y][child]), i.y, near.y),
+                           fma((Real)(node->planes[2][z][child]), i.z, near.z)};
+    const Real3 exits = {fma((Real)(node->planes[0][1 - x][child]), i.x, far.x),
+                         fma((Real)(node->planes[1][1 - y][child]), i.y, far.y),
+                         fma((Real)(node->planes[2][1 - z][child]), i.z, far.z)};
+    return entry_distance(entries) <= leaving_distance(exits, reach);
 }
 
 // Returns the packets that enter the child, and stores their entering lanes in `bits`.

@@ -19,7 +19,7 @@ typedef struct {
     uint negative[4]; // 1 if the rays enter by the higher plane, else 0
     float inverse_low[4], inverse_high[4];
     float near_low[4], near_high[4], far_low[4], far_high[4];
-} Bounds;
+} BeamBounds;
 
 static inline float lowest(Real v)
 {
@@ -102,7 +102,7 @@ static inline void include_rays(Extremes *extremes, const Search *rays, Real rea
 // Stores bounds over the packets whose bits are set. At least one bit must be set. Returns the
 // largest distance at which the packets search.
 static NOT_INLINE float bounds_over(const Packet *packets, const Hit *hits, uint bits,
-                                    Bounds *bounds)
+                                    BeamBounds *bounds)
 {
     const Real3 none = real3_of(INFINITY, INFINITY, INFINITY);
     Extremes extremes = {none, none, none, none, 0.0f};
@@ -129,7 +129,7 @@ static NOT_INLINE float bounds_over(const Packet *packets, const Hit *hits, uint
     return -low.w;
 }
 
-static inline float8 entry_bound(float8 plane, const Bounds *bounds, uint axis)
+static inline float8 entry_bound(float8 plane, const BeamBounds *bounds, uint axis)
 {
     const float8 low =
         fma(plane, (float8)(bounds->inverse_low[axis]), (float8)(bounds->near_low[axis]));
@@ -138,7 +138,7 @@ static inline float8 entry_bound(float8 plane, const Bounds *bounds, uint axis)
     return min(low, high);
 }
 
-static inline float8 leave_bound(float8 plane, const Bounds *bounds, uint axis)
+static inline float8 leave_bound(float8 plane, const BeamBounds *bounds, uint axis)
 {
     const float8 low =
         fma(plane, (float8)(bounds->inverse_low[axis]), (float8)(bounds->far_low[axis]));
@@ -147,33 +147,44 @@ static inline float8 leave_bound(float8 plane, const Bounds *bounds, uint axis)
     return max(low, high);
 }
 
-// Returns the planes by which the rays enter the children's boxes. If other is 1, returns the
-// planes by which they leave.
-static inline float8 node_plane(global const BvhWide *node, const Bounds *bounds, uint axis,
+// The planes by which rays enter eight boxes, and those by which they leave.
+typedef struct {
+    Wide3 near, far;
+} BoxPlanes;
+
+// Returns the boxes that some ray may enter before `reach`. Stores lower bounds of the entry
+// distances in *entry.
+static ALWAYS_INLINE int8 boxes_near(const BoxPlanes *planes, const BeamBounds *bounds, float reach,
+                                     float8 *entry)
+{
+    const Wide3 near = {entry_bound(planes->near.x, bounds, 0),
+                        entry_bound(planes->near.y, bounds, 1),
+                        entry_bound(planes->near.z, bounds, 2)};
+    const Wide3 far = {leave_bound(planes->far.x, bounds, 0), leave_bound(planes->far.y, bounds, 1),
+                       leave_bound(planes->far.z, bounds, 2)};
+    *entry = entry_distance(near);
+    return *entry <= leaving_distance(far, (float8)(reach));
+}
+
+static inline float8 node_plane(global const BvhWide *node, const BeamBounds *bounds, uint axis,
                                 uint other)
 {
     return vload8(0, node->planes[axis][bounds->negative[axis] ^ other]);
 }
 
-// Returns the children that some ray may enter before `reach`. Stores lower bounds of the entry
-// distances in *entry.
-static inline int8 children_near(global const BvhWide *node, const Bounds *bounds, float reach,
+// Returns the children that some ray may enter before `reach`, and the bounds of boxes_near.
+static inline int8 children_near(global const BvhWide *node, const BeamBounds *bounds, float reach,
                                  float8 *entry)
 {
-    const float8 near_x = entry_bound(node_plane(node, bounds, 0, 0), bounds, 0);
-    const float8 near_y = entry_bound(node_plane(node, bounds, 1, 0), bounds, 1);
-    const float8 near_z = entry_bound(node_plane(node, bounds, 2, 0), bounds, 2);
-    const float8 far_x = leave_bound(node_plane(node, bounds, 0, 1), bounds, 0);
-    const float8 far_y = leave_bound(node_plane(node, bounds, 1, 1), bounds, 1);
-    const float8 far_z = leave_bound(node_plane(node, bounds, 2, 1), bounds, 2);
-    *entry = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
-    return *entry <= min(min(far_x, far_y), min(far_z, (float8)(reach)));
+    const BoxPlanes planes = {{node_plane(node, bounds, 0, 0), node_plane(node, bounds, 1, 0),
+                               node_plane(node, bounds, 2, 0)},
+                              {node_plane(node, bounds, 0, 1), node_plane(node, bounds, 1, 1),
+                               node_plane(node, bounds, 2, 1)}};
+    return boxes_near(&planes, bounds, reach, entry);
 }
 
-// Returns the planes by which the rays enter the triangles' boxes. If other is 1, returns the
-// planes by which they leave.
-static inline float8 block_plane(global const TriangleBlock *block, const Bounds *bounds, uint axis,
-                                 uint other)
+static inline float8 block_plane(global const TriangleBlock *block, const BeamBounds *bounds,
+                                 uint axis, uint other)
 {
     const float8 a = block_row(block, 0, axis), b = block_row(block, 1, axis);
     const float8 c = block_row(block, 2, axis);
@@ -181,19 +192,16 @@ static inline float8 block_plane(global const TriangleBlock *block, const Bounds
 }
 
 // Returns the bits of the triangles that some ray may hit before `reach`, on average a third of the
-// block. Testing one triangle against all lanes costs as much as this call. A box test shared with
-// children_near would make pictures 2 to 4 % slower.
-static inline uint triangles_near(global const TriangleBlock *block, const Bounds *bounds,
+// block. Testing one triangle against all lanes costs as much as this call.
+static inline uint triangles_near(global const TriangleBlock *block, const BeamBounds *bounds,
                                   float reach)
 {
-    const float8 near_x = entry_bound(block_plane(block, bounds, 0, 0), bounds, 0);
-    const float8 near_y = entry_bound(block_plane(block, bounds, 1, 0), bounds, 1);
-    const float8 near_z = entry_bound(block_plane(block, bounds, 2, 0), bounds, 2);
-    const float8 far_x = leave_bound(block_plane(block, bounds, 0, 1), bounds, 0);
-    const float8 far_y = leave_bound(block_plane(block, bounds, 1, 1), bounds, 1);
-    const float8 far_z = leave_bound(block_plane(block, bounds, 2, 1), bounds, 2);
-    const float8 entry = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
-    return lane_bits(entry <= min(min(far_x, far_y), min(far_z, (float8)(reach))));
+    float8 entry;
+    const BoxPlanes planes = {{block_plane(block, bounds, 0, 0), block_plane(block, bounds, 1, 0),
+                               block_plane(block, bounds, 2, 0)},
+                              {block_plane(block, bounds, 0, 1), block_plane(block, bounds, 1, 1),
+                               block_plane(block, bounds, 2, 1)}};
+    return lane_bits(boxes_near(&planes, bounds, reach, &entry));
 }
 
 #endif

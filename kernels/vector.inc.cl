@@ -43,6 +43,19 @@ static inline Real OVERLOAD largest_component(Real3 v)
     return max(max(fabs(v.x), fabs(v.y)), fabs(v.z));
 }
 
+// Returns the distance at which a ray enters a box, given the distances to the planes by which it
+// enters the three slabs. A ray that starts inside enters at 0.
+static inline Real OVERLOAD entry_distance(Real3 near)
+{
+    return max(max(near.x, near.y), max(near.z, (Real)(0.0f)));
+}
+
+// Returns the distance at which a ray leaves a box, or `reach` if it leaves later.
+static inline Real OVERLOAD leaving_distance(Real3 far, Real reach)
+{
+    return min(min(far.x, far.y), min(far.z, reach));
+}
+
 // Returns the component on an axis, which can differ between lanes.
 static inline Real OVERLOAD component(Real3 v, UInt axis)
 {

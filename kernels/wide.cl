@@ -62,14 +62,14 @@ static inline int8 children_hit(global const BvhWide *node, const Search *search
     const uint x = planes->rows[0][lane], y = planes->rows[1][lane], z = planes->rows[2][lane];
     const Real3 *inverse = &search->slabs.inverse;
     const Real3 *near = &search->slabs.near_offset, *far = &search->slabs.far_offset;
-    const float8 near_x = plane_distances(rows + x, &inverse->x, &near->x, lane);
-    const float8 near_y = plane_distances(rows + y, &inverse->y, &near->y, lane);
-    const float8 near_z = plane_distances(rows + z, &inverse->z, &near->z, lane);
-    const float8 far_x = plane_distances(rows + (x ^ OTHER_PLANES), &inverse->x, &far->x, lane);
-    const float8 far_y = plane_distances(rows + (y ^ OTHER_PLANES), &inverse->y, &far->y, lane);
-    const float8 far_z = plane_distances(rows + (z ^ OTHER_PLANES), &inverse->z, &far->z, lane);
-    *entry = max(max(near_x, near_y), max(near_z, (float8)(0.0f)));
-    return *entry <= min(min(far_x, far_y), min(far_z, (float8)(reach)));
+    const Wide3 entries = {plane_distances(rows + x, &inverse->x, &near->x, lane),
+                           plane_distances(rows + y, &inverse->y, &near->y, lane),
+                           plane_distances(rows + z, &inverse->z, &near->z, lane)};
+    const Wide3 exits = {plane_distances(rows + (x ^ OTHER_PLANES), &inverse->x, &far->x, lane),
+                         plane_distances(rows + (y ^ OTHER_PLANES), &inverse->y, &far->y, lane),
+                         plane_distances(rows + (z ^ OTHER_PLANES), &inverse->z, &far->z, lane)};
+    *entry = entry_distance(entries);
+    return *entry <= leaving_distance(exits, (float8)(reach));
 }
 
 static inline float8 block_row(global const TriangleBlock *block, uint corner, uint axis)
