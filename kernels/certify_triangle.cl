@@ -146,7 +146,7 @@ static inline int side_of(const Corners *corners, const UncertainPoint *uncertai
     return height > 0.0f ? 1 : -1;
 }
 
-// Bounds Search::behind, the distance by which a new ray may start beyond a triangle that stops it.
+// Bounds search_behind, the distance by which a new ray may start beyond a triangle that stops it.
 // The length of a direction is at most the square root of 3 times its longest component (B12).
 static inline Real behind_of(const RayCone *ray)
 {

@@ -33,7 +33,7 @@ typedef uint64_t ulong;
 // these become 34 and 8.
 //
 // A hit can be behind the ray's start, by its error bound of at most 54 units, and by
-// Search::behind, which is 256 units of the origin. The 256 count as 128, because a box there has
+// search_behind, which is 256 units of the origin. The 256 count as 128, because a box there has
 // the origin's coordinates, and both move. The sum is at most 34 + 8 + 54 + 128 = 224. search_reach
 // (search.cl) covers hits beyond the best one. In measurements, doubling the slack costs nothing.
 #define BVH_SLACK 0x1p-16f
