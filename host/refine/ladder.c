@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+// The rounds of an error or time goal. A round has two steps: strata_raise raises the fractions of
+// some strata, and ladder_advance moves the pixels that these fractions select up by one rung. The
+// changes of their colors correct the strata's estimates for the next round.
+//
 // ladder_advance lists the selected pixels in a fixed order, traces their samples, and records the
 // pixels' changes in this order. Floating-point sums therefore do not depend on threads.
 #include "refine/ladder.h"
@@ -185,8 +189,9 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
     return true;
 }
 
-// Moves the pixels whose requests have REQUEST_SAMPLES samples to the end of the list, and keeps
-// the order within both groups. Stores the number of other pixels in *first.
+// Sorts the list: first the pixels whose requests have FIRST_SAMPLES samples, then those whose
+// requests have REQUEST_SAMPLES. Each group keeps its order. Stores the size of the first group in
+// *first.
 static bool part_list(const Ladder *ladder, uint32_t *pixels, uint64_t count, uint64_t *first,
                       Error *error)
 {
@@ -215,9 +220,6 @@ bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
                               (!pixel_requests_are_whole(&ladder->requests) ||
                                climb_chosen(ladder, pixels + first, *advanced - first, error)));
 }
-
-// Each round raises the fractions of some strata and advances the pixels that these fractions
-// select.
 
 // After this many rounds, clrt gives up the error goal.
 #define ROUNDS_MOST 300

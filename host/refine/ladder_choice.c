@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
+// Each pixel has a chance on each rung: a hash of the pixel and the rung. A stratum's fraction is a
+// limit on chances, and the pixels below it are selected. They leave the stratum, so a higher limit
+// later selects only other pixels.
+//
 // Selected pixels are listed block by block, because rays of nearby pixels traverse the tree
 // together. With lists in row order, pictures took 3 to 10 % longer.
+//
+// Invariant: the list depends only on the strata, their fractions and the pixels' positions. Each
+// thread fills its own part of the list.
 #include "refine/ladder_choice.h"
 
 #include <math.h>

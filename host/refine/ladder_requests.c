@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: MIT
+// A pixel's samples are points of a Sobol sequence, scrambled by a hash of the pixel. If a pixel is
+// divided into 2^k equal rectangles whose sides are powers of two, each of them holds one of the
+// first 2^k points. The samples of a higher rung therefore lie in the gaps of the lower rungs. The
+// kernel adds the samples in fixed point, so sums are exact in any order.
+//
 // Centers are requested in blocks of PACKET_SIDE x PACKET_SIDE pixels, which form packets.
 #include "refine/ladder_requests.h"
 

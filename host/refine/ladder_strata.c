@@ -55,9 +55,9 @@
 // exceeds this fraction of the aim.
 #define FORCED_PART 0.02
 
-// A round plans to remove COVERED_PART of the bound's excess over the aim. It counts only GAIN_PART
-// of the expected decrease of the mean. It takes steps that score at least SCORE_PART of the best
-// score. It takes at least STEP_PART of each step, if the samples suffice.
+// A round takes steps until their gains are COVERED_PART of the bound's excess over the aim. In a
+// gain, only GAIN_PART of the errors of advancing pixels count. Steps that score below SCORE_PART
+// of the best score wait. The last step is shortened to what is missing, but at most to STEP_PART.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
@@ -68,7 +68,7 @@
 // Statistics shared by all strata of a rung.
 typedef struct {
     double ratio;   // change per feature
-    double feature; // the largest mean feature among the strata, or at least an edge's
+    double feature; // largest mean feature of a stratum, or the minimum above if that is larger
 } Rung;
 
 // The forecast for one stratum.

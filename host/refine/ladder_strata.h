@@ -16,11 +16,11 @@
 #define LADDER_RUNGS 10
 static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
 
-// On rung 0, strata are octaves of the pixel's bend (refine/ladder.h). Each octave from FLAT_CLASS
-// on has a second stratum for pixels near contrast, numbered from NEAR_CLASS on. The pixels of
-// these octaves that thin parts touch (refine/thin_parts.h) form THIN_CLASS. On higher rungs,
-// strata are octaves of the standard deviation of a pixel's samples, separately for bent pixels
-// (with a large bend or a thin part) and others.
+// On rung 0, strata are octaves of the pixel's bend (refine/ladder_entry.c). Each octave from
+// FLAT_CLASS on has a second stratum for pixels near contrast, numbered from NEAR_CLASS on. The
+// pixels of these octaves that thin parts touch (refine/thin_parts.h) form THIN_CLASS. On higher
+// rungs, strata are octaves of the standard deviation of a pixel's samples. Bent pixels, which have
+// a large bend or a thin part, form strata of their own.
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
 #define THIN_CLASS        12
