@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: MIT
 """Draws generated scenes with --error and measures the true error of every picture.
 
-Each scene is one line of SEED-WIDTHxHEIGHT.jsonl, in a folder named after the program's hash. The
-references of all programs are beside this folder.
+Each scene is one line of SEED-WIDTHxHEIGHT.jsonl, in a folder named after the program's hash. A
+scene file can take the place of a seed. The references of all programs are beside this folder.
 Scenes with a line are skipped, so that an interrupted run resumes. Prints a summary. The exit
 status is 1 if the results break the promise of --error."""
 
 import argparse
 import hashlib
 import json
+import math
 import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -34,8 +36,10 @@ THRESHOLDS = [0.3, 0.2, 0.1, 0.05, 0.04, 0.02, 0.01, 0.005, 0.002]
 # The fixed settings for comparison follow rays at least as far as the smallest goal's picture.
 LEVELS = ["--max-level", "auto", "--encode", "raw"]
 
-# The number of pictures that a timed process draws. The fastest picture counts.
+# The number of pictures that a timed process draws. The fastest picture counts. To measure processor
+# time, it draws pictures for about PROCESS_SECONDS.
 FRAMES = 3
+PROCESS_SECONDS = 0.5
 
 
 class Clrt:
@@ -68,7 +72,23 @@ class Clrt:
         samples = report["samples"]
         return {"status": status, "rmse": self.rmse(reference), "samples": samples["per_pixel"],
                 "estimate": samples["error_estimate"], "bound": samples["error_bound"],
-                "seconds": min(report["frame_seconds"])}
+                "seconds": min(report["frame_seconds"]), "words": words}
+
+    def processor_seconds(self, frames, *words):
+        """Returns the processor time of a process that draws this number of pictures."""
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.draw("--repeat", frames, *words, statuses=(0, 1))
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+    def add_processor_seconds(self, rivals):
+        """Adds the processor time per picture to the figures of settings, which alternate. The time
+        of a process with one picture is subtracted, and the fastest run counts."""
+        for figures in rivals * FRAMES:
+            frames = 1 + max(1, round(PROCESS_SECONDS / figures["seconds"]))
+            seconds = (self.processor_seconds(frames, *figures["words"]) -
+                       self.processor_seconds(1, *figures["words"])) / (frames - 1)
+            figures["processor"] = min(figures.get("processor", math.inf), seconds)
 
 
 def draw_reference(options, scene, path, wanted):
@@ -106,17 +126,27 @@ def measure_rivals(clrt, reference, goals):
     return rivals
 
 
+def is_file(seed):
+    return seed.endswith(".scn")
+
+
 def name_of(options, seed):
     """Returns the name of the results of a seed."""
-    return f"{'hidden-' * options.hidden}{seed}-{options.size}"
+    stem = pathlib.Path(seed).stem if is_file(seed) else seed
+    return f"{'hidden-' * options.hidden}{stem}-{options.size}"
+
+
+def scene_path(options, seed, number, folder):
+    """Returns the path of a scene. Generates the scene, unless the seed is a scene file."""
+    if is_file(seed):
+        return pathlib.Path(seed)
+    if options.hidden:
+        return hidden.generate(seed, number, folder, list(map(int, options.size.split("x"))))
+    return generate.generate(seed, number, folder)
 
 
 def measure_scene(options, seed, number, folder):
-    if options.hidden:
-        size = list(map(int, options.size.split("x")))
-        scene = hidden.generate(seed, number, folder / "scene", size)
-    else:
-        scene = generate.generate(seed, number, folder / "scene")
+    scene = scene_path(options, seed, number, folder / "scene")
     clrt = Clrt(options.clrt, scene, options.size, folder)
     references = options.output.parent / "references" / name_of(options, seed)
     references.mkdir(parents=True, exist_ok=True)
@@ -131,13 +161,15 @@ def measure_scene(options, seed, number, folder):
     if options.costs:
         for goal, rivals in zip(goals, measure_rivals(clrt, reference, options.goals)):
             goal.update(rivals)
+            clrt.add_processor_seconds([goal, *filter(None, rivals.values())])
     return {"seed": seed, "scene": scene.stem, "size": options.size,
             "reference": json.loads(notes.read_text()), "goals": goals}
 
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("seeds", nargs="+", help="seeds of the generated scenes")
+    parser.add_argument("seeds", nargs="+", metavar="SEED|FILE.scn",
+                        help="seeds of the generated scenes, or scene files")
     parser.add_argument("--scenes", type=int, default=40, help="scenes of each seed (40)")
     parser.add_argument("--size", default="160x120", help="size of the pictures (160x120)")
     parser.add_argument("--goals", default=GOALS, help=f"values of --error ({GOALS})")
@@ -157,10 +189,8 @@ def parse():
 def measure_seed(options, seed):
     """Measures the scenes of a seed that are not in its file. Returns the file's path."""
     path = options.output / f"{name_of(options, seed)}.jsonl"
-    done = {row["scene"][:3] for row in summary.read([path])} if path.exists() else set()
-    for number in range(options.scenes):
-        if f"{number:03}" in done:
-            continue
+    done = len(summary.read([path])) if path.exists() else 0
+    for number in range(done, 1 if is_file(seed) else options.scenes):
         with tempfile.TemporaryDirectory() as folder:
             row = measure_scene(options, seed, number, pathlib.Path(folder))
         with open(path, "a", encoding="utf-8") as file:

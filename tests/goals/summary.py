@@ -78,22 +78,25 @@ def print_groups(pictures, key, title):
 
 def print_costs(pictures):
     """Prints the cost of --error relative to the cheapest fixed settings with that error."""
-    print("goal    rival     pictures  samples     time   (geometric means, --error / rival)")
+    print("goal    rival     pictures  samples     time  processor   (geometric means, --error / "
+          "rival; the last figure is the largest)")
     for goal in sorted({picture["goal"] for picture in pictures}, reverse=True):
         for rival in ("uniform", "adaptive"):
             pairs = [(picture, picture[rival]) for picture in pictures
                      if picture["goal"] == goal and picture.get(rival)]
             if pairs:
-                ratios = [geometric_mean([own[key] / other[key] for own, other in pairs])
-                          for key in ("samples", "seconds")]
-                print(f"{goal:<7.2%} {rival:9} {len(pairs):8}  {ratios[0]:7.2f}  {ratios[1]:7.2f}")
+                ratios = {key: [own[key] / other[key] for own, other in pairs]
+                          for key in ("samples", "seconds", "processor")}
+                means = [f"{geometric_mean(values):7.2f}" for values in ratios.values()]
+                print(f"{goal:<7.2%} {rival:9} {len(pairs):8}  {'  '.join(means)}"
+                      f"  {max(ratios['processor']):7.2f}")
 
 
 def report(paths):
     """Prints the tables. Returns the exit status, which is 1 if the promise is broken."""
     pictures = pictures_of(read(paths))
     for picture in pictures:
-        picture["kind"] = picture["scene"].split("-")[1]
+        picture["kind"] = picture["scene"].split("-")[-1]
     for key in ("seed", "goal", "kind"):
         print_groups(pictures, key, key)
     print_costs(pictures)
