@@ -71,24 +71,32 @@ static uint32_t *choose_run(const Choosing *choosing, uint32_t first, uint32_t e
     return chosen;
 }
 
-// Returns whether any pixel in a row of a block may be selected.
-static bool row_selects(const Choosing *choosing, const uint8_t strata[CHOICE_SIDE])
+// Returns whether any pixel in a row of a block may be selected. Most rows have the strata of an
+// earlier row; *rejected holds the strata of the latest row without selection.
+static bool row_selects(const Choosing *choosing, const uint8_t strata[CHOICE_SIDE],
+                        uint64_t *rejected)
 {
+    uint64_t row;
     uint32_t selects = 0;
+    memcpy(&row, strata, sizeof row);
+    if (row == *rejected)
+        return false;
     for (uint32_t i = 0; i < CHOICE_SIDE; i++)
         selects |= choosing->selects[strata[i]];
+    if (selects == 0)
+        *rejected = row;
     return selects != 0;
 }
 
 static uint32_t *choose_block(const Choosing *choosing, uint32_t left, uint32_t top,
-                              uint32_t *chosen)
+                              uint64_t *rejected, uint32_t *chosen)
 {
     const Ladder *ladder = choosing->ladder;
     const uint32_t width = ladder->picture->width, height = ladder->picture->height;
     const uint32_t count = width - left < CHOICE_SIDE ? width - left : CHOICE_SIDE;
     for (uint32_t y = top; y < top + CHOICE_SIDE && y < height; y++) {
         const uint32_t first = y * width + left;
-        if (count < CHOICE_SIDE || row_selects(choosing, &ladder->strata[first]))
+        if (count < CHOICE_SIDE || row_selects(choosing, &ladder->strata[first], rejected))
             chosen = choose_run(choosing, first, first + count, chosen);
     }
     return chosen;
@@ -98,11 +106,12 @@ static void choose_rows(void *context, uint32_t first, uint32_t end)
 {
     const Choosing *choosing = context;
     const uint32_t width = choosing->ladder->picture->width;
+    uint64_t rejected = UINT64_MAX; // no row has these strata
     for (uint32_t row = first; row < end; row++) {
         uint32_t *start = choosing->ladder->chosen + (size_t)row * CHOICE_SIDE * width;
         uint32_t *chosen = start;
         for (uint32_t left = 0; left < width; left += CHOICE_SIDE)
-            chosen = choose_block(choosing, left, row * CHOICE_SIDE, chosen);
+            chosen = choose_block(choosing, left, row * CHOICE_SIDE, &rejected, chosen);
         choosing->counts[row] = (uint32_t)(chosen - start);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Assigns each pixel to a stratum of rung 0 by its bend, and by whether a thin part touches it.
-// Each task sums the features of its pixels in order, and one thread then adds the tasks' sums in
+// One pass over small areas of the picture, which stay in the cache, does all this. Each row of
+// areas sums the features of its pixels in order, and one thread then adds the rows' sums in
 // order. The result therefore does not depend on threads.
 #include "refine/ladder_entry.h"
 
@@ -11,112 +12,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The bend of a pixel is the largest second difference of its colors along the row, the column and
-// both diagonals.
+// The bend of a pixel is the largest |2 c - a - b|, where c is a channel of the pixel, and a and b
+// are this channel of two opposite neighbors in the row, the column or a diagonal. Pairs of
+// neighbors partly outside of the picture do not count.
 
-#define ROWS_OF_TASK 16
-#define RADIUS       2
-#define RUN          64
+// The size of an area without its margin of RADIUS pixels on each side.
+#define AREA_WIDTH  60
+#define AREA_HEIGHT 32
+#define RADIUS      2
 
-typedef struct {
-    const Framebuffer *picture;
-    const float *bends;
-    float *results;
-} Measuring;
-
-static float larger(float one, float other)
-{
-    return one > other ? one : other;
-}
-
-// Raises each value of `most` to at least the absolute second difference of its pixel and channel.
-// Both arrays begin at the same pixel. `step` is the distance between neighbors, in pixels of the
-// arrays, and `range` holds the first pixel and the end.
-static void raise_bends(float *most, const float *colors, ptrdiff_t step, const uint32_t range[2])
-{
-    for (ptrdiff_t i = 3 * (ptrdiff_t)range[0]; i < 3 * (ptrdiff_t)range[1]; i++)
-        most[i] =
-            larger(most[i], fabsf(2 * colors[i] - colors[i - 3 * step] - colors[i + 3 * step]));
-}
-
-// Measures the bends of up to RUN pixels of row y from x on. Pixels at the picture's border have
-// only the directions that stay inside.
-static void measure_run(const Measuring *measuring, uint32_t x, uint32_t y)
-{
-    static const int directions[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
-    const uint32_t width = measuring->picture->width, height = measuring->picture->height;
-    const size_t first = (size_t)y * width + x;
-    const uint32_t count = width - x < RUN ? width - x : RUN;
-    const uint32_t whole[2] = {0, count},
-                   inner[2] = {x == 0, x + count == width ? count - 1 : count};
-    float most[3 * RUN] = {0};
-    for (int i = 0; i < 4; i++) {
-        const int right = directions[i][0], down = directions[i][1];
-        if (down == 0 || (y > 0 && y + 1 < height))
-            raise_bends(most, measuring->picture->pixels[first], right + (ptrdiff_t)down * width,
-                        right != 0 ? inner : whole);
-    }
-    for (uint32_t i = 0; i < count; i++)
-        measuring->results[first + i] =
-            larger(larger(most[3 * i], most[3 * i + 1]), most[3 * i + 2]);
-}
-
-static void measure_rows(void *context, uint32_t first, uint32_t end)
-{
-    const Measuring *measuring = context;
-    for (uint32_t y = first; y < end; y++)
-        for (uint32_t x = 0; x < measuring->picture->width; x += RUN)
-            measure_run(measuring, x, y);
-}
-
-// Replaces each value of a row by the largest value up to two columns away. Values are at least 0.
-static void spread_row(float *row, uint32_t width)
-{
-    float before = 0, earlier = 0; // the values of the two columns before x
-    for (uint32_t x = 0; x < width; x++) {
-        const float own = row[x];
-        const float next = x + 1 < width ? row[x + 1] : 0, later = x + 2 < width ? row[x + 2] : 0;
-        row[x] = larger(larger(larger(earlier, before), own), larger(next, later));
-        earlier = before;
-        before = own;
-    }
-}
-
-static void spread_rows(void *context, uint32_t first, uint32_t end)
-{
-    const Measuring *measuring = context;
-    const uint32_t width = measuring->picture->width, height = measuring->picture->height;
-    for (uint32_t y = first; y < end; y++) {
-        float *results = measuring->results + (size_t)y * width;
-        const uint32_t last = height - y <= RADIUS ? height - 1 : y + RADIUS;
-        memset(results, 0, width * sizeof *results);
-        for (uint32_t row = y < RADIUS ? 0 : y - RADIUS; row <= last; row++)
-            for (uint32_t x = 0; x < width; x++)
-                results[x] = larger(results[x], measuring->bends[(size_t)row * width + x]);
-        spread_row(results, width);
-    }
-}
-
-// Fills bends, row by row, for a picture with one sample per pixel. A pixel's bend is the largest
-// |2 c - a - b|, where c is a channel of the pixel, and a and b are this channel of two opposite
-// neighbors. Pairs of neighbors partly outside of the picture do not count.
-static void bends_measure(const Framebuffer *picture, ThreadPool *pool, float *bends)
-{
-    Measuring measuring = {picture, NULL, bends};
-    thread_pool_share(pool, picture->height, ROWS_OF_TASK, measure_rows, &measuring);
-}
-
-// Fills nearby with the largest bend of the 5 x 5 pixels around each pixel.
-static void bends_spread(const Framebuffer *picture, ThreadPool *pool, const float *bends,
-                         float *nearby)
-{
-    Measuring measuring = {picture, bends, nearby};
-    thread_pool_share(pool, picture->height, ROWS_OF_TASK, spread_rows, &measuring);
-}
-
-#define PIXELS_OF_TASK 4096
-
-// Statistics of a task's pixels, by stratum.
+// Statistics of the pixels of a row of areas, by stratum.
 typedef struct {
     uint32_t pixels[BEND_CLASSES];
     double features[BEND_CLASSES]; // sums
@@ -124,37 +29,140 @@ typedef struct {
 
 typedef struct {
     Ladder *ladder;
-    float *bends, *nearby; // of each pixel
-    Entries *entries;      // of each task
+    Entries *entries; // of each row of areas
     ThinParts thin_parts;
 } Entering;
 
-static void enter_part(void *context, uint32_t first, uint32_t end)
+// The bends of an area with its margin; 0 outside of the picture.
+typedef struct {
+    uint32_t left, top; // of the area without its margin
+    float bends[AREA_HEIGHT + 2 * RADIUS][AREA_WIDTH + 2 * RADIUS];
+} Area;
+
+static float larger(float one, float other)
+{
+    return one > other ? one : other;
+}
+
+// The distances of neighbors, in floats of a picture's array. A distance of 0 makes the pixel its
+// own neighbor, and pairs of such neighbors do not add to its bend.
+typedef struct {
+    ptrdiff_t right, down;
+} Neighbors;
+
+static inline float bend_along(const float *color, ptrdiff_t step)
+{
+    return fabsf(2 * *color - color[-step] - color[step]);
+}
+
+// Measures the bends of up to AREA_WIDTH + 2 * RADIUS pixels of a row, which have equal neighbors.
+static void measure_pixels(const float *colors, Neighbors next, uint32_t count, float *bends)
+{
+    float most[3 * (AREA_WIDTH + 2 * RADIUS)];
+    for (uint32_t i = 0; i < 3 * count; i++)
+        most[i] =
+            larger(larger(bend_along(&colors[i], next.right), bend_along(&colors[i], next.down)),
+                   larger(bend_along(&colors[i], next.down + next.right),
+                          bend_along(&colors[i], next.down - next.right)));
+    for (uint32_t i = 0; i < count; i++)
+        bends[i] = larger(larger(most[3 * i], most[3 * i + 1]), most[3 * i + 2]);
+}
+
+// Measures the bends of pixels first to end - 1 of row y.
+static void measure_row(const Framebuffer *picture, uint32_t y, uint32_t first, uint32_t end,
+                        float *bends)
+{
+    const uint32_t width = picture->width;
+    const float(*colors)[3] = (const float(*)[3]) & picture->pixels[(size_t)y * width];
+    const bool is_inside = y > 0 && y + 1 < picture->height;
+    const Neighbors edge = {0, is_inside ? 3 * (ptrdiff_t)width : 0}, inner = {3, edge.down};
+    const uint32_t left = first > 0 ? first : 1, right = end < width ? end : width - 1;
+    if (first == 0)
+        measure_pixels(colors[0], edge, 1, bends);
+    if (left < right)
+        measure_pixels(colors[left], inner, right - left, bends + (left - first));
+    if (end == width)
+        measure_pixels(colors[width - 1], edge, 1, bends + (width - 1 - first));
+}
+
+static void measure_area(const Framebuffer *picture, Area *area)
+{
+    const uint32_t right = area->left + AREA_WIDTH + RADIUS,
+                   bottom = area->top + AREA_HEIGHT + RADIUS;
+    const uint32_t before = area->left < RADIUS ? area->left : RADIUS;
+    memset(area->bends, 0, sizeof area->bends);
+    for (uint32_t y = area->top < RADIUS ? 0 : area->top - RADIUS;
+         y < bottom && y < picture->height; y++)
+        measure_row(picture, y, area->left - before,
+                    right < picture->width ? right : picture->width,
+                    &area->bends[y + RADIUS - area->top][RADIUS - before]);
+}
+
+// Fills nearby with the largest bends of the 5 x 5 pixels around each pixel of a row.
+static void spread_bends(const Area *area, uint32_t row, float nearby[AREA_WIDTH])
+{
+    float columns[AREA_WIDTH + 2 * RADIUS] = {0};
+    for (uint32_t i = 0; i <= 2 * RADIUS; i++)
+        for (uint32_t x = 0; x < AREA_WIDTH + 2 * RADIUS; x++)
+            columns[x] = larger(columns[x], area->bends[row + i][x]);
+    for (uint32_t x = 0; x < AREA_WIDTH; x++)
+        nearby[x] = larger(larger(larger(columns[x], columns[x + 1]), columns[x + 2]),
+                           larger(columns[x + 3], columns[x + 4]));
+}
+
+// Counts a run of pixels of one stratum.
+static void count_run(Entries *entries, uint32_t stratum, uint32_t pixels, double features)
+{
+    entries->pixels[stratum] += pixels;
+    entries->features[stratum] += features;
+}
+
+static void enter_row(const Entering *entering, const Area *area, uint32_t row, Entries *entries)
+{
+    const Ladder *ladder = entering->ladder;
+    const uint32_t width = ladder->picture->width;
+    const uint32_t first = (area->top + row) * width + area->left;
+    const uint32_t count = width - area->left < AREA_WIDTH ? width - area->left : AREA_WIDTH;
+    uint32_t latest = 0, start = 0; // the run's stratum and first pixel
+    double features = 0;
+    float nearby[AREA_WIDTH];
+    spread_bends(area, row, nearby);
+    for (uint32_t x = 0; x < count; x++) {
+        const float bend = area->bends[row + RADIUS][x + RADIUS];
+        const uint32_t stratum =
+            strata_of_bend(bend, nearby[x], thin_parts_touch(&entering->thin_parts, first + x));
+        ladder->strata[first + x] = (uint8_t)stratum;
+        ladder->places[first + x].feature = bend * bend;
+        if (stratum != latest) {
+            count_run(entries, latest, x - start, features);
+            latest = stratum;
+            start = x;
+            features = 0;
+        }
+        features += (double)(bend * bend);
+    }
+    count_run(entries, latest, count - start, features);
+}
+
+// Enters the pixels of one row of areas.
+static void enter_rows(void *context, uint32_t top, uint32_t end)
 {
     const Entering *entering = context;
-    Ladder *ladder = entering->ladder;
-    Entries entries = {.pixels = {0}};
-    for (uint32_t pixel = first; pixel < end; pixel++) {
-        const double bend = (double)entering->bends[pixel];
-        const uint32_t stratum = strata_of_bend(bend, (double)entering->nearby[pixel],
-                                                thin_parts_touch(&entering->thin_parts, pixel));
-        ladder->strata[pixel] = (uint8_t)stratum;
-        ladder->places[pixel].feature = (float)(bend * bend);
-        entries.pixels[stratum]++;
-        entries.features[stratum] += (double)ladder->places[pixel].feature;
+    const Framebuffer *picture = entering->ladder->picture;
+    Area area = {.top = top};
+    for (; area.left < picture->width; area.left += AREA_WIDTH) {
+        measure_area(picture, &area);
+        for (uint32_t row = 0; row < end - top; row++)
+            enter_row(entering, &area, row, &entering->entries[top / AREA_HEIGHT]);
     }
-    entering->entries[first / PIXELS_OF_TASK] = entries;
 }
 
 static void enter_all(const Entering *entering)
 {
     Ladder *ladder = entering->ladder;
-    ThreadPool *pool = ladder->requests.pool;
-    const uint32_t pixels = (uint32_t)ladder->statistics.pixels;
-    bends_measure(ladder->picture, pool, entering->bends);
-    bends_spread(ladder->picture, pool, entering->bends, entering->nearby);
-    thread_pool_share(pool, pixels, PIXELS_OF_TASK, enter_part, (void *)entering);
-    for (uint32_t task = 0; task < range_count(pixels, PIXELS_OF_TASK); task++)
+    const uint32_t height = ladder->picture->height;
+    thread_pool_share(ladder->requests.pool, height, AREA_HEIGHT, enter_rows, (void *)entering);
+    for (uint32_t task = 0; task < range_count(height, AREA_HEIGHT); task++)
         for (uint32_t stratum = 0; stratum < BEND_CLASSES; stratum++)
             strata_enter(&ladder->statistics, stratum, entering->entries[task].pixels[stratum],
                          entering->entries[task].features[stratum]);
@@ -175,18 +183,12 @@ static bool find_thin_parts(ThinParts *parts, const LadderSetup *setup, Error *e
 
 bool ladder_enter(Ladder *ladder, const LadderSetup *setup, Error *error)
 {
-    const size_t pixels = ladder->statistics.pixels;
-    const size_t tasks = range_count((uint32_t)pixels, PIXELS_OF_TASK);
+    const uint32_t tasks = range_count(ladder->picture->height, AREA_HEIGHT);
     Entering entering = {.ladder = ladder,
-                         .bends = memory_raw(pixels, sizeof(float), error),
-                         .nearby = memory_raw(pixels, sizeof(float), error),
-                         .entries = memory_raw(tasks, sizeof(Entries), error)};
-    const bool ok = entering.bends != NULL && entering.nearby != NULL && entering.entries != NULL &&
-                    find_thin_parts(&entering.thin_parts, setup, error);
+                         .entries = memory_zeroed(tasks, sizeof *entering.entries, error)};
+    const bool ok = entering.entries != NULL && find_thin_parts(&entering.thin_parts, setup, error);
     if (ok)
         enter_all(&entering);
-    free(entering.bends);
-    free(entering.nearby);
     free(entering.entries);
     thin_parts_free(&entering.thin_parts);
     return ok;

@@ -111,8 +111,8 @@ void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3])
 {
     const double part = 1.0 / samples;
     for (int channel = 0; channel < 3; channel++) {
-        const double mean = floor((double)(sums->colors[channel] + samples / 2) * part);
-        color[channel] = (float)(mean * 0x1p-32);
+        const int64_t sum = (int64_t)sums->colors[channel] + samples / 2;
+        color[channel] = (float)((double)(int64_t)((double)sum * part) * 0x1p-32);
     }
 }
 

@@ -9,7 +9,7 @@
 #include "scene/normalize.h"
 
 // The most requests per list.
-#define REQUESTS_MOST (1u << 18)
+#define REQUESTS_MOST (1u << 16)
 
 typedef struct {
     Renderer *renderer;             // with ladder_entry; borrowed

@@ -9,10 +9,8 @@
 
 #include <math.h>
 
-// A pixel is bent if its bend, the second difference of its color, exceeds BENT. A pixel is near
-// contrast if a nearby pixel has a bend of at least CONTRAST.
-#define BENT     0.05
-#define CONTRAST 0.125
+// A pixel is bent if its bend, the second difference of its color, exceeds BENT.
+#define BENT 0.05
 
 // Weights of the priors, in pixels.
 #define RUNG_WEIGHT    4
@@ -88,27 +86,10 @@ uint32_t strata_rung(uint32_t stratum)
     return stratum < BEND_CLASSES ? 0 : 1 + (stratum - BEND_CLASSES) / (2 * DEVIATION_CLASSES);
 }
 
-// Returns the octave of a value: 0 for values from 1/2 on, 1 from 1/4 on, up to classes - 1.
-static uint32_t octave(double value, uint32_t classes)
-{
-    if (value < 1.0 / (1 << classes))
-        return classes - 1;
-    const int exponent = ilogb(value);
-    return exponent >= -1 ? 0 : (uint32_t)(-1 - exponent);
-}
-
-uint32_t strata_of_bend(double bend, double nearby, bool is_thin)
-{
-    const uint32_t number = octave(bend, NEAR_CLASS);
-    if (is_thin && number >= FLAT_CLASS)
-        return THIN_CLASS;
-    return number >= FLAT_CLASS && nearby >= CONTRAST ? number + NEAR_CLASS - FLAT_CLASS : number;
-}
-
 uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent)
 {
     return BEND_CLASSES + (2 * (rung - 1) + is_bent) * DEVIATION_CLASSES +
-           octave(deviation, DEVIATION_CLASSES);
+           strata_octave(deviation, DEVIATION_CLASSES);
 }
 
 bool strata_is_bent(uint32_t stratum, double bend)

@@ -52,9 +52,30 @@ typedef struct {
 // Returns the rung of a stratum.
 uint32_t strata_rung(uint32_t stratum);
 
+// A pixel is near contrast if a nearby pixel has a bend of at least CONTRAST.
+#define CONTRAST 0.125f
+
+// Returns the octave of a value: 0 for values from 1/2 on, 1 from 1/4 on, up to classes - 1.
+static inline uint32_t strata_octave(double value, uint32_t classes)
+{
+    uint32_t number = 0;
+    if (value < 1.0 / (1 << classes))
+        return classes - 1;
+    for (double least = 0.5; value < least && number + 1 < classes; least /= 2)
+        number++;
+    return number;
+}
+
 // Returns the stratum of a pixel on rung 0 from its bend and the largest bend nearby
-// (refine/ladder.h), and from whether a thin part touches it.
-uint32_t strata_of_bend(double bend, double nearby, bool is_thin);
+// (refine/ladder_entry.h), and from whether a thin part touches it. It is inline because every
+// pixel of a picture needs it.
+static inline uint32_t strata_of_bend(float bend, float nearby, bool is_thin)
+{
+    const uint32_t number = strata_octave((double)bend, NEAR_CLASS);
+    if (number < FLAT_CLASS)
+        return number;
+    return is_thin ? THIN_CLASS : number + (nearby >= CONTRAST ? NEAR_CLASS - FLAT_CLASS : 0);
+}
 
 // Returns the stratum of a pixel above rung 0 from the standard deviation of its samples.
 uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent);

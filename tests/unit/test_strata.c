@@ -32,7 +32,7 @@ static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
         const double bend =
             is_edge ? random_unit(&state) : 0.02 * random_unit(&state) * random_unit(&state);
         const double error = is_edge ? 0.1 * bend : hides ? 0.1 * random_unit(&state) : 0.1 * bend;
-        pixels[i] = (Pixel){.stratum = strata_of_bend(bend, is_near ? 0.5 : 0, false),
+        pixels[i] = (Pixel){.stratum = strata_of_bend((float)bend, is_near ? 0.5f : 0, false),
                             .feature = bend * bend,
                             .error = error * error,
                             .chance = random_unit(&state)};
@@ -152,7 +152,7 @@ TEST(thin_parts_form_a_stratum_unless_there_is_contrast)
     const uint32_t thin = strata_of_bend(0, 0, true);
     assert_int_not_equal(thin, strata_of_bend(0, 0, false));
     assert_int_equal(thin, strata_of_bend(0, 1, true));
-    assert_int_equal(strata_of_bend(0.7, 1, true), strata_of_bend(0.7, 1, false));
+    assert_int_equal(strata_of_bend(0.7f, 1, true), strata_of_bend(0.7f, 1, false));
     assert_true(strata_is_bent(thin, 0) && !strata_is_bent(strata_of_bend(0, 0, false), 0));
 }
 
