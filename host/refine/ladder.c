@@ -30,14 +30,22 @@ uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel)
     return rung == 0 ? 1 : 1 + ladder_samples[rung];
 }
 
+// Allocates all arrays as one, because only large arrays get huge pages.
 static bool make_arrays(Ladder *ladder, Error *error)
 {
+    PixelRequests *requests = &ladder->requests;
     const size_t pixels = ladder->statistics.pixels;
-    ladder->places = memory_raw(pixels, sizeof *ladder->places, error);
-    ladder->chosen = memory_raw(pixels, sizeof *ladder->chosen, error);
-    ladder->strata = memory_raw(pixels, sizeof *ladder->strata, error);
-    return ladder->places != NULL && ladder->chosen != NULL && ladder->strata != NULL &&
-           pixel_requests_make(&ladder->requests, error);
+    const size_t request_size = sizeof *requests->sums + sizeof *requests->requests;
+    const size_t pixel_size =
+        sizeof *ladder->places + sizeof *ladder->chosen + sizeof *ladder->strata;
+    ladder->memory =
+        memory_raw(REQUESTS_MOST * request_size + pixels * pixel_size, sizeof(char), error);
+    requests->sums = (PixelSums *)ladder->memory;
+    requests->requests = (PixelRequest *)(requests->sums + REQUESTS_MOST);
+    ladder->places = (LadderPlace *)(requests->requests + REQUESTS_MOST);
+    ladder->chosen = (uint32_t *)(ladder->places + pixels);
+    ladder->strata = (uint8_t *)(ladder->chosen + pixels);
+    return ladder->memory != NULL;
 }
 
 bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
@@ -68,10 +76,7 @@ bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
 
 void ladder_close(Ladder *ladder)
 {
-    pixel_requests_free(&ladder->requests);
-    free(ladder->chosen);
-    free(ladder->places);
-    free(ladder->strata);
+    free(ladder->memory);
     free(ladder->sums.data);
     *ladder = (Ladder){0};
 }

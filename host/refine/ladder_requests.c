@@ -13,20 +13,6 @@
 #define BLOCK_PIXELS   (PACKET_SIDE * PACKET_SIDE)
 #define BLOCKS_OF_TASK 256
 
-bool pixel_requests_make(PixelRequests *requests, Error *error)
-{
-    requests->requests = memory_raw(REQUESTS_MOST, sizeof *requests->requests, error);
-    requests->sums = memory_raw(REQUESTS_MOST, sizeof *requests->sums, error);
-    return requests->requests != NULL && requests->sums != NULL;
-}
-
-void pixel_requests_free(PixelRequests *requests)
-{
-    free(requests->requests);
-    free(requests->sums);
-    *requests = (PixelRequests){0};
-}
-
 // Coordinate x of a point is the bit-reversed index of the point. The bits of y are sums of
 // binomial coefficients modulo 2. Both are linear over GF(2), so point `first + i` is point `first`
 // XOR point `i`. This function computes point `first`; the kernel computes point `i`.

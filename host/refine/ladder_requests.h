@@ -17,12 +17,9 @@ typedef struct {
     const RenderObserver *observer; // borrowed; may be NULL
     ThreadPool *pool;               // borrowed; NULL for none
     PixelRequest *requests;         // room for REQUESTS_MOST, all with equal sample counts
-    PixelSums *sums;                // of the requests in the latest trace
+    PixelSums *sums;                // of the requests in the latest trace; room for REQUESTS_MOST
     uint32_t count;                 // requests in the list
 } PixelRequests;
-
-bool pixel_requests_make(PixelRequests *requests, Error *error);
-void pixel_requests_free(PixelRequests *requests);
 
 // Returns a request for samples first to first + samples - 1 of a pixel. samples is 4 or
 // REQUEST_SAMPLES, and first is a multiple of samples. The sample positions are points of the

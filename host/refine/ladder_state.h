@@ -14,6 +14,7 @@ typedef union {
 typedef struct {
     PixelRequests requests;
     Framebuffer *picture;  // borrowed; means of the pixels' samples
+    void *memory;          // of the next three arrays and of the requests' arrays
     uint32_t *chosen;      // room for all pixels
     LadderPlace *places;   // of each pixel
     uint8_t *strata;       // of each pixel

@@ -350,6 +350,8 @@ bool thin_triangles_find(ThinParts *parts, const ThinSource *source, Error *erro
                          .source = source,
                          .projection = projection_of(source->frame, source->normalization)};
     const size_t pixels = (size_t)parts->width * parts->height;
+    if (source->scene->objects.count == 0)
+        return true;
     search.covered = memory_zeroed(pixels, sizeof *search.covered, error);
     search.touched = memory_zeroed(pixels, sizeof *search.touched, error);
     bool ok = search.covered != NULL && search.touched != NULL;
