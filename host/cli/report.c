@@ -96,7 +96,8 @@ static json_t *samples_json(const PictureResult *drawn, double contrast)
     return JSON(
         FIELD("total", drawn->samples), FIELD("per_pixel", ratio(drawn->samples, drawn->pixels)),
         FIELD("contrast", contrast), FIELD("error_estimate", drawn->estimate),
-        FIELD("error_bound", drawn->bound), FIELD("goal_reached", (bool)!drawn->goal_missed));
+        FIELD("error_bound", drawn->bound), FIELD("goal_reached", (bool)!drawn->goal_missed),
+        FIELD("smallest_feature", drawn->feature));
 }
 
 static json_t *rays_json(const uint64_t *tallies)
@@ -203,7 +204,9 @@ void report_write_text(const Picture *picture, FILE *stream)
                    stream);
     json_print(json,
                "{seconds.trace .3f} seconds\n"
-               "{samples.total} samples, {samples.per_pixel .2f} per pixel\n",
+               "{samples.total} samples, {samples.per_pixel .2f} per pixel\n"
+               "smallest disk found with a probability of 95 %: {samples.smallest_feature .2f} "
+               "pixels wide\n",
                stream);
     if (picture->drawn.estimate > 0)
         print_error(picture, json, stream);

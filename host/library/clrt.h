@@ -285,6 +285,7 @@ typedef struct {
     bool goal_missed; // the error is above its goal, or the first pass took longer than `seconds`
     double error, error_bound; // with a goal: estimate of the RMSE, and its 95 % upper bound
     uint64_t sample_count;     // samples taken
+    double smallest_feature;   // in pixels: samples hit 95 % of disks of this diameter
     uint64_t pixels_open, pixels_repaired, pixels_certified; // with the channel certainty
     double seconds;                                          // for colors and channels
     bool cached; // an earlier process compiled the kernels

@@ -127,6 +127,7 @@ static void fill_result(const Drawing *drawing)
         .error = drawn->estimate,
         .error_bound = drawn->bound,
         .sample_count = drawn->samples,
+        .smallest_feature = drawn->feature,
         .pixels_open = marks[CERTAINTY_OPEN],
         .pixels_repaired = marks[CERTAINTY_REPAIRED],
         .pixels_certified = marks[CERTAINTY_CERTIFIED],

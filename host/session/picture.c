@@ -9,6 +9,7 @@
 #include "render/draw.h"
 #include "scene/camera.h"
 #include "session/costs.h"
+#include "session/feature.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -89,6 +90,27 @@ static void count_tree(uint32_t *samples, const RefineTree *tree)
             samples[(size_t)y * tree->width + x] = refine_tree_count(tree, x, y);
 }
 
+// Counts only the first subdivision of a pixel, because others are not spread over it evenly.
+static double tree_feature(const RefineTree *tree)
+{
+    SampleShare shares[2] = {{.samples = 1}, {.samples = GROUP_CELLS}};
+    for (size_t i = 0; i < (size_t)tree->width * tree->height; i++)
+        shares[tree->pixel_groups[i] != 0].pixels++;
+    return feature_smallest(shares, 2);
+}
+
+static double ladder_feature(const Ladder *ladder)
+{
+    SampleShare shares[LADDER_RUNGS] = {{0}};
+    for (uint32_t i = 0; i < STRATA_COUNT; i++) {
+        const Stratum *stratum = &ladder->statistics.strata[i];
+        SampleShare *share = &shares[strata_rung(i)];
+        share->samples = ladder_samples[strata_rung(i)];
+        share->pixels += stratum->entered - stratum->advanced;
+    }
+    return feature_smallest(shares, LADDER_RUNGS);
+}
+
 static bool draw_adaptively(PictureDrawing *drawing, Error *error)
 {
     Adaptive adaptive;
@@ -108,6 +130,8 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
         adaptive_store(&adaptive, drawing->framebuffer);
     if (ok && result->pixel_samples != NULL)
         count_tree(result->pixel_samples, &adaptive.tree);
+    if (ok)
+        result->feature = tree_feature(&adaptive.tree);
     result->samples = adaptive.samples;
     adaptive_close(&adaptive);
     return ok;
@@ -149,6 +173,7 @@ static bool draw_for_goal(PictureDrawing *drawing, Error *error)
     result->bound = hypot(outcome.bound, goal->truncated);
     result->goal_missed = !outcome.reached;
     result->samples = ladder.samples;
+    result->feature = ladder_feature(&ladder);
     for (size_t i = 0; result->pixel_samples != NULL && i < ladder.statistics.pixels; i++)
         result->pixel_samples[i] = ladder_pixel_samples(&ladder, i);
     ladder_close(&ladder);
@@ -186,7 +211,9 @@ static bool draw_evenly(PictureDrawing *drawing, Error *error)
         const Tile tile = tile_at(settings, number);
         result->pixels += (uint64_t)tile.width * tile.height;
     }
-    result->samples = result->pixels * settings->samples * settings->samples;
+    const SampleShare all = {settings->samples * settings->samples, 1};
+    result->samples = result->pixels * all.samples;
+    result->feature = feature_smallest(&all, 1);
     return true;
 }
 

@@ -44,6 +44,7 @@ typedef struct {
     bool goal_missed;
     double estimate;         // of the RMSE, including PictureGoal::truncated; 0 without a goal
     double bound;            // upper bound of the RMSE with 95 % confidence
+    double feature;          // the smallest diameter that the samples find (session/feature.h)
     uint64_t pixels;         // drawn by this call
     uint64_t samples;        // total of these pixels
     uint32_t *pixel_samples; // by pixel; NULL if all are equal; the caller frees it

@@ -211,6 +211,17 @@ class Samples(Work):
         self.assertGreater(samples["total"], 1600)
         self.assertLessEqual(samples["error_bound"], 0.001)
 
+    def test_more_samples_find_smaller_features(self):
+        coarse, refined, fine = (
+            self.statistics(*SMALL, "a.pfm", *words)["samples"]["smallest_feature"]
+            for words in (["--aa=1"], ["--error", "1%"], ["--aa=4"]))
+        self.assertAlmostEqual(coarse, 4 * fine, delta=1e-6)
+        self.assertTrue(coarse > refined > fine)
+        adaptive = self.statistics(*SMALL, "a.pfm", "--aa-adaptive=0.001")["samples"]
+        self.assertTrue(coarse > adaptive["smallest_feature"] > coarse / 3)
+        told = self.run_clrt(*SMALL, "a.pfm", "--aa=4", "--stats").stderr
+        self.assertRegex(told, "(?m)^smallest disk found with a probability of 95 %: 0.30 pixels wide$")
+
     def test_an_error_that_no_levels_hold_is_exit_1(self):
         self.write(mirror_scn="define it matte reflectivity 1\nmaterial it\nsphere 0 0 0 1\n")
         told = self.clrt("mirror.scn", "-s", "8x8", "--error", "1%", "-o", "a.pfm", code=1)

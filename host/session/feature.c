@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// A disk misses a square lattice if its center is in none of the disks of its size around the
+// lattice's points.
+#include "session/feature.h"
+
+#include <math.h>
+
+#define PROBABILITY 0.95
+
+// Halves the interval of diameters to less than the spacing of floats.
+#define BISECTIONS 32
+
+// A disk of this diameter always contains a point of a lattice with distances of 1.
+#define LARGEST 1.41421357
+
+// Returns the area of a unit square that a disk around its center covers.
+static double covered_area(double diameter)
+{
+    const double pi = 3.14159265358979, radius = diameter / 2;
+    if (diameter >= LARGEST)
+        return 1;
+    if (diameter <= 1)
+        return pi * radius * radius;
+    const double segment =
+        radius * radius * acos(0.5 / radius) - 0.5 * sqrt(radius * radius - 0.25);
+    return pi * radius * radius - 4 * segment;
+}
+
+double feature_smallest(const SampleShare *shares, size_t count)
+{
+    double least = 0, most = LARGEST;
+    for (int i = 0; i < BISECTIONS; i++) {
+        const double diameter = (least + most) / 2;
+        double pixels = 0, found = 0;
+        for (size_t share = 0; share < count; share++) {
+            const double own = (double)shares[share].pixels;
+            pixels += own;
+            found += own * covered_area(diameter * sqrt(shares[share].samples));
+        }
+        *(found < PROBABILITY * pixels ? &least : &most) = diameter;
+    }
+    return most;
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Samples of a picture's pixels -> the smallest feature that they find.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+// Pixels with this number of samples each.
+typedef struct {
+    uint32_t samples;
+    uint64_t pixels;
+} SampleShare;
+
+// Returns the smallest diameter, in pixels, for which a disk at a random place of the picture
+// contains a sample with a probability of 95 %. The samples of a pixel count as a square lattice.
+// At least one share must have pixels.
+double feature_smallest(const SampleShare *shares, size_t count);
