@@ -57,14 +57,14 @@ static inline float8 folded(Real v)
 }
 #endif
 
-// Returns the lowest elements of a and b, each in half of the elements of both halves.
+// Folds two vectors. The result's lower half has minima of a, and the upper half minima of b.
 static inline float8 lowest_of_two(float8 a, float8 b)
 {
     return min((float8)(a.lo, b.lo), (float8)(a.hi, b.hi));
 }
 
-// Returns the lowest elements of four vectors. Reducing them together takes half the instructions
-// of one after the other.
+// Returns the lowest elements of four vectors. Reducing them together takes half as many
+// instructions as reducing them one after the other.
 static inline float4 lowest_of_four(Real a, Real b, Real c, Real d)
 {
     const float8 ab = lowest_of_two(folded(a), folded(b)), cd = lowest_of_two(folded(c), folded(d));
@@ -79,8 +79,8 @@ static inline Real3 lower3(Real3 a, Real3 b)
 }
 
 // The extremes of rays, lane by lane. Maxima are stored as minima of the negated numbers. Each
-// origin moves by its own slack, and by the slack of node boxes, which the boxes of single
-// triangles lack.
+// origin moves by its own slack. It also moves by the slack by which boxes of nodes have grown,
+// because boxes of single triangles have not grown.
 typedef struct {
     Real3 inverse, minus_inverse, behind, minus_ahead;
     Real minus_reach;
@@ -89,7 +89,8 @@ typedef struct {
 static inline void include_rays(Extremes *extremes, const Search *rays, Real reach)
 {
     const Real3 inverse = rays->slabs.inverse, origin = rays->ray->origin;
-    // Triangle coordinates are at most 1.
+    // The slack of a node's box is at most BVH_SLACK, because coordinates of triangles are at most
+    // 1.
     const Real slack = BVH_SLACK * (largest_component(origin) + 1.0f);
     const Real3 slacks = real3_of(slack, slack, slack);
     extremes->inverse = lower3(extremes->inverse, inverse);

@@ -70,7 +70,7 @@ static ALWAYS_INLINE Corners corners_from(const BlockPlace *at, const BlockRows 
                      corner_from(at, 2, packet)};
 }
 
-// Returns the bits among `near` of the triangles inside whose edges a ray of the packet passes. All
+// Returns `near` without the bits of triangles whose edges no ray of the packet passes inside. All
 // rays must have the same axes. The loop has no branches.
 static ALWAYS_INLINE uint triangles_entered(const BlockPlace *start, const BlockRows *rows,
                                             const Packet *packet, Mask lanes, uint near)

@@ -83,10 +83,10 @@ static void write_prefix(char prefix[PREFIX_SIZE])
     snprintf(prefix, PREFIX_SIZE, "clrt-%s-", host);
 }
 
-// Removes the private folder at path if its process has ended. A new folder is not locked yet, so
-// it may be removed too. Its process then makes another (make_private). The lock is the first file
-// in a folder, so a folder that has other files and no lock is left from a process that has ended:
-// a network file system keeps the folder of a file that is still open.
+// Removes the private folder at path if its process has ended. This may also remove the empty
+// folder of a process that has not locked it yet. That process then makes another (make_private).
+// The lock is the first file in a folder. If a folder has other files but no lock, its process has
+// ended. A network file system then kept a file that was still open, under another name.
 static void remove_abandoned(const char *path)
 {
     struct stat status;

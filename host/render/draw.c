@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws a picture tile by tile. Two tiles are in flight, each in its own command queue: the device
-// traces one while the other is read back or finishes its last work-groups.
+// Draws a picture tile by tile. Two tiles are in flight, each in its own command queue. The device
+// traces one while the host copies the other, or while the last work-groups of the other finish.
 //
 // All tiles use one padded grid with offset 0, because PoCL compiles another version of a kernel
 // for each local size, for offsets and for large grids. The kernels receive a tile's position by
@@ -96,7 +96,7 @@ static bool launch(const Slot *slot, const TilePass *pass, const Renderer *rende
 }
 
 // Starts the kernel for the slot's tile, and then maps its outputs, which copies nothing on CPUs.
-// The first output is mapped last, so slot->done signals the end of this mapping.
+// The first output is mapped last. slot->done is the event of this last command.
 static bool start_tile(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
     const size_t count = (size_t)slot->tile.width * slot->tile.height;
