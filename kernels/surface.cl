@@ -30,8 +30,8 @@ typedef struct {
     UInt id, material;
     UInt index;      // of a triangle; NOTHING for spheres
     Real room, edge; // the point is at least room / (2 * edge) away from the edges
-    Mask colored;    // lanes whose diffuse color is `color`; unspecified unless CLRT_COLORS
-    Real3 color;
+    Mask colored;    // lanes whose diffuse color is `color`; unspecified without CLRT_COLORS
+    Real3 color;     // unspecified unless any lane is colored
 } Surface;
 
 static inline Mask has_length(Real3 v)
@@ -71,7 +71,6 @@ static inline Real3 triangle_normal(const Tracer *tracer, UInt normals, Real3 we
 static inline void note_color(const Tracer *tracer, Surface *surface, UInt colors, Real3 weights)
 {
     surface->colored = colors != NOTHING;
-    surface->color = real3_of(0.0f, 0.0f, 0.0f);
     if (!any_lane(surface->colored))
         return;
     const Corners corners = fetch_colors(tracer, surface->colored ? colors : (UInt)(0));

@@ -108,7 +108,7 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
         return;
     path->surface = surface_at(tracer, ray, hit, path->met);
     path->material = fetch_material(tracer, path->surface.material);
-    if (CLRT_COLORS)
+    if (CLRT_COLORS && any_lane(path->surface.colored))
         path->material.diffuse =
             choose3(path->surface.colored, path->surface.color, path->material.diffuse);
     if (CLRT_MIRRORS)

@@ -203,12 +203,8 @@ static void place_normals(const Sender *sender, const struct aiMesh *mesh,
 static void copy_colors(const Sender *sender, const struct aiMesh *mesh)
 {
     float(*colors)[3] = sender->part.mesh.colors + sender->part.mesh.vertex_count;
-    for (size_t i = 0; i < mesh->mNumVertices; i++) {
-        const struct aiColor4D *given = &mesh->mColors[0][i];
-        colors[i][0] = given->r;
-        colors[i][1] = given->g;
-        colors[i][2] = given->b;
-    }
+    for (size_t i = 0; i < mesh->mNumVertices; i++)
+        memcpy(colors[i], &mesh->mColors[0][i], sizeof *colors); // without the alpha at the end
 }
 
 // Returns whether all corners of a face are vertices of its mesh, because Assimp does not check
