@@ -92,8 +92,10 @@ CLRT_SAME_SIZE(TriangleData, 48)
 #define TRIANGLE_REVERSED  0x40000000u // sorting has swapped front and back
 #define TRIANGLE_MARKS     (TRIANGLE_TWO_SIDED | TRIANGLE_REVERSED)
 
-// A triangle's shading word is the index of its CornerNormals, and NOTHING if the triangle is flat.
-// With this flag, it is the index of its CornerColors, which have another shading word.
+// A triangle's shading word is the index of its CornerNormals, or NOTHING if the triangle is flat.
+// If the word has this flag, it is the index of the triangle's CornerColors instead. These contain
+// a
+// second shading word, which has no flag.
 #define TRIANGLE_COLORED 0x80000000u
 
 // Vertex normals of a smooth triangle, in the stored order of its corners. Their lengths weight the

@@ -55,8 +55,8 @@ static void lock_path(char path[PRIVATE_SIZE], const char *folder)
     snprintf(path, PRIVATE_SIZE, "%s" LOCK_NAME, folder);
 }
 
-// Returns whether the lock still has its name. Its link count does not tell, because network file
-// systems rename an open file instead of removing it.
+// Returns whether the lock still has its name. Its link count would not show this, because network
+// file systems rename an open file instead of removing it.
 static bool has_lock(const char *folder)
 {
     char path[PRIVATE_SIZE];

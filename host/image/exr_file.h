@@ -44,8 +44,8 @@ bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const size_t position[2]);
 
 // Sets the pointers of a tile's channels to their values in framebuffer and layers. position is the
-// place of the tile's upper left pixel in both. layers may be NULL. Channels that neither has keep
-// their pointers.
+// place of the tile's upper left pixel in both. layers may be NULL. Channels that are in neither of
+// them keep their pointers.
 void exr_place_channels(exr_coding_channel_info_t *channels, int count,
                         const Framebuffer *framebuffer, const Layers *layers,
                         const size_t position[2]);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Writes and reads PNG by libpng, row by row. libpng converts every kind of PNG to red, green and
-// blue. It reports faults by a longjmp to write_picture or read_picture. The jump skips the rest of
-// every function between. The functions that these two call therefore own no memory.
+// blue. It reports faults by a longjmp to write_picture or read_picture. The jump ends all
+// functions
+// that these two have called, so those functions own no memory.
 #include "image/png_file.h"
 
 #include <errno.h>

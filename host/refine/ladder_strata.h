@@ -67,7 +67,7 @@ static inline uint32_t strata_octave(double value, uint32_t classes)
 }
 
 // Returns the stratum of a pixel on rung 0 from its bend and the largest bend nearby
-// (refine/ladder_entry.h), and from whether a thin part touches it. It is inline because every
+// (refine/ladder_entry.c), and from whether a thin part touches it. It is inline because every
 // pixel of a picture needs it.
 static inline uint32_t strata_of_bend(float bend, float nearby, bool is_thin)
 {

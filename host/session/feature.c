@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A disk misses a square lattice if its center is in none of the disks of its size around the
-// lattice's points.
+// The samples of a pixel count as a square lattice. A disk at a random place contains a point of
+// the lattice if its center is in one of the equal disks around the points. The probability is
+// therefore the part of a lattice's cell that such a disk covers. Bisection finds the diameter for
+// which the mean over all pixels is PROBABILITY.
 #include "session/feature.h"
 
 #include <math.h>
 
 #define PROBABILITY 0.95
 
-// Halves the interval of diameters to less than the spacing of floats.
+// The last interval of diameters is smaller than the spacing of floats.
 #define BISECTIONS 32
 
 // A disk of this diameter always contains a point of a lattice with distances of 1.
