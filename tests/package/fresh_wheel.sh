@@ -1,16 +1,27 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds the Python wheel in one bare Debian and installs it in a virtual environment of another, which
-# has only Python and PoCL. There runs the README's Python example, and prints its seconds. Exit status
-# 77: this machine cannot make the roots. Needs root, mmdebstrap, git and PyPI.
+# Builds the Python wheel in one bare Debian, also as the conda recipe does, and installs it in a virtual
+# environment of another, which has only Python and PoCL. There runs the README's Python example, and
+# prints its seconds. Exit status 77: this machine cannot make the roots. Needs root, mmdebstrap, git
+# and PyPI.
 # Usage: fresh_wheel.sh SUITE (bookworm or trixie)
 set -eu
 . "$(dirname "$(readlink -f "$0")")/bare_debian.sh"
 
+# The recipe's commands, with the interpreter of a virtual environment.
+recipe=$checkout/tools/package/conda/recipe.yaml
+build=$(sed -n 's|^  script: ${{ PYTHON }}|/root/conda/bin/python|p' "$recipe")
+try=$(sed -n 's|^      - python -c|/root/conda/bin/python -c|p' "$recipe")
+[ -n "$build" ] && [ -n "$try" ] || { echo "recipe.yaml has other commands"; exit 1; }
+
 make_root "$1"
 copy_checkout .
-run_in_root '
+run_in_root "
     tools/setup python meshes
+    python3 -m venv /root/conda
+    /root/conda/bin/pip install -q 'scikit-build-core>=0.10' cffi numpy
+    $build >/dev/null
+    $try"'
     python3 -m venv /root/build
     time /root/build/bin/pip wheel -q . --no-deps -w /root/wheels
     ls -l /root/wheels
