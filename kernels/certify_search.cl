@@ -124,19 +124,14 @@ static inline Real triangle_entry(const ConeSearch *search, global const Triangl
     return box_entry(search, &box, reach);
 }
 
-static inline void push_certified_children(const Tracer *tracer, const ConeSearch *search,
-                                           uint node, PairStack *stack)
+static inline bool descend_in_cone(const Tracer *tracer, const ConeSearch *search, PairStack *stack,
+                                   PairPlace *place)
 {
     const Real reach = cone_reach(search);
-    const Real first = child_entry(search, &tracer->nodes[node], 0, reach);
-    const Real second = child_entry(search, &tracer->nodes[node], 1, reach);
-    const bool second_nearer = second < first;
-    if (!second_nearer && second < INFINITY)
-        push_child(stack, 2 * node + 1, second);
-    if (first < INFINITY)
-        push_child(stack, 2 * node, first);
-    if (second_nearer)
-        push_child(stack, 2 * node + 1, second);
+    global const BvhPair *node = &tracer->nodes[place->first];
+    const Real2 entry =
+        (Real2)(child_entry(search, node, 0, reach), child_entry(search, node, 1, reach));
+    return enter_children(tracer->nodes, entry, stack, place);
 }
 
 static inline Candidate leaf_candidate(const Tracer *tracer, const RayCone *ray, uint index)
@@ -185,22 +180,17 @@ static inline bool search_is_over(const ConeSearch *search)
     return search->ray->kind == RAY_SHADOW && search->blocked == ANSWER_YES;
 }
 
-static void search_triangles(const Tracer *tracer, ConeSearch *search)
+static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
 {
     PairStack stack;
-    stack.count = 0;
-    push_certified_children(tracer, search, 0, &stack);
-    while (stack.count > 0 && !search_is_over(search)) {
-        stack.count--;
-        if (stack.entry[stack.count] > cone_reach(search))
-            continue;
-        const uint child = stack.child[stack.count];
-        const uint first = tracer->nodes[child >> 1].first[child & 1];
-        const uint count = tracer->nodes[child >> 1].count[child & 1];
-        if (count == 0)
-            push_certified_children(tracer, search, first, &stack);
-        else
-            search_leaf(tracer, search, (uint2)(first, count));
+    PairPlace place = {0};
+    bool enters = true;
+    while (enters && !search_is_over(search)) {
+        while (enters && place.count == 0)
+            enters = descend_in_cone(tracer, search, &stack, &place);
+        if (enters)
+            search_leaf(tracer, search, (uint2)(place.first, place.count));
+        enters = pop_place(tracer->nodes, cone_reach(search), &stack, &place);
     }
 }
 

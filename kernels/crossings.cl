@@ -135,17 +135,15 @@ static inline void cross_triangles(const Tracer *tracer, const Ray *along, Real 
         return;
     }
     PairStack stack;
-    stack.count = 0;
-    push_children(&stack, &search, 0, limit);
-    while (stack.count > 0) {
-        const uint child = stack.child[--stack.count];
-        const uint first = tracer->nodes[child >> 1].first[child & 1];
-        const uint count = tracer->nodes[child >> 1].count[child & 1];
-        if (count == 0)
-            push_children(&stack, &search, first, limit);
-        else
-            cross_range(&search, (uint2)(first, count), crossings);
-    }
+    PairPlace place = {0};
+    bool enters = true;
+    do {
+        while (enters && place.count == 0)
+            enters = descend(&search, limit, &stack, &place);
+        if (enters)
+            cross_range(&search, (uint2)(place.first, place.count), crossings);
+        enters = pop_place(tracer->nodes, limit, &stack, &place);
+    } while (enters);
 }
 #endif
 

@@ -11,35 +11,44 @@
 
 #if !CLRT_WIDE_NODES
 
-static inline Real2 plane_distances(global const BvhPair *node, uint2 plane, Real inverse,
-                                    Real offset)
+// The intervals in which the ray is inside the children's boxes, empty for boxes that it misses.
+typedef struct {
+    Real2 entry, leave;
+} Intervals;
+
+// Narrows the intervals to the slabs of one axis. `planes` has the low and the high planes of both
+// children. All of them are loaded, because a GPU reads a whole node faster than chosen planes.
+static inline Intervals clip_slabs(Intervals inside, global const float planes[2][2], Real inverse,
+                                   Real2 offsets)
 {
-    global const float *planes = node->planes[plane.x][plane.y];
-    return fma((Real2)(planes[0], planes[1]), (Real2)(inverse), (Real2)(offset));
+    const Real2 low = (Real2)(planes[0][0], planes[0][1]);
+    const Real2 high = (Real2)(planes[1][0], planes[1][1]);
+    const bool backward = sign_bit(inverse) != 0;
+    const Real2 near = backward ? high : low, far = backward ? low : high;
+    inside.entry = max(inside.entry, fma(near, (Real2)(inverse), (Real2)(offsets.x)));
+    inside.leave = min(inside.leave, fma(far, (Real2)(inverse), (Real2)(offsets.y)));
+    return inside;
 }
 
-// Computes the interval [entry, leave] of the ray inside each child's box. The interval is empty if
-// the ray misses the box.
-static inline void intersect_slabs(global const BvhPair *node, const Search *search, Real reach,
-                                   Real2 *entry, Real2 *leave)
+// Returns the distances at which the ray enters the children's boxes, INFINITY for boxes that it
+// does not enter before `reach`.
+static inline Real2 enter_boxes(global const BvhPair *node, const Slabs *slabs, Real reach)
 {
-    const Real3 inverse = search->slabs.inverse;
-    const Real3 near = search->slabs.near_offset, far = search->slabs.far_offset;
-    const uint x = sign_bit(inverse.x), y = sign_bit(inverse.y), z = sign_bit(inverse.z);
-    const Real2 near_x = plane_distances(node, (uint2)(0, x), inverse.x, near.x);
-    const Real2 near_y = plane_distances(node, (uint2)(1, y), inverse.y, near.y);
-    const Real2 near_z = plane_distances(node, (uint2)(2, z), inverse.z, near.z);
-    const Real2 far_x = plane_distances(node, (uint2)(0, 1 - x), inverse.x, far.x);
-    const Real2 far_y = plane_distances(node, (uint2)(1, 1 - y), inverse.y, far.y);
-    const Real2 far_z = plane_distances(node, (uint2)(2, 1 - z), inverse.z, far.z);
-    *entry = max(max(near_x, near_y), max(near_z, (Real2)(0.0f)));
-    *leave = min(min(far_x, far_y), min(far_z, (Real2)(reach)));
+    const Real3 near = slabs->near_offset, far = slabs->far_offset;
+    Intervals inside = {(Real2)(0.0f), (Real2)(reach)};
+    inside = clip_slabs(inside, node->planes[0], slabs->inverse.x, (Real2)(near.x, far.x));
+    inside = clip_slabs(inside, node->planes[1], slabs->inverse.y, (Real2)(near.y, far.y));
+    inside = clip_slabs(inside, node->planes[2], slabs->inverse.z, (Real2)(near.z, far.z));
+    return inside.entry <= inside.leave ? inside.entry : (Real2)(INFINITY);
 }
 
-// Returns a corner relative to the ray's origin, with components in the order of the shear. Reading
-// them by axis makes this order free.
+// Returns a corner relative to the ray's origin, in the order of the axes. A CPU reads the
+// coordinates in this order, which makes small scenes a tenth faster. A GPU reads 16 bytes at once
+// and needs 9 fewer registers.
 static inline Real3 corner_relative(global const float *corner, const Search *search)
 {
+    if (CLRT_GPU)
+        return axes_ordered(difference(load3(corner), search->ray->origin), &search->axes);
     return real3_of(corner[search->axes.x] + search->backward.x,
                     corner[search->axes.y] + search->backward.y,
                     corner[search->axes.z] + search->backward.z);
@@ -60,66 +69,88 @@ static inline void intersect_range(const Search *search, uint2 range, Hit *best)
     }
 }
 
-// The stack of children to enter. A child is stored as 2 * node + child, with the distance at which
-// the ray enters it.
+// The farther children that the ray enters, as 2 * node + child, and the distances at which it
+// enters them. Only these arrays are in a GPU's memory.
 typedef struct {
     uint child[BVH_STACK_SIZE];
     Real entry[BVH_STACK_SIZE];
-    uint count;
 } PairStack;
 
-static inline void push_child(PairStack *stack, uint child, Real entry)
+// A place in the tree: triangles [first, first + count) or, if count is 0, the node `first`. The
+// first place is {0}.
+typedef struct {
+    uint first, count;
+    uint depth; // entries on the stack
+} PairPlace;
+
+// Moves from a node to the nearer child that the ray enters, and pushes the other one. `entry` has
+// the distances at which the ray enters the children, INFINITY for a child that it misses. Returns
+// false if it misses both.
+static inline bool enter_children(global const Node *nodes, Real2 entry, PairStack *stack,
+                                  PairPlace *place)
 {
-    stack->child[stack->count] = child;
-    stack->entry[stack->count] = entry;
-    stack->count++;
+    const uint number = place->first;
+    const bool second = entry.y < entry.x;
+    const Real nearer = second ? entry.y : entry.x, farther = second ? entry.x : entry.y;
+    if (farther < INFINITY) {
+        stack->child[place->depth] = 2 * number + !second;
+        stack->entry[place->depth] = farther;
+        place->depth++;
+    }
+    const uint2 first = (uint2)(nodes[number].first[0], nodes[number].first[1]);
+    const uint2 count = (uint2)(nodes[number].count[0], nodes[number].count[1]);
+    place->first = second ? first.y : first.x;
+    place->count = second ? count.y : count.x;
+    return nearer < INFINITY;
 }
 
-// Pushes the children of a node that the ray enters before `reach`, the nearer one last.
-static inline void push_children(PairStack *stack, const Search *search, uint node, Real reach)
+// Moves to the nearest child on the stack that the ray enters before `reach`. Returns false if
+// there is none.
+static inline bool pop_place(global const Node *nodes, Real reach, const PairStack *stack,
+                             PairPlace *place)
 {
-    Real2 entry, leave;
-    intersect_slabs(&search->tracer->nodes[node], search, reach, &entry, &leave);
-    const bool hits_first = entry.x <= leave.x, hits_second = entry.y <= leave.y;
-    const bool second_nearer = entry.y < entry.x;
-    if (hits_second && !second_nearer)
-        push_child(stack, 2 * node + 1, entry.y);
-    if (hits_first)
-        push_child(stack, 2 * node, entry.x);
-    if (hits_second && second_nearer)
-        push_child(stack, 2 * node + 1, entry.y);
+    while (place->depth > 0) {
+        place->depth--;
+        if (stack->entry[place->depth] > reach)
+            continue;
+        const uint child = stack->child[place->depth];
+        place->first = nodes[child >> 1].first[child & 1];
+        place->count = nodes[child >> 1].count[child & 1];
+        return true;
+    }
+    return false;
+}
+
+// Moves from a node to the nearer child that the ray enters before `reach`.
+static inline bool descend(const Search *search, Real reach, PairStack *stack, PairPlace *place)
+{
+    const Tracer *tracer = search->tracer;
+    const Real2 entry = enter_boxes(&tracer->nodes[place->first], &search->slabs, reach);
+    if (CLRT_STATISTICS)
+        tracer->tally->box_tests += 2;
+    return enter_children(tracer->nodes, entry, stack, place);
 }
 
 static inline void traverse_pairs(const Search *search, Hit *best)
 {
     const Tracer *tracer = search->tracer;
     PairStack stack;
-    stack.count = 0;
-    push_children(&stack, search, 0, search_reach(search, best));
-    if (CLRT_STATISTICS)
-        tracer->tally->box_tests += 2;
-    while (stack.count > 0) {
-        stack.count--;
-        if (stack.entry[stack.count] > search_reach(search, best))
-            continue;
-        const uint child = stack.child[stack.count];
-        const uint first = tracer->nodes[child >> 1].first[child & 1];
-        const uint count = tracer->nodes[child >> 1].count[child & 1];
-        if (count == 0) {
-            push_children(&stack, search, first, search_reach(search, best));
-            if (CLRT_STATISTICS)
-                tracer->tally->box_tests += 2;
-            continue;
-        }
-        intersect_range(search, (uint2)(first, count), best);
-        if (CLRT_STATISTICS)
-            tracer->tally->triangle_tests += count;
+    PairPlace place = {0};
+    bool enters = true;
+    do {
+        while (enters && place.count == 0)
+            enters = descend(search, search_reach(search, best), &stack, &place);
+        if (enters)
+            intersect_range(search, (uint2)(place.first, place.count), best);
+        if (CLRT_STATISTICS && enters)
+            tracer->tally->triangle_tests += place.count;
         if (ends_at_any_hit(search->ray->kind) && best->id != NOTHING)
             return;
-    }
+        enters = pop_place(tracer->nodes, search_reach(search, best), &stack, &place);
+    } while (enters);
 }
 
-static void search_pairs(const Tracer *tracer, const Ray *ray, Hit *best)
+static inline void search_pairs(const Tracer *tracer, const Ray *ray, Hit *best)
 {
     const Search search = search_along(tracer, ray, best->t);
     if (CLRT_BVH && tracer->frame->uses_bvh) {

@@ -10,10 +10,12 @@
 
 #ifdef __OPENCL_C_VERSION__
 #define CLRT_SAME_SIZE(type, bytes)
+#define CLRT_ALIGNED __attribute__((aligned(16))) // so that GPUs read 16 bytes at once
 #else
 #include <stdint.h>
 typedef uint32_t uint;
 typedef uint64_t ulong;
+#define CLRT_ALIGNED
 #define CLRT_SAME_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type);
 #endif
 
@@ -50,7 +52,7 @@ typedef struct {
     uint exponent; // the shininess if it is an integer up to 1024, else UINT_MAX
     float shininess;
     float reflectivity;
-} Material;
+} CLRT_ALIGNED Material;
 CLRT_SAME_SIZE(Material, 48)
 
 typedef struct {
@@ -58,7 +60,7 @@ typedef struct {
     float intensity;
     float color[3];
     float unused;
-} PointLight;
+} CLRT_ALIGNED PointLight;
 CLRT_SAME_SIZE(PointLight, 32)
 
 // Center and radius as unevaluated sums high + low, with 48 bits each.
@@ -69,7 +71,7 @@ typedef struct {
     float radius_low;
     uint material;
     uint padding[3]; // keeps the array stride a multiple of 16
-} SphereData;
+} CLRT_ALIGNED SphereData;
 CLRT_SAME_SIZE(SphereData, 48)
 
 // A triangle for the intersection test. The array is in leaf order. The host sorts the corners by
@@ -84,7 +86,7 @@ typedef struct {
     uint material; // index and flags
     float c[3];
     uint shading; // see TRIANGLE_COLORED
-} TriangleData;
+} CLRT_ALIGNED TriangleData;
 CLRT_SAME_SIZE(TriangleData, 48)
 
 // A triangle's flags, in the highest bits of a word that also holds an index or id.
@@ -102,7 +104,7 @@ CLRT_SAME_SIZE(TriangleData, 48)
 // interpolation. The host negates the normals of a reversed triangle.
 typedef struct {
     float normals[3][4]; // the fourth component is zero and pads each vector to 16 bytes
-} CornerNormals;
+} CLRT_ALIGNED CornerNormals;
 CLRT_SAME_SIZE(CornerNormals, 48)
 
 // Vertex colors of a triangle, in the stored order of its corners. They replace the diffuse color.
@@ -120,7 +122,7 @@ typedef struct {
     float planes[3][2][2]; // [axis][low, high][child], grown by BVH_SLACK
     uint first[2];
     uint count[2];
-} BvhPair;
+} CLRT_ALIGNED BvhPair;
 CLRT_SAME_SIZE(BvhPair, 64)
 
 // With wide nodes, a work-item renders BLOCK_SIDE x BLOCK_SIDE pixels.

@@ -210,6 +210,11 @@ static inline Surface surface_at(const Tracer *tracer, const Ray *ray, const Hit
     }
     const Mask on_sphere = met && hit->id < tracer->frame->sphere_count;
     const Mask on_triangle = met && hit->id >= tracer->frame->sphere_count;
+    if (CLRT_LANES == 1) { // GPUs need 14 fewer registers than for both surfaces
+        if (CLRT_SPHERES && any_lane(on_sphere))
+            return sphere_surface(tracer, ray, hit);
+        return triangle_surface(tracer, ray, hit);
+    }
     Surface triangle;
     if (!CLRT_SPHERES || any_lane(on_triangle)) {
         const Hit hits = hit_everywhere(hit, on_triangle);

@@ -37,8 +37,9 @@ static bool write_options(char options[OPTIONS_SIZE], const ProgramSource *sourc
     traits_write_options(&source->traits, switches);
     kernel_write_options(&source->choice, choices);
     const bool is_correct = source->device->correct_division;
-    const int length = snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s %s %s %s %s", switches,
-                                choices, text_or_nothing(entry_of(source)->options),
+    const int length = snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s %s %s %s %s %s", switches,
+                                choices, source->device->is_cpu ? "" : "-DCLRT_GPU=1",
+                                text_or_nothing(entry_of(source)->options),
                                 is_correct ? "-cl-fp32-correctly-rounded-divide-sqrt" : "",
                                 text_or_nothing(source->extra_options));
     return length > 0 && length < OPTIONS_SIZE;
