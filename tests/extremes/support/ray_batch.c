@@ -35,12 +35,13 @@ static cl_mem make_buffer(const RayBatch *batch, const void *data, size_t size)
     return buffer;
 }
 
-static void set_array(RayBatch *batch, BatchArray place, const void *data, size_t size)
+static void set_array(RayBatch *batch, int place, const FlatArray *array)
 {
     if (batch->arrays[place] != NULL)
         clReleaseMemObject(batch->arrays[place]);
-    const bool is_empty = data == NULL || size == 0;
-    batch->arrays[place] = make_buffer(batch, is_empty ? NULL : data, is_empty ? 64 : size);
+    const bool is_empty = array->bytes == 0;
+    batch->arrays[place] =
+        make_buffer(batch, is_empty ? NULL : array->data, is_empty ? 64 : array->bytes);
 }
 
 // Runs a kernel over the first count rays in the buffer.
@@ -52,7 +53,7 @@ static bool launch(const RayBatch *batch, BatchTask task, cl_uint count, Error *
     cl_kernel kernel = batch->kernels[task];
     cl_uint place = 0;
     cl_int status = clSetKernelArg(kernel, place++, sizeof batch->frame, &batch->frame);
-    for (int array = 0; array < BATCH_ARRAYS; array++)
+    for (int array = 0; array < FLAT_ARRAYS; array++)
         status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &batch->arrays[array]);
     status |= clSetKernelArg(kernel, place++, sizeof(cl_mem), &batch->rays);
     status |= clSetKernelArg(kernel, place++, sizeof count, &count);
@@ -110,7 +111,7 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
 
 void ray_batch_close(RayBatch *batch)
 {
-    for (int array = 0; array < BATCH_ARRAYS; array++)
+    for (int array = 0; array < FLAT_ARRAYS; array++)
         clReleaseMemObject(batch->arrays[array]);
     for (int task = 0; task < BATCH_TASKS; task++)
         clReleaseKernel(batch->kernels[task]);
@@ -138,20 +139,11 @@ int ray_batch_teardown(void **state)
 
 void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
 {
-    const size_t triangles = flat->triangle_count;
+    FlatArray arrays[FLAT_ARRAYS];
     assert_int_equal(flat->layout, batch->choice.nodes);
-    set_array(batch, BATCH_LIGHTS, NULL, 0);
-    set_array(batch, BATCH_MATERIALS, NULL, 0);
-    set_array(batch, BATCH_SPHERES, flat->spheres, flat->sphere_count * sizeof(SphereData));
-    set_array(batch, BATCH_LOOKS, flat->looks, triangles * sizeof(TriangleLook));
-    set_array(batch, BATCH_NORMALS, flat->normals, flat->normals_count * sizeof(CornerNormals));
-    if (flat->layout == NODES_WIDE) {
-        set_array(batch, BATCH_NODES, flat->wides, flat->node_count * sizeof(BvhWide));
-        set_array(batch, BATCH_TRIANGLES, flat->blocks, flat->block_count * sizeof(TriangleBlock));
-    } else {
-        set_array(batch, BATCH_NODES, flat->pairs, flat->node_count * sizeof(BvhPair));
-        set_array(batch, BATCH_TRIANGLES, flat->triangles, triangles * sizeof(TriangleData));
-    }
+    flat_arrays(flat, arrays);
+    for (int place = 0; place < FLAT_ARRAYS; place++)
+        set_array(batch, place, &arrays[place]);
     batch->frame = (FrameData){.sphere_count = flat->sphere_count,
                                .triangle_count = flat->triangle_count,
                                .uses_bvh = flat->node_count > 0};

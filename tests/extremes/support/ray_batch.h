@@ -34,24 +34,12 @@ typedef enum {
     BATCH_TASKS
 } BatchTask;
 
-// The buffers of a scene, in the order of the kernels' arguments.
-typedef enum {
-    BATCH_LIGHTS, // always empty, like the materials
-    BATCH_MATERIALS,
-    BATCH_SPHERES,
-    BATCH_NODES,
-    BATCH_TRIANGLES,
-    BATCH_LOOKS,
-    BATCH_NORMALS,
-    BATCH_ARRAYS
-} BatchArray;
-
 typedef struct {
     Device device;
     Program program;
     cl_kernel kernels[BATCH_TASKS];
     cl_mem rays, hits, outward;
-    cl_mem arrays[BATCH_ARRAYS];
+    cl_mem arrays[FLAT_ARRAYS]; // of the scene
     FrameData frame;
     KernelChoice choice; // form_choice; with wide nodes, lanes is not 0
 } RayBatch;
