@@ -8,7 +8,7 @@ static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface
     const LightSample light = sample_light(tracer, index, surface, met);
     if (!any_lane(light.faces))
         return light.faces;
-    const Ray ray = ray_to_light(surface, &light);
+    const Ray ray = ray_to_light(tracer, surface, &light);
     return light.faces && blocking_hit(tracer, &ray).id == NOTHING;
 }
 

@@ -95,7 +95,7 @@ static inline void note_light(const Notes *notes, const Tracer *tracer, uint ind
     note_count(notes, LIGHT_BLOCKER, (UInt)(NOTHING));
     if (!any_lane(light.faces))
         return;
-    const Ray ray = ray_to_light(lighting->surface, &light);
+    const Ray ray = ray_to_light(tracer, lighting->surface, &light);
     const Hit blocker = blocking_hit(tracer, &ray);
     const Received received = receive_light(&light, lighting, light.faces && blocker.id == NOTHING);
     note_count(notes, LIGHT_STATE,

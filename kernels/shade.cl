@@ -66,11 +66,12 @@ static inline LightSample sample_light(const Tracer *tracer, uint index, const S
 // Returns the shadow ray. It starts at the surface, because hits near a ray's start are the most
 // precise. Light then leaks through no edge of a closed shape, at any distance. If shadow rays
 // started at the light, packets would be 2 % faster in small scenes and slower in large scenes.
-static inline Ray ray_to_light(const Surface *surface, const LightSample *light)
+static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
+                               const LightSample *light)
 {
     Heading heading = {light->position, true};
     const Real sine = fabs(dot_product(surface->face, light->toward));
-    const Real3 point = point_left(surface, &heading, sine, light->faces);
+    const Real3 point = point_left(tracer, surface, &heading, sine, light->faces);
     return (Ray){point,       difference(light->position, point),
                  surface->id, surface->index,
                  RAY_SHADOW,  light->faces};
@@ -133,7 +134,7 @@ static inline void add_light(const Tracer *tracer, uint index, const Lighting li
         light[i] = sample_light(tracer, index, lighting[i].surface, lighting[i].wanted);
         if (!any_lane(light[i].faces))
             continue;
-        rays[i] = ray_to_light(lighting[i].surface, &light[i]);
+        rays[i] = ray_to_light(tracer, lighting[i].surface, &light[i]);
         if (CLRT_STATISTICS)
             tracer->tally->shadow_rays += lane_count(light[i].faces);
     }

@@ -244,10 +244,12 @@ typedef struct {
     Mask to_front;
 } Leaving;
 
-static inline Leaving leaving_from(const Surface *surface)
+static inline Leaving leaving_from(const Tracer *tracer, const Surface *surface, Mask known)
 {
     Leaving leaving;
-    const Corners corners = {surface->a, surface->b, surface->c};
+    Corners corners = {surface->a, surface->b, surface->c};
+    if (CLRT_GPU) // b and c would take 18 registers between the surface's rays
+        corners = fetch_corners(tracer, known ? surface->index : (UInt)(0));
     const Real3 ab = difference(corners.b, corners.a), ac = difference(corners.c, corners.a);
     leaving.corners = corners;
     leaving.to_front = dot_product(cross_product(ab, ac), surface->face) > 0.0f;
@@ -281,10 +283,10 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
 // the start moves toward the triangle's middle. Its distances from the surface point are
 // UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, and end at the middle. A reflected ray that
 // still misses its triangle is lifted.
-static NOT_INLINE Real3 point_inside(const Surface *surface, Heading *heading, Real sine,
-                                     Mask near_edge)
+static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
+                                     Real sine, Mask near_edge)
 {
-    const Leaving leaving = leaving_from(surface);
+    const Leaving leaving = leaving_from(tracer, surface, near_edge);
     const Real third = RATIO(1.0f, 3.0f);
     const Real3 middle = weighted(real3_of(third, third, third), &leaving.corners);
     const Real3 inward = difference(middle, surface->point);
@@ -307,19 +309,20 @@ static NOT_INLINE Real3 point_inside(const Surface *surface, Heading *heading, R
 // line should pass through the surface's triangle. Rounding can prevent this only near edges: a
 // point with coordinates up to 1 is off by some units of rounding, and along the plane the line is
 // off by this error divided by the sine (docs/numerics.md, B14).
-static inline Real3 point_left(const Surface *surface, Heading *heading, Real sine, Mask active)
+static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Heading *heading,
+                               Real sine, Mask active)
 {
     const Real least = 8.0f * POINT_BLUR * UNIT_ROUNDOFF * surface->edge;
     const Mask near_edge = active && surface->index != NOTHING && !(surface->room * sine > least);
     if (!CLRT_TRIANGLES || !any_lane(near_edge))
         return surface->point;
-    return point_inside(surface, heading, sine, near_edge);
+    return point_inside(tracer, surface, heading, sine, near_edge);
 }
 
 // Returns the reflected ray. An interpolated normal can send it into the surface that it leaves.
 // Such a ray is mirrored out at the face. Its direction then still changes continuously with the
 // normal.
-static inline Ray ray_reflected(const Surface *surface, Mask active)
+static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Mask active)
 {
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);
     const Real3 direction =
@@ -329,7 +332,7 @@ static inline Ray ray_reflected(const Surface *surface, Mask active)
     const Real3 turned = choose3(height < 0.0f, outward, direction);
     Heading heading = {turned, false};
     const Real sine = fabs(dot_product(surface->face, turned));
-    const Real3 point = point_left(surface, &heading, sine, active);
+    const Real3 point = point_left(tracer, surface, &heading, sine, active);
     return (Ray){point, heading.to, surface->id, surface->index, RAY_REFLECTED, active};
 }
 

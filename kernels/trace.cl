@@ -80,7 +80,7 @@ static inline UInt surface_word(const FrameData *frame, const Surface *surface)
 }
 
 // Sets the next ray of each lane that has one. Returns whether any lane has one.
-static inline bool aim_rays(Paths *paths)
+static inline bool aim_rays(const Tracer *tracer, Paths *paths)
 {
     bool any = false;
     for (uint i = 0; i < PACKETS; i++) {
@@ -89,7 +89,7 @@ static inline bool aim_rays(Paths *paths)
         if (!any_lane(path->reflects))
             paths->rays[i].active = 0;
         else if (CLRT_MIRRORS && paths->level > 0)
-            paths->rays[i] = ray_reflected(&path->surface, path->reflects);
+            paths->rays[i] = ray_reflected(tracer, &path->surface, path->reflects);
     }
     return any;
 }
@@ -120,7 +120,7 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
 // have ended.
 static inline bool paths_step(const Tracer *tracer, Paths *paths)
 {
-    if (paths->level == tracer->frame->max_level || !aim_rays(paths))
+    if (paths->level == tracer->frame->max_level || !aim_rays(tracer, paths))
         return false;
     paths->level++;
     nearest_hits(tracer, paths->rays, PACKETS, paths->hits);
