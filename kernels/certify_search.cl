@@ -185,6 +185,10 @@ static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
     PairStack stack;
     PairPlace place = {0};
     bool enters = true;
+    if (!tracer->frame->uses_bvh) {
+        search_leaf(tracer, search, (uint2)(0, tracer->frame->triangle_count));
+        return;
+    }
     while (enters && !search_is_over(search)) {
         while (enters && place.count == 0)
             enters = descend_in_cone(tracer, search, &stack, &place);

@@ -273,7 +273,7 @@ typedef struct {
     float direction[3];
     uint own;       // id of the primitive it starts on, or NOTHING
     uint own_index; // index of that primitive if it is a triangle, else NOTHING
-    uint padding;
+    float doubt;    // of certify_rays.cl: bound on the distance between origin and the exact start
 } RayData;
 CLRT_SAME_SIZE(RayData, 40)
 

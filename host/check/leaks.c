@@ -55,7 +55,7 @@ static bool trace_aims(StagedMesh *staged, LeakCount *count, const RayCaster *ca
     for (int from = 0; ok && from < 2; from++) {
         const size_t rays = make_rays[from](aims, batch.rays, batch.targets);
         const RayCast cast = {.scene = &staged->buffers, .rays = batch.rays, .count = rays};
-        ok = ray_caster_cast(caster, &cast, batch.hits, error);
+        ok = ray_caster_cast(caster, &cast, batch.hits, NULL, error);
         if (ok)
             aims_judge(aims, batch.targets, batch.hits, rays);
         count->rays += rays;

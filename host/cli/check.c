@@ -35,7 +35,7 @@ static bool trace_leaks(Check *check, Session *session, Error *error)
 {
     RayCaster caster;
     check->leaks = memory_zeroed(check->scene->objects.count, sizeof *check->leaks, error);
-    if (check->leaks == NULL || !ray_caster_open(&caster, session, error))
+    if (check->leaks == NULL || !ray_caster_open(&caster, session, RAYS_NEAREST, error))
         return false;
     const bool ok = count_leaks(check, session, &caster, error);
     ray_caster_close(&caster);

@@ -391,6 +391,9 @@ typedef struct {
     // Only for clrt_trace_all.
     uint32_t *counts; // number of triangles that the ray crosses, which may exceed room
     size_t room;      // entries per ray in the other arrays, at most 1048576
+
+    // Only for clrt_trace, on devices with doubles.
+    uint8_t *certain; // 1 if rounding cannot have changed the primitive, or that there is none
 } ClrtHits;
 
 // Finds each ray's nearest hit. At equal distances, the lowest id counts. A ray's results depend
@@ -403,6 +406,9 @@ typedef struct {
 // 4 and the scene has no spheres, the origin first moves along the ray toward the box. In these
 // units, the error of a distance is at most 18 * 2^-24 times the distance of the triangle's
 // farthest corner from the origin, measured along the longest axis of the direction.
+//
+// A ray is certain if exact arithmetic on the caller's doubles and on the stored floats hits the
+// same primitive. Rays through edges, and rays to almost equal distances, are uncertain.
 CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                          const ClrtHits *hits, ClrtError *error);
 

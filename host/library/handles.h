@@ -6,6 +6,7 @@
 #include "library/clrt.h"
 #include "scene/scene.h"
 #include "session/picture.h"
+#include "session/ray_caster.h"
 #include "session/ray_scene.h"
 
 #include <stdatomic.h>
@@ -56,9 +57,11 @@ bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *e
 // The inside of a ClrtRenderer.
 struct ClrtRenderer {
     Session session;
-    RayScene rays;       // empty until rays are cast
-    atomic_bool is_busy; // true while a picture is drawn or rays are cast
-    uint64_t state;      // ClrtScene::state of the session's scene; 0 without a scene
+    RayCaster casters[RAY_QUERIES]; // open after the first rays that need them
+    RayScene rays;                  // empty until rays are cast
+    RayScene certain_rays;          // the same for RAYS_CERTAIN
+    atomic_bool is_busy;            // true while a picture is drawn or rays are cast
+    uint64_t state;                 // ClrtScene::state of the session's scene; 0 without a scene
 };
 
 // Gives the session the scene, unless the session already has it in this state. The scene is

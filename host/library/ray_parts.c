@@ -106,19 +106,16 @@ static double power_to_one(double size)
     return power;
 }
 
-// Moves the origin to the point where the ray enters the cube. Returns the t of this point, or 0 if
-// the origin stays.
-static double move_to_cube(Vec3 *origin, Vec3 direction)
+// Moves a point along the ray. Adds the sizes of both parts to *sizes.
+static void advance(Vec3 *origin, Vec3 direction, double t, double *sizes)
 {
-    const double ahead = cube_entry(*origin, direction);
-    if (!(ahead > 0))
-        return 0;
-    *origin = vec3_add(*origin, vec3_scale(direction, ahead));
-    return ahead;
+    const Vec3 way = vec3_scale(direction, t);
+    *origin = vec3_add(*origin, way);
+    *sizes += sum_of(way) + sum_of(*origin);
 }
 
-// Stores a ray's direction and limit, and returns its normalized origin. A ray that can hit nothing
-// gets a limit below 0.
+// Stores a ray's direction, its limit and the rounding of doubles as its doubt, and returns its
+// normalized origin. A ray that can hit nothing gets a limit below 0.
 static Vec3 convert(const Entry *entry, const GivenRay *given)
 {
     const double largest = largest_of(given->direction);
@@ -128,14 +125,19 @@ static Vec3 convert(const Entry *entry, const GivenRay *given)
     const Vec3 direction = vec3_scale(given->direction, shrink);
     double start = given->near;
     Vec3 origin = vec3_scale(vec3_sub(given->origin, entry->center), entry->scale);
+    double sizes = sum_of(origin);
     if (start != 0)
-        origin = vec3_add(origin, vec3_scale(direction, start / unit));
-    if (largest_of(origin) > 2 * CUBE && entry->scene->flat.sphere_count == 0)
-        start += move_to_cube(&origin, direction) * unit;
+        advance(&origin, direction, start / unit, &sizes);
+    if (largest_of(origin) > 2 * CUBE && entry->scene->flat.sphere_count == 0) {
+        const double ahead = fmax(cube_entry(origin, direction), 0);
+        advance(&origin, direction, ahead, &sizes);
+        start += ahead * unit;
+    }
     const double limit = given->far < INFINITY ? (given->far - start) / unit : INFINITY;
-    const bool is_ray = is_usable && sum_of(origin) < FARTHEST && given->far >= start;
+    const bool is_ray = is_usable && sum_of(origin) < FARTHEST;
     RayData *ray = &entry->part->rays[entry->entry];
-    ray->limit = !is_ray ? -1 : limit < 0x1p127 ? (float)limit : INFINITY;
+    ray->doubt = is_ray ? (float)(0x1p-50 * sizes) : INFINITY;
+    ray->limit = !is_ray || !(given->far >= start) ? -1 : limit < 0x1p127 ? (float)limit : INFINITY;
     vec3_store(ray->direction, direction);
     entry->part->starts[entry->entry] = start;
     entry->part->units[entry->entry] = unit;
@@ -182,11 +184,12 @@ static bool fill_entry(const Entry *entry, const GivenRay *given, size_t number,
                               OFF_PLANE * entry->inverse_scale);
     }
     vec3_store(ray->origin, origin);
+    ray->doubt += (float)(1.01 * fabs(off) + 1.01 * 0x1p-24 * sum_of(origin));
     return true;
 }
 
 bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *rays,
-                   size_t *on_surface, ClrtError *error)
+                   ClrtError *error)
 {
     const Normalization *frame = &renderer->session.scene.normalization;
     Entry entry = {part, &renderer->rays, frame->center, frame->scale, 1 / frame->scale, 0};
@@ -199,8 +202,15 @@ bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *
         if (!fill_entry(&entry, &given, number, error))
             return false;
     }
-    *on_surface = part->count - last;
+    part->on_surface = part->count - last;
     return true;
+}
+
+void ray_part_move(RayPart *part, const RayScene *scene)
+{
+    for (RayData *ray = part->rays; ray < part->rays + part->count; ray++)
+        if (ray->own_index != NOTHING)
+            ray->own_index = scene->places[ray->own - scene->flat.sphere_count];
 }
 
 static Vec3 sphere_center(const SphereData *sphere)

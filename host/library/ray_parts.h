@@ -13,13 +13,16 @@ typedef struct {
     double starts[PART_RAYS], units[PART_RAYS]; // the caller's t = starts + units * the device's t
     uint32_t order[PART_RAYS];                  // by entry: the ray's number in the part
     size_t first, count;                        // of the batch's rays
+    size_t on_surface; // number of the last entries, whose rays start on primitives
 } RayPart;
 
-// Fills part->rays with the batch's rays [first, first + count). Rays that start on primitives come
-// last, and *on_surface receives their number. Fails if such a ray's primitive does not exist or is
-// too far from its origin.
+// Fills part->rays with the batch's rays [first, first + count). Fails if a ray starts on a
+// primitive that does not exist or is too far from its origin.
 bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *rays,
-                   size_t *on_surface, ClrtError *error);
+                   ClrtError *error);
+
+// Replaces the places of triangles by those in another layout of the scene.
+void ray_part_move(RayPart *part, const RayScene *scene);
 
 // A hit of an entry, and the index of its results in the caller's arrays.
 typedef struct {

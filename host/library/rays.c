@@ -19,6 +19,7 @@ typedef struct {
     RayResults results;
     RayPart part;
     uint32_t counts[PART_RAYS]; // crossings of each ray
+    HitData certain[PART_RAYS]; // of RAYS_CERTAIN
     HitData *hits;              // room for one part
 } Batch;
 
@@ -34,20 +35,36 @@ static size_t part_rays(const RayResults *results)
     return most < PART_RAYS ? most : PART_RAYS;
 }
 
-static bool trace_part(Batch *batch, size_t on_surface, Error *error)
+// Casts first the rays that start anywhere, then the rays that start on primitives. All rays that
+// find crossings start anywhere.
+static bool cast(Batch *batch, RayQuery query, const RayScene *scene, HitData *hits, Error *error)
 {
-    const RayScene *scene = &batch->renderer->rays;
-    const size_t free_rays = batch->part.count - on_surface;
-    const bool any = batch->results.occluded != NULL;
-    const RayCast casts[2] = {
-        {&scene->buffers, batch->part.rays, free_rays, RAYS_FREE, any},
-        {&scene->buffers, batch->part.rays + free_rays, on_surface, RAYS_ON_SURFACE, any}};
-    const RayCast all = {&scene->buffers, batch->part.rays, batch->part.count, RAYS_FREE, false};
-    CrossingList found = {batch->counts, batch->hits, (uint32_t)room_of(&batch->results)};
-    if (batch->results.finds_all)
-        return crossing_finder_find(&scene->finder, &all, &found, error);
-    return ray_caster_cast(&scene->caster, &casts[0], batch->hits, error) &&
-           ray_caster_cast(&scene->caster, &casts[1], batch->hits + free_rays, error);
+    const RayPart *part = &batch->part;
+    const RayCaster *caster = &batch->renderer->casters[query];
+    const size_t split = part->count - (query == RAYS_CROSSED ? 0 : part->on_surface);
+    RayCast cast = {.scene = &scene->buffers,
+                    .rays = part->rays,
+                    .count = split,
+                    .any = batch->results.occluded != NULL,
+                    .room = (uint32_t)room_of(&batch->results)};
+    if (!ray_caster_cast(caster, &cast, hits, batch->counts, error))
+        return false;
+    cast.rays += split;
+    cast.count = part->count - split;
+    cast.start = RAYS_ON_SURFACE;
+    return cast.count == 0 || ray_caster_cast(caster, &cast, hits + split, NULL, error);
+}
+
+static bool trace_part(Batch *batch, Error *error)
+{
+    ClrtRenderer *renderer = batch->renderer;
+    const RayQuery query = batch->results.finds_all ? RAYS_CROSSED : RAYS_NEAREST;
+    if (!cast(batch, query, &renderer->rays, batch->hits, error))
+        return false;
+    if (batch->results.hits.certain == NULL)
+        return true;
+    ray_part_move(&batch->part, &renderer->certain_rays);
+    return cast(batch, RAYS_CERTAIN, &renderer->certain_rays, batch->certain, error);
 }
 
 // Stores the results of one ray.
@@ -66,6 +83,9 @@ static void store(const Batch *batch, size_t entry)
         results->occluded[ray] = batch->hits[entry].id != NOTHING;
     if (results->inside != NULL)
         results->inside[ray] = count % 2;
+    if (results->hits.certain != NULL)
+        results->hits.certain[ray] =
+            batch->certain[entry].t == 0 && batch->certain[entry].id == batch->hits[entry].id;
     if (results->finds_all && results->hits.counts != NULL)
         results->hits.counts[ray] = count;
 }
@@ -77,14 +97,13 @@ static bool trace_parts(Batch *batch, ClrtError *error)
     const size_t most = part_rays(&batch->results);
     const uint64_t parts = (rays->count + most - 1) / most;
     for (uint64_t done = 0; done < parts; done++) {
-        size_t on_surface = 0;
         batch->part.first = done * most;
         batch->part.count = rays->count - batch->part.first;
         if (batch->part.count > most)
             batch->part.count = most;
-        if (!ray_part_fill(&batch->part, batch->renderer, rays, &on_surface, error))
+        if (!ray_part_fill(&batch->part, batch->renderer, rays, error))
             return false;
-        if (!trace_part(batch, on_surface, &cause))
+        if (!trace_part(batch, &cause))
             return check_fail_for(error, CLRT_DEVICE, &cause);
         for (size_t entry = 0; entry < batch->part.count; entry++)
             store(batch, entry);
@@ -96,14 +115,14 @@ static bool trace_parts(Batch *batch, ClrtError *error)
     return true;
 }
 
-static bool open_kernel(ClrtRenderer *renderer, const RayResults *results, Error *error)
+// Opens a caster and takes the scene in the layout of its kernel.
+static bool prepare_query(const Batch *batch, RayQuery query, RayScene *scene, Error *error)
 {
-    RayScene *scene = &renderer->rays;
-    if (results->finds_all)
-        return scene->finder.kernel != NULL ||
-               crossing_finder_open(&scene->finder, &renderer->session, error);
-    return scene->caster.kernel != NULL ||
-           ray_caster_open(&scene->caster, &renderer->session, error);
+    Session *session = &batch->renderer->session;
+    RayCaster *caster = &batch->renderer->casters[query];
+    return (caster->kernel != NULL || ray_caster_open(caster, session, query, error)) &&
+           ray_scene_take(scene, session, caster->kernel->choice.nodes, batch->rays.one_sided,
+                          error);
 }
 
 static bool prepare(const Batch *batch, const ClrtScene *scene, ClrtError *error)
@@ -112,8 +131,10 @@ static bool prepare(const Batch *batch, const ClrtScene *scene, ClrtError *error
     ClrtRenderer *renderer = batch->renderer;
     if (!renderer_handle_take(renderer, scene, error))
         return false;
-    return (open_kernel(renderer, &batch->results, &cause) &&
-            ray_scene_take(&renderer->rays, &renderer->session, batch->rays.one_sided, &cause)) ||
+    const RayQuery query = batch->results.finds_all ? RAYS_CROSSED : RAYS_NEAREST;
+    return (prepare_query(batch, query, &renderer->rays, &cause) &&
+            (batch->results.hits.certain == NULL ||
+             prepare_query(batch, RAYS_CERTAIN, &renderer->certain_rays, &cause))) ||
            check_fail_for(error, CLRT_DEVICE, &cause);
 }
 
@@ -163,6 +184,8 @@ bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRa
     RayResults results = {.finds_all = true};
     return check_struct(error, "the hits", hits, &results.hits, sizeof results.hits) &&
            check_number(error, "the room for hits", (double)results.hits.room, 0, CROSSINGS_MAX) &&
+           (results.hits.certain == NULL ||
+            check_fail(error, CLRT_ARGUMENT, "only clrt_trace finds which rays are certain")) &&
            trace_alone(renderer, scene, rays, &results, error);
 }
 

@@ -72,11 +72,19 @@ ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *erro
     return NULL;
 }
 
+static void free_rays(ClrtRenderer *renderer)
+{
+    ray_scene_free(&renderer->rays);
+    ray_scene_free(&renderer->certain_rays);
+}
+
 void clrt_renderer_free(ClrtRenderer *renderer)
 {
     if (renderer == NULL)
         return;
-    ray_scene_free(&renderer->rays);
+    free_rays(renderer);
+    for (int query = 0; query < RAY_QUERIES; query++)
+        ray_caster_close(&renderer->casters[query]);
     session_close(&renderer->session);
     free(renderer);
 }
@@ -89,7 +97,7 @@ bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtEr
     if (renderer->state == scene->state)
         return true;
     renderer->state = 0;
-    ray_scene_drop(&renderer->rays);
+    free_rays(renderer);
     if (!session_take(session, &scene->scene, &cause))
         return check_fail_for(error, CLRT_SCENE, &cause);
     renderer->state = scene->state;

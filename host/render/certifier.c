@@ -11,13 +11,11 @@ extern const char certify_source[];
 bool certifier_check_device(const Device *device, Error *error)
 {
     if (!device->has_fp64)
-        return error_set(error, "%s has no double arithmetic, which --aov certainty needs",
-                         device->name);
+        return error_set(error, "%s has no double arithmetic, which certainty needs", device->name);
     if (!device->has_denormals)
-        return error_set(error, "%s has no denormal numbers, which --aov certainty needs",
-                         device->name);
+        return error_set(error, "%s has no denormal numbers, which certainty needs", device->name);
     return device->correct_division ||
-           error_set(error, "%s does not round divisions correctly, which --aov certainty needs",
+           error_set(error, "%s does not round divisions correctly, which certainty needs",
                      device->name);
 }
 

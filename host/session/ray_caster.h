@@ -4,19 +4,27 @@
 
 #include "session/session.h"
 
+// The kernels that trace arrays of rays.
+typedef enum {
+    RAYS_NEAREST, // kernels/rays.cl: the nearest hit, or whether there is one
+    RAYS_CROSSED, // kernels/crossings.cl: the number of crossings, and the nearest ones in order
+    RAYS_CERTAIN, // kernels/certify_rays.cl: the hits that rounding cannot change; in pair nodes
+    RAY_QUERIES
+} RayQuery;
+
 typedef struct {
     const Kernel *kernel;
-    cl_mem rays, hits; // room for one launch
+    cl_mem rays, hits, counts; // room for one launch; counts is NULL unless RAYS_CROSSED
 } RayCaster;
 
-// Compiles the session's kernel.
-bool ray_caster_open(RayCaster *caster, Session *session, Error *error);
+// Compiles the session's kernel. Fails for RAYS_CERTAIN if the device has no exact arithmetic.
+bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, Error *error);
 void ray_caster_close(RayCaster *caster);
 
-// How rays start. The values equal those of RayKind in the kernels.
+// How rays start. The numbers are those of the kernels' RayKind.
 typedef enum {
     RAYS_FREE,      // anywhere
-    RAYS_ON_SURFACE // on the primitive that each ray names
+    RAYS_ON_SURFACE // on the primitives that they name
 } RayStart;
 
 typedef struct {
@@ -24,29 +32,13 @@ typedef struct {
     const RayData *rays;
     size_t count;
     RayStart start;
-    bool any; // finds whether rays hit anything
+    bool any;      // of RAYS_NEAREST: stores any hit
+    uint32_t room; // of RAYS_CROSSED: hits stored for each ray; at most CROSSINGS_MAX
 } RayCast;
-
-// Stores the nearest hit of each ray, or any hit if this is all that the cast asks for.
-bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, Error *error);
-
-// Finds all triangles that a ray crosses (kernels/crossings.cl).
-typedef struct {
-    const Kernel *kernel;
-    cl_mem rays, hits, counts; // room for one launch
-} CrossingFinder;
-
-bool crossing_finder_open(CrossingFinder *finder, Session *session, Error *error);
-void crossing_finder_close(CrossingFinder *finder);
-
-// Results for each ray: the number of crossings, and the nearest `room` of them in order.
-typedef struct {
-    uint32_t *counts;
-    HitData *hits; // NULL if room is 0
-    uint32_t room; // at most CROSSINGS_MAX
-} CrossingList;
 
 #define CROSSINGS_MAX 1048576
 
-bool crossing_finder_find(const CrossingFinder *finder, const RayCast *cast, CrossingList *found,
-                          Error *error);
+// Stores the hits of the rays, and the numbers of crossings of RAYS_CROSSED in counts. hits may be
+// NULL without room, and counts for other queries.
+bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, uint32_t *counts,
+                     Error *error);

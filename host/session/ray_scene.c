@@ -5,28 +5,20 @@
 
 #include <stdlib.h>
 
-void ray_scene_drop(RayScene *ray_scene)
+void ray_scene_free(RayScene *ray_scene)
 {
     scene_buffers_free(&ray_scene->buffers);
     flat_free(&ray_scene->flat);
     triangles_free(&ray_scene->triangles);
     free(ray_scene->places);
     free(ray_scene->mesh_starts);
-    *ray_scene = (RayScene){.caster = ray_scene->caster, .finder = ray_scene->finder};
-}
-
-void ray_scene_free(RayScene *ray_scene)
-{
-    ray_scene_drop(ray_scene);
-    ray_caster_close(&ray_scene->caster);
-    crossing_finder_close(&ray_scene->finder);
     *ray_scene = (RayScene){0};
 }
 
-static bool compile(RayScene *ray_scene, const Session *session, const Scene *scene, Error *error)
+static bool compile(RayScene *ray_scene, const Session *session, const Scene *scene,
+                    NodeLayout layout, Error *error)
 {
     CompileStages stages = {0};
-    const NodeLayout layout = session->choice.nodes;
     const CompileSource source = {
         .scene = scene,
         .normalization = &session->scene.normalization,
@@ -44,7 +36,8 @@ static bool compile(RayScene *ray_scene, const Session *session, const Scene *sc
 }
 
 // The copy borrows everything but the list of its objects.
-static bool compile_both_sides(RayScene *ray_scene, const Session *session, Error *error)
+static bool compile_both_sides(RayScene *ray_scene, const Session *session, NodeLayout layout,
+                               Error *error)
 {
     Scene both = *session->scene.scene;
     const size_t count = both.objects.count;
@@ -55,7 +48,7 @@ static bool compile_both_sides(RayScene *ray_scene, const Session *session, Erro
         both.objects.data[i] = session->scene.scene->objects.data[i];
         both.objects.data[i].two_sided = true;
     }
-    const bool ok = compile(ray_scene, session, &both, error);
+    const bool ok = compile(ray_scene, session, &both, layout, error);
     free(both.objects.data);
     return ok;
 }
@@ -102,18 +95,20 @@ uint32_t ray_scene_mesh(const RayScene *ray_scene, uint32_t triangle)
     return low;
 }
 
-bool ray_scene_take(RayScene *ray_scene, Session *session, bool one_sided, Error *error)
+bool ray_scene_take(RayScene *ray_scene, Session *session, NodeLayout layout, bool one_sided,
+                    Error *error)
 {
+    const Scene *scene = session->scene.scene;
     if (ray_scene->is_loaded && ray_scene->one_sided == one_sided)
         return true;
-    ray_scene_drop(ray_scene);
+    ray_scene_free(ray_scene);
     const bool ok =
-        (one_sided ? compile(ray_scene, session, session->scene.scene, error)
-                   : compile_both_sides(ray_scene, session, error)) &&
-        find_places(ray_scene, error) && list_meshes(ray_scene, session->scene.scene, error) &&
+        (one_sided ? compile(ray_scene, session, scene, layout, error)
+                   : compile_both_sides(ray_scene, session, layout, error)) &&
+        find_places(ray_scene, error) && list_meshes(ray_scene, scene, error) &&
         scene_buffers_make(&ray_scene->buffers, &session->device, &ray_scene->flat, error);
     if (!ok)
-        ray_scene_drop(ray_scene);
+        ray_scene_free(ray_scene);
     ray_scene->is_loaded = ok;
     ray_scene->one_sided = one_sided;
     return ok;

@@ -4,11 +4,9 @@
 // two-sided unless the caller requests one side.
 #pragma once
 
-#include "session/ray_caster.h"
+#include "session/session.h"
 
 typedef struct {
-    RayCaster caster;      // open after the first rays
-    CrossingFinder finder; // open after the first search for crossings
     FlatScene flat;
     SceneBuffers buffers;
     Triangles triangles;   // as traced, in the order of their ids
@@ -18,14 +16,12 @@ typedef struct {
     bool is_loaded, one_sided;
 } RayScene;
 
-// Compiles the scene, unless ray_scene has it already. If compiling fails, ray_scene is left
-// without a scene.
-bool ray_scene_take(RayScene *ray_scene, Session *session, bool one_sided, Error *error);
+// Compiles the session's scene in a layout of nodes, unless ray_scene has it already. If compiling
+// fails, ray_scene is left without a scene.
+bool ray_scene_take(RayScene *ray_scene, Session *session, NodeLayout layout, bool one_sided,
+                    Error *error);
 
 // Releases the scene, after which the session's scene may change.
-void ray_scene_drop(RayScene *ray_scene);
-
-// Releases everything, before the session closes.
 void ray_scene_free(RayScene *ray_scene);
 
 // Returns the index of the mesh that contains the triangle.

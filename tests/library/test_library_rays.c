@@ -108,7 +108,7 @@ static ClrtRays rays_given(size_t count)
 typedef struct {
     double distances[RAYS], weights[RAYS][2], normals[RAYS][3];
     uint32_t primitives[RAYS], meshes[RAYS], triangles[RAYS];
-    uint8_t fronts[RAYS];
+    uint8_t fronts[RAYS], certain[RAYS];
 } Results;
 
 static ClrtHits hits_in(Results *results, size_t first)
@@ -120,7 +120,8 @@ static ClrtHits hits_in(Results *results, size_t first)
                       .triangles = results->triangles + first,
                       .weights = results->weights[first],
                       .normals = results->normals[first],
-                      .fronts = results->fronts + first};
+                      .fronts = results->fronts + first,
+                      .certain = results->certain + first};
 }
 
 static Results all, others, inward;

@@ -23,8 +23,9 @@ class Hits:
     as the meshes and their faces were given. Without a hit, and for the mesh and face of spheres,
     they are clrt.NOTHING. weights: float64, of shape (n, 2), those of the face's second and third
     corner; u and v are its columns. normal: float64, of shape (n, 3), the unit normal of the front.
-    front: bool, whether the ray comes from the front. ray: the rays' numbers, of trace_all only.
-    Arrays that were not requested are None.
+    front: bool, whether the ray comes from the front. certain: bool, whether rounding cannot have
+    changed the primitive; only on request, and not of trace_all. ray: the rays' numbers, of
+    trace_all only. Arrays that were not requested are None.
     """
 
     distance: np.ndarray | None = _array("distances", np.float64)
@@ -34,6 +35,7 @@ class Hits:
     weights: np.ndarray | None = _array("weights", np.float64, 2)
     normal: np.ndarray | None = _array("normals", np.float64, 3)
     front: np.ndarray | None = _array("fronts", np.bool_)
+    certain: np.ndarray | None = _array("certain", np.bool_)
     ray: np.ndarray | None = None
 
     @property
@@ -51,7 +53,7 @@ class Hits:
 
 _ARRAYS = {field.name: field.metadata["made"] for field in dataclasses.fields(Hits)
            if field.metadata}
-RESULTS = tuple(_ARRAYS)
+RESULTS = tuple(name for name in _ARRAYS if name != "certain")
 
 
 def rays(origins, directions, *, near=None, far=None, starts=None, one_sided=False):

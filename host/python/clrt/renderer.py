@@ -79,10 +79,11 @@ class Renderer:
         """Finds the nearest hit of each ray and returns Hits.
 
         origins, directions: (n, 3) numbers, or three for all rays; float64 arrays are not copied.
-        results: what to compute; fewer take less time. Limits: near and far limit the distance, one
-        number or n. starts: the primitive on which each ray starts (Hits.primitive), so that it is
-        not hit again, or clrt.NOTHING; without near. one_sided: rays pass the backs of meshes that
-        are not two-sided; otherwise all faces stop rays from both sides.
+        results: what to compute; fewer take less time, and "certain" takes the longest. Limits:
+        near and far limit the distance, one number or n. starts: the primitive on which each ray
+        starts (Hits.primitive), so that it is not hit again, or clrt.NOTHING; without near.
+        one_sided: rays pass the backs of meshes that are not two-sided; otherwise all faces stop
+        rays from both sides.
         """
         given = rays(origins, directions, **limits)
         target, arrays = hit_arrays(results, given.count)

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""Nearest hits in rational arithmetic. Coordinates are floats, which Python's fractions hold."""
+import math
+from fractions import Fraction
+
+import numpy as np
+
+
+def _dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def _minus(a, b):
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _exact(values):
+    return tuple(Fraction(float(value)) for value in values)
+
+
+def _candidates(corners, origin, direction):
+    """Which triangles the ray may hit, by long doubles with a generous margin."""
+    a, b, c = (corners[:, i].astype(np.longdouble) - origin.astype(np.longdouble) for i in range(3))
+    direction = direction.astype(np.longdouble)
+    sides = [np.cross(p, q) @ direction for p, q in ((b, c), (c, a), (a, b))]
+    size = np.abs(np.stack((a, b, c))).max(axis=(0, 2))
+    margin = 1e-12 * size**2 * np.abs(direction).max()
+    low, high = np.min(sides, axis=0), np.max(sides, axis=0)
+    return np.nonzero((low >= -margin) | (high <= margin))[0]
+
+
+def _meeting(corners, origin, direction):
+    """The t of the hit, whether it is on an outline, or None."""
+    a, b, c = (_minus(corner, origin) for corner in corners)
+    sides = [_dot(_cross(p, q), direction) for p, q in ((b, c), (c, a), (a, b))]
+    whole = sum(sides)
+    if whole == 0 or min(sides) * whole < 0 or max(sides) * whole < 0:
+        return None
+    t = sum(side * _dot(corner, direction) for side, corner in zip(sides, (a, b, c)))
+    return t / (whole * _dot(direction, direction)), 0 in sides
+
+
+def _root(square):
+    """The square root, off by at most 2^-200 of it."""
+    scale = 1 << (400 + 2 * max(0, square.denominator.bit_length() - square.numerator.bit_length()))
+    return Fraction(math.isqrt(square.numerator * scale // square.denominator), math.isqrt(scale))
+
+
+def _sphere_meeting(center, radius, origin, direction):
+    """The t of the hit and whether it is a tangent, or None."""
+    apart, square = _minus(center, origin), _dot(direction, direction)
+    middle = _dot(apart, direction) / square
+    quarter = middle**2 - (_dot(apart, apart) - radius**2) / square
+    if quarter < 0:
+        return None
+    half = _root(quarter) if quarter else Fraction(0)
+    t = middle - half if middle - half >= 0 else middle + half
+    return (t, half == 0) if t >= 0 else None
+
+
+def nearest(corners, origin, direction, own=None, far=math.inf, spheres=()):
+    """(primitive, clear) of the nearest hit; the primitive is None without a hit. Not clear: several
+    primitives are nearest, or the ray passes through an outline. Spheres are (center, radius)."""
+    found, start, way = [], _exact(origin), _exact(direction)
+    for number, (center, radius) in enumerate(spheres):
+        found.append((_sphere_meeting(_exact(center), Fraction(radius), start, way), number))
+    for triangle in _candidates(corners, origin, direction):
+        met = _meeting([_exact(corner) for corner in corners[triangle]], start, way)
+        found.append((met, len(spheres) + triangle))
+    found = [(*met, number) for met, number in found
+             if met and number != own and 0 <= met[0] and met[0] <= far]
+    if not found:
+        return None, True
+    first = min(found)
+    ties = [hit for hit in found if hit[0] == first[0]]
+    return min(hit[2] for hit in ties), len(ties) == 1 and not first[1]
