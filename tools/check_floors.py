@@ -33,7 +33,7 @@ CLIENT = ["base", "image", "mesh", "scene", "session"]
 BELOW |= {
     "check": CLIENT,
     "explain": CLIENT,
-    "library": CLIENT,
+    "library": [*CLIENT, "check"],
     "view": [*CLIENT, "explain"],
     "cli/options": [*CLIENT, "compare"],
     "jobs": CLIENT,

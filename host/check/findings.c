@@ -224,8 +224,8 @@ static void add_mesh_faults(Check *check, size_t object)
     MeshFault counts[FAULT_KINDS];
     check_count_faults(check, object, counts);
     for (FaultKind kind = 0; kind < FAULT_KINDS; kind++) {
-        const Finding finding = {faults[kind].kind, object, faults[kind].fails, counts[kind].count,
-                                 ""};
+        const Finding finding = {faults[kind].kind,  object, faults[kind].fails,
+                                 counts[kind].count, "",     counts[kind].first};
         add(check, finding, "%zu %s, the first %s %zu", counts[kind].count, faults[kind].text,
             faults[kind].place, counts[kind].first);
     }
@@ -276,17 +276,26 @@ static void add_advice(Check *check, size_t object, double scene_size)
             features->height.triangle, features->height.steps);
 }
 
+const char *check_mesh_path(const Check *check, size_t object)
+{
+    const Scene *scene = check->scene;
+    const size_t input =
+        object < scene->objects.count ? scene->objects.data[object].input : NO_INPUT;
+    return input < scene->inputs.count ? scene->inputs.data[input] : NULL;
+}
+
 static void add_enclosed_eyes(Check *check)
 {
     const Scene *scene = check->scene;
     const EnclosedEyes eyes = enclosed_eyes_find(scene, &check->census);
+    const char *path = check_mesh_path(check, eyes.object);
     const Finding finding = note("eye_inside", FINDING_SCENE, eyes.count);
     if (eyes.sphere > 0)
         add(check, finding, "%zu cameras are inside an object, the first is view %zu in sphere %zu",
             eyes.count, eyes.view, eyes.sphere);
     else if (eyes.count > 0)
         add(check, finding, "%zu cameras are inside an object, the first is view %zu in %s",
-            eyes.count, eyes.view, scene->inputs.data[scene->objects.data[eyes.object].input]);
+            eyes.count, eyes.view, path != NULL ? path : "a mesh");
 }
 
 static void add_scene(Check *check)
@@ -306,16 +315,16 @@ static void add_scene(Check *check)
          false},
     };
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
-        const Finding finding = {counts[i].kind, FINDING_SCENE, counts[i].fails, counts[i].count,
-                                 ""};
+        const Finding finding = {
+            counts[i].kind, FINDING_SCENE, counts[i].fails, counts[i].count, "", 0};
         add(check, finding, "%zu %s", counts[i].count, counts[i].text);
     }
     add_enclosed_eyes(check);
     const MissingPart missing = scene_missing(check->scene);
     if (missing.kind != NULL)
-        add(check, (Finding){missing.kind, FINDING_SCENE, missing.is_fault, 1, ""}, "%s",
+        add(check, (Finding){missing.kind, FINDING_SCENE, missing.is_fault, 1, "", 0}, "%s",
             missing.text);
-    const Finding fault = {"scale", FINDING_SCENE, true, check->scale_fault.text[0] != '\0', ""};
+    const Finding fault = {"scale", FINDING_SCENE, true, check->scale_fault.text[0] != '\0', "", 0};
     add(check, fault, "the scene cannot be drawn: %s", check->scale_fault.text);
 }
 

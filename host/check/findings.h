@@ -13,6 +13,7 @@ typedef struct {
     bool fails;
     size_t count; // of occurrences; 1 for advice
     char text[320];
+    size_t first; // the first vertex or triangle of a fault in a mesh
 } Finding;
 
 // The measurements and findings of a check.
@@ -34,6 +35,9 @@ typedef struct {
 bool check_find(Check *check, Error *error);
 
 size_t check_count_failing(const Check *check);
+
+// Returns the path of a mesh's file, or NULL if a program has made the mesh.
+const char *check_mesh_path(const Check *check, size_t object);
 
 // The kinds of faults in a mesh.
 typedef enum {

@@ -7,12 +7,6 @@
 
 #include <math.h>
 
-static const char *mesh_path(const Check *check, size_t object)
-{
-    const Scene *scene = check->scene;
-    return scene->inputs.data[scene->objects.data[object].input];
-}
-
 static json_t *fault_json(MeshFault fault)
 {
     return JSON(FIELD("count", fault.count),
@@ -53,8 +47,8 @@ static json_t *mesh_json(const Check *check, size_t object)
     const Mesh *mesh = &check->scene->objects.data[object].mesh;
     const MeshCensus *census = &check->census.meshes[object];
     const Features *features = &census->features;
-    return JSON(FIELD("path", mesh_path(check, object)), FIELD("triangles", mesh->triangle_count),
-                FIELD("vertices", mesh->vertex_count),
+    return JSON(FIELD("path", check_mesh_path(check, object)),
+                FIELD("triangles", mesh->triangle_count), FIELD("vertices", mesh->vertex_count),
                 FIELD("edges", census->closedness.edge_count),
                 FIELD("closed", census->closedness.is_closed),
                 FIELD("inside_out", census->closedness.is_inside_out),

@@ -4,43 +4,11 @@
 #include "cli/commands.h"
 
 #include "base/clock.h"
-#include "check/census.h"
+#include "check/measure.h"
 #include "check/report.h"
 #include "cli/stages.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-
-static bool count_leaks(Check *check, const Session *session, RayCaster *caster, Error *error)
-{
-    ThreadPool *pool = thread_pool_open(threads_allowed(session->settings.wanted.threads));
-    bool ok = true;
-    for (size_t object = 0; ok && object < check->scene->objects.count; object++) {
-        const LeakSetting setting = {
-            .normalization = &check->normalization,
-            .closedness = &check->census.meshes[object].closedness,
-            .pool = pool,
-            .builder = session_builder(&session->settings.wanted),
-            .uses_bvh = session->settings.wanted.tree != CLRT_TREE_NONE,
-        };
-        const MeshObject *given = &check->scene->objects.data[object];
-        if (given->mesh.triangle_count > 0)
-            ok = leaks_count(&check->leaks[object], caster, given, &setting, error);
-    }
-    thread_pool_close(pool);
-    return ok;
-}
-
-static bool trace_leaks(Check *check, Session *session, Error *error)
-{
-    RayCaster caster;
-    check->leaks = memory_zeroed(check->scene->objects.count, sizeof *check->leaks, error);
-    if (check->leaks == NULL || !ray_caster_open(&caster, session, RAYS_NEAREST, error))
-        return false;
-    const bool ok = count_leaks(check, session, &caster, error);
-    ray_caster_close(&caster);
-    return ok;
-}
 
 // Casts rays to find leaks. A missing device is an error only if the options name a device or fp64.
 // Otherwise, the report contains only the other checks.
@@ -50,15 +18,11 @@ static bool find_leaks(Check *check, Session *session, const Options *options, E
     if (scene_triangle_count(check->scene) == 0)
         return true;
     stage_begin(session, options);
-    if (session_await(session, NULL, &cause) && trace_leaks(check, session, &cause))
-        check->device = session->device.name;
-    else if (options->renderer.device != NULL || options->renderer.precision == CLRT_FP64)
+    if (session_await(session, NULL, &cause) && check_trace(check, session, &cause))
+        return true;
+    if (options->renderer.device != NULL || options->renderer.precision == CLRT_FP64)
         return error_set(error, "%s", cause.text);
-    else {
-        free(check->leaks);
-        check->leaks = NULL;
-        check->device_fault = cause;
-    }
+    check->device_fault = cause;
     return true;
 }
 
@@ -87,9 +51,7 @@ static ExitCode perform(Check *check, const Options *options, Session *session, 
         return EXIT_SCENE;
     if (!command_files_check(options, scene, error))
         return EXIT_OUTPUT;
-    check->normalization = normalization_of(scene);
-    normalization_check(&check->normalization, scene, &check->scale_fault);
-    if (!census_take(&check->census, scene, &check->normalization, error))
+    if (!check_measure(check, error))
         return EXIT_SCENE;
     print_notes(options, scene);
     if (!find_leaks(check, session, options, error))
@@ -102,9 +64,7 @@ ExitCode check_scene(const Options *options, Session *session, Scene *scene, Err
 {
     Check check = {.scene_path = options->scene_path, .scene = scene};
     const ExitCode outcome = perform(&check, options, session, scene, error);
-    free(check.findings.data);
-    free(check.leaks);
-    census_free(&check.census);
+    check_free(&check);
     return outcome;
 }
 

@@ -430,6 +430,54 @@ CLRT_API bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, cons
 CLRT_API bool clrt_occluded(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                             uint8_t *occluded, ClrtError *error);
 
+// Checks
+
+// The facts about a scene's geometry that `clrt check` reports.
+typedef struct ClrtCheck ClrtCheck;
+
+// Examines the meshes of the scene, and casts rays at their edges and vertices to find leaks.
+CLRT_API ClrtCheck *clrt_check(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);
+
+// Frees the check. Accepts NULL.
+CLRT_API void clrt_check_free(ClrtCheck *check);
+
+typedef struct {
+    size_t size;
+    bool fine; // no finding is a fault
+    uint32_t mesh_count, finding_count;
+} ClrtCheckInfo;
+
+typedef struct {
+    size_t size;
+    char path[1024]; // of the mesh's file; empty without one
+    bool closed;     // every edge has two triangles that face one side, and parts share edges
+    bool inside_out; // the mesh is closed, and its fronts face inwards
+    uint64_t triangle_count, vertex_count, edge_count;
+    uint64_t unused_vertices;                // vertices that no triangle uses
+    uint64_t repeated_vertices;              // used vertices at the position of an earlier one
+    double shortest_edge, lowest_height;     // in the scene's units
+    double shortest_steps, lowest_steps;     // the same, in spacings of the traced floats
+    uint64_t aim_count, aimed_at, ray_count; // edges and points, those that got rays, and the rays
+    uint64_t hidden, leaks;                  // aims behind other parts; rays that passed through
+} ClrtCheckedMesh;
+
+typedef struct {
+    size_t size;
+    char kind[32];  // as in `clrt check --json`
+    bool fails;     // the finding is a fault; other findings may be intended
+    uint32_t mesh;  // number of the mesh; CLRT_NOTHING: the whole scene
+    uint64_t count; // of occurrences; 1 for advice
+    uint64_t first; // the first triangle or vertex with a fault; otherwise 0
+    char text[320]; // one message without a final period
+} ClrtFinding;
+
+// Store the facts of the check, of a mesh and of a finding, both numbered from 0.
+CLRT_API bool clrt_check_get_info(const ClrtCheck *check, ClrtCheckInfo *info, ClrtError *error);
+CLRT_API bool clrt_check_get_mesh(const ClrtCheck *check, uint32_t number, ClrtCheckedMesh *mesh,
+                                  ClrtError *error);
+CLRT_API bool clrt_check_get_finding(const ClrtCheck *check, uint32_t number, ClrtFinding *finding,
+                                     ClrtError *error);
+
 // Explanations
 
 // The computation of a pixel's color: its samples, their rays, and the lights at the hit points.

@@ -103,11 +103,8 @@ static bool take_request(Drawing *drawing, const ClrtPicture *picture, ClrtError
 
 bool drawing_begin(Drawing *drawing, const ClrtPicture *picture, ClrtError *error)
 {
-    if (!check_given(error, "the renderer", drawing->renderer) ||
-        !check_given(error, "the scene", drawing->handle))
+    if (!renderer_handle_begin(drawing->renderer, drawing->handle, error))
         return false;
-    if (atomic_exchange(&drawing->renderer->is_busy, true))
-        return check_fail(error, CLRT_ARGUMENT, "the renderer is busy with another call");
     if (take_request(drawing, picture, error))
         return true;
     drawing_end(drawing);
@@ -116,7 +113,7 @@ bool drawing_begin(Drawing *drawing, const ClrtPicture *picture, ClrtError *erro
 
 void drawing_end(Drawing *drawing)
 {
-    atomic_store(&drawing->renderer->is_busy, false);
+    renderer_handle_end(drawing->renderer);
 }
 
 // Fails if the caller's camera is too far from the scene. session_take has checked the scene's own

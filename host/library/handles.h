@@ -64,6 +64,11 @@ struct ClrtRenderer {
     uint64_t state;                 // ClrtScene::state of the session's scene; 0 without a scene
 };
 
+// Checks the arguments and marks the renderer as busy. On success, the caller calls
+// renderer_handle_end later.
+bool renderer_handle_begin(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);
+void renderer_handle_end(ClrtRenderer *renderer);
+
 // Gives the session the scene, unless the session already has it in this state. The scene is
 // compiled when a picture is drawn or rays are cast.
 bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);

@@ -161,12 +161,10 @@ static bool trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays
 static bool trace_alone(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                         const RayResults *results, ClrtError *error)
 {
-    if (!check_given(error, "the renderer", renderer) || !check_given(error, "the scene", scene))
+    if (!renderer_handle_begin(renderer, scene, error))
         return false;
-    if (atomic_exchange(&renderer->is_busy, true))
-        return check_fail(error, CLRT_ARGUMENT, "the renderer is busy with another call");
     const bool ok = trace(renderer, scene, rays, results, error);
-    atomic_store(&renderer->is_busy, false);
+    renderer_handle_end(renderer);
     return ok;
 }
 

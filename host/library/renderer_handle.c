@@ -89,6 +89,19 @@ void clrt_renderer_free(ClrtRenderer *renderer)
     free(renderer);
 }
 
+bool renderer_handle_begin(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error)
+{
+    if (!check_given(error, "the renderer", renderer) || !check_given(error, "the scene", scene))
+        return false;
+    return !atomic_exchange(&renderer->is_busy, true) ||
+           check_fail(error, CLRT_ARGUMENT, "the renderer is busy with another call");
+}
+
+void renderer_handle_end(ClrtRenderer *renderer)
+{
+    atomic_store(&renderer->is_busy, false);
+}
+
 bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error)
 {
     Error cause = {0};

@@ -86,7 +86,8 @@ static bool check_mesh(const ClrtScene *scene, const ClrtMesh *mesh, ClrtError *
 static bool take_mesh(MeshObject *object, const ClrtMesh *given, ClrtError *error)
 {
     Error cause = {0};
-    *object = (MeshObject){.material = given->material, .two_sided = given->two_sided};
+    *object =
+        (MeshObject){.material = given->material, .input = NO_INPUT, .two_sided = given->two_sided};
     const bool copied =
         copy_mesh(&object->mesh, given, &cause) || check_fail_for(error, CLRT_SCENE, &cause);
     const bool ok =

@@ -38,10 +38,12 @@ typedef struct {
     uint32_t material;
 } Sphere;
 
+#define NO_INPUT UINT32_MAX
+
 typedef struct {
     Mesh mesh;              // shaded smoothly if it has normals
     uint32_t material;      // if the mesh has colors, they replace the diffuse color
-    uint32_t input;         // index of the mesh's file in Scene::inputs
+    uint32_t input;         // index of the mesh's file in Scene::inputs; NO_INPUT without a file
     uint64_t number_before; // triangles in earlier objects of the file, including dropped ones
     bool two_sided;
 } MeshObject;

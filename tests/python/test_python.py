@@ -3,6 +3,7 @@
 """Draws pictures and casts rays from Python, and compares them with the program's.
 
 usage: test_python.py CLRT SCENES"""
+import json
 import pathlib
 import subprocess
 import sys
@@ -202,6 +203,36 @@ class Rays(unittest.TestCase):
         first = ray.intersects_first([(0.5, 0.25, 3), (5, 5, 5)], [(0, 0, -1), (0, 0, 1)])
         self.assertEqual(first.tolist(), [faces[0], -1])
         self.assertEqual(ray.contains_points([(0, 0, 0), (3, 0, 0)]).tolist(), [True, False])
+
+
+class Checks(unittest.TestCase):
+    def test_checks_have_the_facts_of_the_program(self):
+        renderer = clrt.Renderer()
+        for file in (CREATURE, SCENES / "cone.ply", SCENES / "ball.scn"):
+            printed = json.loads(subprocess.run([CLRT, "check", file, "--json", "-q"], check=True,
+                                                capture_output=True, text=True).stdout)
+            found = renderer.check(clrt.load(file))
+            self.assertEqual(found["fine"], printed["fine"])
+            self.assertEqual(len(found["meshes"]), len(printed["meshes"]))
+            for mesh, other in zip(found["meshes"], printed["meshes"]):
+                test, edge = other["leak_test"], other["shortest_edge"]
+                self.assertEqual(mesh, {
+                    "path": other["path"], "closed": other["closed"],
+                    "inside_out": other["inside_out"], "triangle_count": other["triangles"],
+                    "vertex_count": other["vertices"], "edge_count": other["edges"],
+                    "unused_vertices": other["unused_vertices"],
+                    "repeated_vertices": other["repeated_vertices"],
+                    "shortest_edge": edge["size"], "shortest_steps": edge["steps"],
+                    "lowest_height": other["lowest_height"]["size"],
+                    "lowest_steps": other["lowest_height"]["steps"], "aim_count": test["aims"],
+                    "aimed_at": test["aimed_at"], "ray_count": test["rays"],
+                    "hidden": test["hidden"], "leaks": test["leaks"]["count"]})
+            for finding, other in zip(found["findings"], printed["findings"], strict=True):
+                mesh = None if finding["mesh"] == clrt.NOTHING else finding["mesh"]
+                self.assertEqual((finding["kind"], finding["fails"], finding["count"], mesh,
+                                  finding["text"]),
+                                 (other["kind"], other["fails"], other["count"], other["mesh"],
+                                  other["text"]))
 
 
 class Errors(unittest.TestCase):

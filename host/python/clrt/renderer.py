@@ -121,6 +121,21 @@ class Renderer:
                        origin_stride=stride_of(origins))
         return self._flags("contains", scene, given, progress)
 
+    def check(self, scene: Scene) -> dict[str, Any]:
+        """The facts about the scene's geometry that `clrt check` reports, as a dict.
+
+        "fine" says whether no finding is a fault. "meshes" and "findings" are lists of dicts, whose
+        members are those of ClrtCheckedMesh and ClrtFinding in clrt.h.
+        """
+        with self._lock:
+            check = ffi.gc(call("check", self._handle, scene._handle), lib.clrt_check_free)
+        info = described("ClrtCheckInfo", "check_get_info", check)
+        meshes = [described("ClrtCheckedMesh", "check_get_mesh", check, i)
+                  for i in range(info["mesh_count"])]
+        findings = [described("ClrtFinding", "check_get_finding", check, i)
+                    for i in range(info["finding_count"])]
+        return {"fine": info["fine"], "meshes": meshes, "findings": findings}
+
     def _flags(self, kind, scene, given, progress):
         flags = np.empty(given.count, np.bool_)
         self._run(kind, scene, given, ffi.from_buffer("uint8_t[]", flags), progress)

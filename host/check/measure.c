@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Takes the census of a scene, and counts the leaks of each mesh.
+#include "check/measure.h"
+
+#include <stdlib.h>
+
+bool check_measure(Check *check, Error *error)
+{
+    check->normalization = normalization_of(check->scene);
+    normalization_check(&check->normalization, check->scene, &check->scale_fault);
+    return census_take(&check->census, check->scene, &check->normalization, error);
+}
+
+static bool count_leaks(Check *check, const Session *session, RayCaster *caster, Error *error)
+{
+    ThreadPool *pool = thread_pool_open(threads_allowed(session->settings.wanted.threads));
+    bool ok = true;
+    for (size_t object = 0; ok && object < check->scene->objects.count; object++) {
+        const LeakSetting setting = {
+            .normalization = &check->normalization,
+            .closedness = &check->census.meshes[object].closedness,
+            .pool = pool,
+            .builder = session_builder(&session->settings.wanted),
+            .uses_bvh = session->settings.wanted.tree != CLRT_TREE_NONE,
+        };
+        const MeshObject *given = &check->scene->objects.data[object];
+        if (given->mesh.triangle_count > 0)
+            ok = leaks_count(&check->leaks[object], caster, given, &setting, error);
+    }
+    thread_pool_close(pool);
+    return ok;
+}
+
+bool check_trace(Check *check, Session *session, Error *error)
+{
+    RayCaster caster = {0};
+    check->leaks = memory_zeroed(check->scene->objects.count, sizeof *check->leaks, error);
+    const bool ok = check->leaks != NULL &&
+                    ray_caster_open(&caster, session, RAYS_NEAREST, error) &&
+                    count_leaks(check, session, &caster, error);
+    ray_caster_close(&caster);
+    if (ok) {
+        check->device = session->device.name;
+        return true;
+    }
+    free(check->leaks);
+    check->leaks = NULL;
+    return false;
+}
+
+void check_free(Check *check)
+{
+    free(check->findings.data);
+    free(check->leaks);
+    census_free(&check->census);
+    *check = (Check){0};
+}

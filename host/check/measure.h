@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Scene -> the measurements of a check. The program and the library check scenes in these steps:
+// measure, trace, and find.
+#pragma once
+
+#include "check/findings.h"
+
+// Measures the meshes of check->scene without a device.
+bool check_measure(Check *check, Error *error);
+
+// Casts rays at the meshes, after check_measure. If this fails, check has no leaks.
+bool check_trace(Check *check, Session *session, Error *error);
+
+// Releases the measurements and the findings.
+void check_free(Check *check);

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// A scene -> the measurements and findings of `clrt check`. They own copies of everything that they
+// need, so the scene may change afterwards.
+#include "check/measure.h"
+#include "library/handles.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+struct ClrtCheck {
+    ClrtCheckInfo info;
+    ClrtCheckedMesh *meshes;
+    ClrtFinding *findings;
+};
+
+void clrt_check_free(ClrtCheck *check)
+{
+    if (check == NULL)
+        return;
+    free(check->meshes);
+    free(check->findings);
+    free(check);
+}
+
+static ClrtCheckedMesh mesh_of(const Check *check, size_t object)
+{
+    const char *path = check_mesh_path(check, object);
+    const Mesh *mesh = &check->scene->objects.data[object].mesh;
+    const MeshCensus *census = &check->census.meshes[object];
+    const LeakCount *leaks = &check->leaks[object];
+    ClrtCheckedMesh made = {.closed = census->closedness.is_closed,
+                            .inside_out = census->closedness.is_inside_out,
+                            .triangle_count = mesh->triangle_count,
+                            .vertex_count = mesh->vertex_count,
+                            .edge_count = census->closedness.edge_count,
+                            .unused_vertices = census->unused_vertices,
+                            .repeated_vertices = census->repeated_vertices,
+                            .shortest_edge = census->features.edge.size,
+                            .lowest_height = census->features.height.size,
+                            .shortest_steps = census->features.edge.steps,
+                            .lowest_steps = census->features.height.steps,
+                            .aim_count = leaks->total,
+                            .aimed_at = leaks->aimed,
+                            .ray_count = leaks->rays,
+                            .hidden = leaks->hidden,
+                            .leaks = leaks->leaks.count};
+    snprintf(made.path, sizeof made.path, "%s", path != NULL ? path : "");
+    return made;
+}
+
+static ClrtFinding finding_of(const Finding *finding)
+{
+    ClrtFinding made = {.fails = finding->fails,
+                        .mesh =
+                            finding->object != FINDING_SCENE ? (uint32_t)finding->object : NOTHING,
+                        .count = finding->count,
+                        .first = finding->first};
+    snprintf(made.kind, sizeof made.kind, "%s", finding->kind);
+    snprintf(made.text, sizeof made.text, "%s", finding->text);
+    return made;
+}
+
+// Copies the results into *made, which starts empty.
+static bool keep(ClrtCheck *made, const Check *check, Error *cause)
+{
+    const size_t meshes = check->scene->objects.count, findings = check->findings.count;
+    made->info = (ClrtCheckInfo){.fine = check_count_failing(check) == 0,
+                                 .mesh_count = (uint32_t)meshes,
+                                 .finding_count = (uint32_t)findings};
+    made->meshes = memory_raw(meshes, sizeof *made->meshes, cause);
+    made->findings = memory_raw(findings, sizeof *made->findings, cause);
+    if (made->meshes == NULL || made->findings == NULL)
+        return false;
+    for (size_t i = 0; i < meshes; i++)
+        made->meshes[i] = mesh_of(check, i);
+    for (size_t i = 0; i < findings; i++)
+        made->findings[i] = finding_of(&check->findings.data[i]);
+    return true;
+}
+
+ClrtCheck *clrt_check(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error)
+{
+    Error cause = {0};
+    if (!renderer_handle_begin(renderer, scene, error))
+        return NULL;
+    Check check = {.scene = &scene->scene};
+    ClrtCheck *made = memory_zeroed(1, sizeof *made, &cause);
+    const bool ok = made != NULL && check_measure(&check, &cause) &&
+                    check_trace(&check, &renderer->session, &cause) && check_find(&check, &cause) &&
+                    keep(made, &check, &cause);
+    check_free(&check);
+    renderer_handle_end(renderer);
+    if (ok)
+        return made;
+    check_fail_for(error, CLRT_DEVICE, &cause);
+    clrt_check_free(made);
+    return NULL;
+}
+
+bool clrt_check_get_info(const ClrtCheck *check, ClrtCheckInfo *info, ClrtError *error)
+{
+    return check_given(error, "the check", check) &&
+           fill_struct(error, "the info", info, &check->info, sizeof check->info);
+}
+
+bool clrt_check_get_mesh(const ClrtCheck *check, uint32_t number, ClrtCheckedMesh *mesh,
+                         ClrtError *error)
+{
+    if (!check_given(error, "the check", check))
+        return false;
+    if (number >= check->info.mesh_count)
+        return check_fail(error, CLRT_ARGUMENT, "there is no mesh %u", number);
+    return fill_struct(error, "the mesh", mesh, &check->meshes[number], sizeof *mesh);
+}
+
+bool clrt_check_get_finding(const ClrtCheck *check, uint32_t number, ClrtFinding *finding,
+                            ClrtError *error)
+{
+    if (!check_given(error, "the check", check))
+        return false;
+    if (number >= check->info.finding_count)
+        return check_fail(error, CLRT_ARGUMENT, "there is no finding %u", number);
+    return fill_struct(error, "the finding", finding, &check->findings[number], sizeof *finding);
+}
