@@ -184,17 +184,17 @@ static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
 {
     PairStack stack;
     PairPlace place = {0};
-    bool enters = true;
     if (!tracer->frame->uses_bvh) {
         search_leaf(tracer, search, (uint2)(0, tracer->frame->triangle_count));
         return;
     }
-    while (enters && !search_is_over(search)) {
-        while (enters && place.count == 0)
-            enters = descend_in_cone(tracer, search, &stack, &place);
-        if (enters)
+    while (!search_is_over(search)) {
+        if (place.count > 0)
             search_leaf(tracer, search, (uint2)(place.first, place.count));
-        enters = pop_place(tracer->nodes, cone_reach(search), &stack, &place);
+        else if (descend_in_cone(tracer, search, &stack, &place))
+            continue;
+        if (!pop_place(tracer->nodes, cone_reach(search), &stack, &place))
+            return;
     }
 }
 

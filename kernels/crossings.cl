@@ -136,14 +136,14 @@ static inline void cross_triangles(const Tracer *tracer, const Ray *along, Real 
     }
     PairStack stack;
     PairPlace place = {0};
-    bool enters = true;
-    do {
-        while (enters && place.count == 0)
-            enters = descend(&search, limit, &stack, &place);
-        if (enters)
+    for (;;) {
+        if (place.count > 0)
             cross_range(&search, (uint2)(place.first, place.count), crossings);
-        enters = pop_place(tracer->nodes, limit, &stack, &place);
-    } while (enters);
+        else if (descend(&search, limit, &stack, &place))
+            continue;
+        if (!pop_place(tracer->nodes, limit, &stack, &place))
+            return;
+    }
 }
 #endif
 

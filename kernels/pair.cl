@@ -83,25 +83,54 @@ typedef struct {
     uint depth; // entries on the stack
 } PairPlace;
 
-// Moves from a node to the nearer child that the ray enters, and pushes the other one. `entry` has
-// the distances at which the ray enters the children, INFINITY for a child that it misses. Returns
-// false if it misses both.
-static inline bool enter_children(global const Node *nodes, Real2 entry, PairStack *stack,
-                                  PairPlace *place)
+static inline void push_child(PairStack *stack, PairPlace *place, uint child, Real entry)
+{
+    stack->child[place->depth] = child;
+    stack->entry[place->depth] = entry;
+    place->depth++;
+}
+
+// Pushes the children that the ray enters, the nearer one last. `entry` has the distances at which
+// the ray enters them, INFINITY for a child that it misses.
+static inline void push_children(Real2 entry, PairStack *stack, PairPlace *place)
+{
+    const uint first = 2 * place->first;
+    const bool second_nearer = entry.y < entry.x;
+    if (entry.y < INFINITY && !second_nearer)
+        push_child(stack, place, first + 1, entry.y);
+    if (entry.x < INFINITY)
+        push_child(stack, place, first, entry.x);
+    if (second_nearer)
+        push_child(stack, place, first + 1, entry.y);
+}
+
+// Moves from a node to the nearer child, and pushes the other one. `entry` is as for push_children.
+// Returns false if the ray enters neither.
+static inline bool move_to_child(global const Node *nodes, Real2 entry, PairStack *stack,
+                                 PairPlace *place)
 {
     const uint number = place->first;
     const bool second = entry.y < entry.x;
     const Real nearer = second ? entry.y : entry.x, farther = second ? entry.x : entry.y;
-    if (farther < INFINITY) {
-        stack->child[place->depth] = 2 * number + !second;
-        stack->entry[place->depth] = farther;
-        place->depth++;
-    }
+    if (farther < INFINITY)
+        push_child(stack, place, 2 * number + !second, farther);
     const uint2 first = (uint2)(nodes[number].first[0], nodes[number].first[1]);
     const uint2 count = (uint2)(nodes[number].count[0], nodes[number].count[1]);
     place->first = second ? first.y : first.x;
     place->count = second ? count.y : count.x;
     return nearer < INFINITY;
+}
+
+// Enters a node's children. A GPU keeps the nearer one in registers. On a CPU, small scenes take a
+// seventh less time with both on the stack. Returns whether the place is now a child; otherwise,
+// the next place is on the stack.
+static inline bool enter_children(global const Node *nodes, Real2 entry, PairStack *stack,
+                                  PairPlace *place)
+{
+    if (CLRT_GPU)
+        return move_to_child(nodes, entry, stack, place);
+    push_children(entry, stack, place);
+    return false;
 }
 
 // Moves to the nearest child on the stack that the ray enters before `reach`. Returns false if
@@ -121,7 +150,7 @@ static inline bool pop_place(global const Node *nodes, Real reach, const PairSta
     return false;
 }
 
-// Moves from a node to the nearer child that the ray enters before `reach`.
+// Enters the children of a node that the ray enters before `reach`.
 static inline bool descend(const Search *search, Real reach, PairStack *stack, PairPlace *place)
 {
     const Tracer *tracer = search->tracer;
@@ -136,18 +165,19 @@ static inline void traverse_pairs(const Search *search, Hit *best)
     const Tracer *tracer = search->tracer;
     PairStack stack;
     PairPlace place = {0};
-    bool enters = true;
-    do {
-        while (enters && place.count == 0)
-            enters = descend(search, search_reach(search, best), &stack, &place);
-        if (enters)
+    for (;;) {
+        if (place.count > 0) {
             intersect_range(search, (uint2)(place.first, place.count), best);
-        if (CLRT_STATISTICS && enters)
-            tracer->tally->triangle_tests += place.count;
-        if (ends_at_any_hit(search->ray->kind) && best->id != NOTHING)
+            if (CLRT_STATISTICS)
+                tracer->tally->triangle_tests += place.count;
+            if (ends_at_any_hit(search->ray->kind) && best->id != NOTHING)
+                return;
+        } else if (descend(search, search_reach(search, best), &stack, &place)) {
+            continue;
+        }
+        if (!pop_place(tracer->nodes, search_reach(search, best), &stack, &place))
             return;
-        enters = pop_place(tracer->nodes, search_reach(search, best), &stack, &place);
-    } while (enters);
+    }
 }
 
 static inline void search_pairs(const Tracer *tracer, const Ray *ray, Hit *best)
