@@ -7,8 +7,8 @@
 // OWN_ROUNDOFF covers the rounding of the bounds themselves. docs/numerics.md derives the bounds as
 // B1 to B16. They require two things:
 //  - The tracer's device rounds float operations correctly.
-//  - No rounding error of a product in fp32's edge functions underflows (B3). This holds if no
-//    sheared coordinate of a corner is nonzero and smaller than 2^-51, in normalized coordinates.
+//  - No rounding error of a product in fp32's edge functions underflows (B3). This holds if each
+//    sheared coordinate of a corner is 0 or at least 2^-51 in magnitude, in normalized coordinates.
 //    The kernel does not check this. Otherwise, only triangles seen edge-on may differ (B10).
 //
 // A camera ray is fma(x, right, fma(y, down, forward)). For fp32, camera_rounding repeats the

@@ -67,7 +67,8 @@ static inline ConeSearch search_in_cone(const RayCone *ray)
 }
 
 // Returns the depth beyond which the search may stop. Nothing beyond the nearest certain hit can be
-// the first hit. Nothing beyond another possible hit can be first with certainty.
+// the first hit. A hit beyond a possible hit of another primitive is not certainly
+// the first.
 static inline Real cone_reach(const ConeSearch *search)
 {
     if (search->ray->kind == RAY_SHADOW)
@@ -145,7 +146,7 @@ static inline Candidate leaf_candidate(const Tracer *tracer, const RayCone *ray,
     return certainly_misses_coincident(&corners, ray) ? candidate_none() : candidate;
 }
 
-// Adds a triangle to the nearest hit. If the triangle coincides with the nearest hit, it may
+// Updates the nearest hit by a triangle. If the triangle coincides with the nearest hit, it may
 // replace the id, but the depths stay.
 static inline void add_triangle(const Tracer *tracer, ConeSearch *search, uint index,
                                 const Candidate *candidate)

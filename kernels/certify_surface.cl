@@ -157,8 +157,9 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 // 256u / sine along the surface, on each axis (B14).
 //
 // A reflected ray is lifted only if its line misses the triangle from the last start. This start is
-// the triangle's middle or 256u / sine on the way there, which is 500u / (sine * edge) of the way
-// or more. There, each weight is at least a third of this fraction.
+// 256u / sine from the point toward the triangle's middle, or the middle if that is nearer. As a
+// fraction of the way, this is at least 500u / (sine * edge), or 1. At the start, each weight is at
+// least a third of the fraction.
 static inline UncertainPoint start_of(const UncertainSurface *surface, Real3 direction, Real doubt,
                                       Real u, bool *may_be_lifted)
 {

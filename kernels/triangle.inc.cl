@@ -181,7 +181,8 @@ static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, flo
     return fabs(height) > UNIT_ROUNDOFF * error ? height : 0.0f;
 }
 
-// The error of a surface point, in units of rounding of its coordinates (B7).
+// The error of a surface point that height_over allows, in units of rounding of the point's
+// coordinates (B7).
 #define POINT_BLUR 16.0f
 
 // A ray that leaves a surface, and its relation to a triangle.

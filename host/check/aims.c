@@ -251,7 +251,8 @@ static Vec3 rounded(Vec3 v)
     return vec3((double)(float)v.x, (double)(float)v.y, (double)(float)v.z);
 }
 
-// Returns a lower bound on the cosine between a direction and the normals around the aim.
+// Returns a lower bound on the cosine between a direction and the normals around the aim. A
+// negative result is no bound.
 static double facing_from(const Aim *aim, Vec3 direction)
 {
     const double off = vec3_dot(aim->outward, direction);

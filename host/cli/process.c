@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Handles SIGINT and SIGTERM, and makes stacks large enough. The handlers stay installed until the
-// process ends, so a single signal never interrupts the writing of traced tiles. Before the first
-// tile, a signal ends the process, because compilation cannot be interrupted.
+// Handles SIGINT and SIGTERM, and makes stacks large enough. A handler stays installed until its
+// first signal, so a single signal never interrupts the writing of traced tiles. The second signal
+// ends the process. So does the first one before the first tile, because compilation cannot be
+// interrupted.
 #include "cli/process.h"
 
 #include <pthread.h>

@@ -272,7 +272,8 @@ static json_t *stored_samples_json(const Picture *picture)
                                                   : json_count(picture->request.settings.samples);
 }
 
-// Adds the tree's builder if the file contains counts of tests, which depend on the tree.
+// Adds the tree's builder and node layout if the file contains counts of tests, which depend on
+// both.
 static void add_tree(json_t *json, const Picture *picture)
 {
     if (!aov_needs(picture->options->aovs, AOV_NEEDS_TESTS))

@@ -18,7 +18,7 @@ typedef struct {
     uint64_t pixels;
     double rmse;
     double maximum;
-    uint32_t maximum_x, maximum_y, maximum_color; // of the maximum; the first in reading order
+    uint32_t maximum_x, maximum_y, maximum_color; // of the maximum, or of the first of equal ones
     uint64_t off_by_1, off_by_4;                  // pixels that differ by more than 1/255 and 4/255
     bool has_hits;                                // both files have the channel of first hits
     uint64_t wrong_hits;                          // pixels with different first hits

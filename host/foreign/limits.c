@@ -86,7 +86,8 @@ static rlim_t smaller(rlim_t a, rlim_t b)
     return a < b ? a : b;
 }
 
-// Limits memory to at most 3/4 of the machine's, because other processes need some.
+// Limits the memory beyond what is mapped already to at most 3/4 of the machine's, because other
+// processes need some. Forbids threads.
 void limits_take_model(void)
 {
     const rlim_t machine = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE);

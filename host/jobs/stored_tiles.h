@@ -57,7 +57,7 @@ typedef struct {
     bool is_whole; // both have the whole picture's size; otherwise the size of tile_frame_size
 } TileTarget;
 
-// Copies tiles 0 to count - 1 of the file. The file must have the settings' tile size, colors, and
-// the channels of target->layers.
+// Copies tiles 0 to count - 1 of the file. The file must have colors, the channels of
+// target->layers, and the tile size of the settings.
 bool stored_tiles_copy(const RenderSettings *settings, uint64_t count, const ExrFile *file,
                        const TileTarget *target, Error *error);

@@ -238,8 +238,8 @@ typedef struct {
 // POCL_CPU_MAX_CU_COUNT) before the first OpenCL call.
 //
 // This call, clrt_device_count and clrt_device_get read environment variables, and PoCL sets some
-// in its first call. During these calls, other threads must not use the environment, because most
-// versions of getenv and setenv are not thread-safe. No other function uses the environment.
+// when it is called first. During these calls, other threads must not use the environment, because
+// most versions of getenv and setenv are not thread-safe. No other function uses the environment.
 //
 // The library stores compiled kernels with checksums in the subfolder clrt of $POCL_CACHE_DIR,
 // $XDG_CACHE_HOME or ~/.cache. It compiles damaged kernels again. PoCL stores files of its own in
@@ -414,9 +414,10 @@ CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const C
 
 // Finds all triangles that each ray crosses, and stores the nearest hits->room of them, ordered by
 // distance and then by id. The results of ray i start at entry i * room. CLRT_NOTHING fills unused
-// entries. A ray that enters or leaves a closed mesh through an edge or vertex crosses one triangle
-// there. A ray that only touches a ridge crosses none or two. A ray whose origin is in a triangle
-// crosses the triangle, unless `starts` names it. Spheres are ignored.
+// entries. A ray that enters or leaves a closed mesh through an edge or vertex crosses an odd
+// number of triangles there, usually one. A ray that only touches the surface crosses an even
+// number. A ray whose origin is in a triangle crosses the triangle, unless `starts` names it.
+// Spheres are ignored.
 CLRT_API bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                              const ClrtHits *hits, ClrtError *error);
 

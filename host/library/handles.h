@@ -11,7 +11,7 @@
 
 #include <stdatomic.h>
 
-// The check functions validate the callers' arguments. All code below the library only asserts its
+// The check functions validate the callers' arguments. Most code below the library only asserts its
 // requirements.
 
 // Fills error unless it is NULL, and returns false.

@@ -63,7 +63,7 @@ ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *erro
     if (renderer != NULL) {
         renderer->session.settings.wanted = wanted;
         if (open_session(&renderer->session, &cause)) {
-            renderer->session.settings.wanted.device = NULL; // the caller's
+            renderer->session.settings.wanted.device = NULL; // the caller may free it
             return renderer;
         }
     }

@@ -59,7 +59,7 @@
 #define CONTRAST_SAMPLES 1
 
 // The seconds per sample with a tree. Without a tree, a sample takes the second constant longer for
-// each triangle. The window estimates its first picture's time by both.
+// each triangle. The window estimates its first picture's time from both.
 // Measure: trace / samples.total of `clrt SCENE --json`, and the same with --tune bvh=none.
 #define SAMPLE_GUESS   4e-7
 #define TRIANGLE_GUESS 1e-9

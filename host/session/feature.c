@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The samples of a pixel count as a square lattice. A disk at a random place contains a point of
+// A pixel's samples are treated as a square lattice. A disk at a random place contains a point of
 // the lattice if its center is in one of the equal disks around the points. The probability is
 // therefore the part of a lattice's cell that such a disk covers. Bisection finds the diameter for
 // which the mean over all pixels is PROBABILITY.

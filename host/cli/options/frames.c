@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses and applies crops, and ranges of frames. File names with numbers follow the convention of
-// programs that convert films.
+// Parses and applies crops, and ranges of frames. The number of a picture replaces the last run of
+// # in a file name, or is inserted before the ending.
 #include "cli/options/options.h"
 
 #include "base/array.h"

@@ -110,7 +110,7 @@ typedef enum {
 
 // The treatment of triangles without area.
 typedef enum {
-    BAD_GEOMETRY_DROP, // drop those with two equal corners; keep the others, which no ray can hit
+    BAD_GEOMETRY_DROP, // drop those with two equal corners; rays hit others only by rounding
     BAD_GEOMETRY_FAIL
 } BadGeometry;
 
