@@ -7,6 +7,7 @@ static size_t failing_cases;
 void outcome_add(Outcome *sum, Outcome more)
 {
     sum->test = more.test;
+    sum->has_library = more.has_library;
     sum->has_peers = more.has_peers;
     sum->count += more.count;
     for (RayTracer tracer = 0; tracer < TRACERS; tracer++)
@@ -28,12 +29,15 @@ void outcome_report(Outcome outcome, const char *details, ...)
     vprintf(details, arguments);
     va_end(arguments);
     printf(" rays=%zu fail=%zu limit=%zu", outcome.count, failures[BY_CLRT], outcome.limit);
+    if (outcome.has_library)
+        printf(" library=%zu", failures[BY_LIBRARY]);
     if (outcome.has_peers)
         printf(" embree_default=%zu embree_robust=%zu", failures[BY_EMBREE_DEFAULT],
                failures[BY_EMBREE_ROBUST]);
     printf("\n");
     fflush(stdout);
-    failing_cases += failures[BY_CLRT] > outcome.limit;
+    failing_cases += failures[BY_CLRT] > outcome.limit ||
+                     (outcome.has_library && failures[BY_LIBRARY] != failures[BY_CLRT]);
 }
 
 void outcome_begin(void)

@@ -6,13 +6,14 @@
 #include "check.h"
 
 // The ray tracers of a case.
-typedef enum { BY_CLRT, BY_EMBREE_DEFAULT, BY_EMBREE_ROBUST, TRACERS } RayTracer;
+typedef enum { BY_CLRT, BY_LIBRARY, BY_EMBREE_DEFAULT, BY_EMBREE_ROBUST, TRACERS } RayTracer;
 
 typedef struct {
     const char *test;
     size_t count;             // rays, pixels or boxes
     size_t failures[TRACERS]; // wrong ones, by ray tracer
     size_t limit;             // the largest number of clrt's failures with which the case passes
+    bool has_library;         // libclrt has traced the rays; it must have as many failures as clrt
     bool has_peers;           // Embree has traced the rays
 } Outcome;
 

@@ -84,7 +84,8 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
     Error error = {0};
     File file = {0};
     const Cache *cache = shared_cache();
-    *batch = (RayBatch){.choice = form_choice()};
+    *batch =
+        (RayBatch){.is_changed = kernel_folder != NULL || options != NULL, .choice = form_choice()};
     if (batch->choice.nodes == NODES_WIDE && batch->choice.lanes == 0)
         batch->choice.lanes = BATCH_LANES;
     require(device_open(&batch->device, getenv("CLRT_DEVICE"), &error) &&

@@ -41,6 +41,7 @@ typedef struct {
     cl_mem rays, hits, outward;
     cl_mem arrays[FLAT_ARRAYS]; // of the scene
     FrameData frame;
+    bool is_changed;     // the kernels are not clrt's own, or compiled with other options
     KernelChoice choice; // form_choice; with wide nodes, lanes is not 0
 } RayBatch;
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A scene on the device and perhaps in Embree (peers.h). A judge examines the hits of rays.
+// A scene on the device, in libclrt and perhaps in Embree (peers.h). A judge examines the hits of
+// rays.
 #pragma once
 
+#include "library_tracer.h"
 #include "peers.h"
 #include "rays.h"
 
@@ -9,6 +11,7 @@ typedef struct {
     const char *test;
     RayBatch *batch;
     Stage stage;
+    LibraryTracer library;
     Peers peers;
 } Rig;
 

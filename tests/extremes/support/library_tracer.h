@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Traces the same rays with clrt_trace, in the same form of the kernels.
+#pragma once
+
+#include "ray_batch.h"
+#include "stage.h"
+
+typedef struct {
+    struct ClrtScene *scene; // NULL if the library does not trace the stage
+} LibraryTracer;
+
+// Gives the library the stage's triangles. The library traces no spheres, and no changed kernels.
+void library_tracer_open(LibraryTracer *tracer, const Stage *stage, const RayBatch *batch);
+void library_tracer_close(LibraryTracer *tracer);
+
+// Returns the rays' hits. The caller frees them. Ignores TestRay::own.
+TestHit *library_tracer_trace(const LibraryTracer *tracer, Rays rays);

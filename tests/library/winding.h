@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Whether points are inside of closed meshes, by winding numbers and by exact integers.
+#pragma once
+
+#include "library/closed_meshes.h"
+
+#include <stdbool.h>
+
+typedef enum {
+    POINT_OUTSIDE,
+    POINT_INSIDE,
+    POINT_ON_SURFACE // within rounding, or exactly
+} PointPlace;
+
+// Stores the places of points (X Y Z), by winding numbers modulo 2. A point within 2^-21 of a
+// triangle's plane, near the triangle, counts as on the surface.
+void winding_places(const ClosedMesh *mesh, const double (*points)[3], size_t count,
+                    uint8_t *places);
+
+// Returns the place of a point in units of 1 / GRID, by exact determinants.
+PointPlace exact_place(const ClosedMesh *mesh, const int32_t point[3]);
