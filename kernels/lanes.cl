@@ -47,7 +47,8 @@ typedef float Scalar;
 #define LN2_LOW          (-0x1.05c610p-29f)
 #endif
 
-// The number of lanes is set by the host, or is the number of floats in the target's registers.
+// Binary nodes use one lane. With wide nodes, the number of lanes is set by the host, or is the
+// number of floats in the target's registers.
 #if !CLRT_WIDE_NODES
 #undef CLRT_LANES
 #define CLRT_LANES 1

@@ -70,7 +70,7 @@ static inline void intersect_range(const Search *search, uint2 range, Hit *best)
 }
 
 // The farther children that the ray enters, as 2 * node + child, and the distances at which it
-// enters them. Only these arrays are in a GPU's memory.
+// enters them. A GPU keeps these arrays in memory, and the rest of the search's state in registers.
 typedef struct {
     uint child[BVH_STACK_SIZE];
     Real entry[BVH_STACK_SIZE];

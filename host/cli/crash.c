@@ -120,7 +120,7 @@ static void handle_exit(void)
         end("clrt: a driver ended the program, as LLVM does if a disk is full\n");
 }
 
-#if !CLRT_TIDY_EXIT // sanitizers define this function themselves
+#if !CLRT_TIDY_EXIT // sanitizers define sigaction themselves
 static bool is_kept(int number)
 {
     return number == SIGSEGV || number == SIGBUS || number == SIGILL || number == SIGABRT;

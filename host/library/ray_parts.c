@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Callers pass rays and read hits in fp64 and in scene coordinates. The device searches in float
-// and in normalized coordinates. A ray's direction is scaled by a power of two until its largest
-// component is in [1, 2), so the device's t stays in float's range. A far origin first advances to
-// a cube around the scene, because rounding it to float would move the ray too far.
+// Callers pass rays and read hits in fp64 and in scene coordinates. The device receives rays
+// and returns hits in float and in normalized coordinates. A ray's direction is scaled by a power
+// of two until its largest component is in [1, 2), so the device's t stays in float's range. A far
+// origin first advances to a cube around the scene, because rounding it to float would move the ray
+// too far.
 //
 // Invariant: each conversion depends only on the ray and the scene, so a ray has the same hit in
 // every batch.

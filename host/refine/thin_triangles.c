@@ -26,8 +26,8 @@ typedef struct {
 } PixelRun;
 
 // To save memory, a piece is searched only at level 0 if it has more than PAIRS_MOST pairs and more
-// than PAIRS_OF_PIXEL pairs per pixel of the picture. The number of pairs is estimated: a thin
-// triangle counts as AROUND pairs in each pixel at which it makes the piece thin.
+// than PAIRS_OF_PIXEL pairs per pixel of the picture. An estimate counts AROUND pairs for each
+// thin triangle and each pixel that it touches where the piece is not wide.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 #define AROUND         9

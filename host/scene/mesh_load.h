@@ -19,7 +19,7 @@ typedef struct {
     bool is_tolerant;      // reads PLY meshes with ply_parse_tolerantly
     UpAxis up;             // of a lone mesh file
     Normals normals;       // of a lone mesh file
-    double crease_degrees; // for NORMALS_SMOOTH, or CREASE_BY_SHAPE
+    double crease_degrees; // an angle or CREASE_BY_SHAPE; used only with NORMALS_SMOOTH
 } SceneLoadOptions;
 
 #define NO_CREASE (-2)

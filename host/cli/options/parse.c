@@ -59,7 +59,7 @@ static const struct {
     {"bvh", "--tune bvh=WORD"},
     {"no-bvh", "--tune bvh=none"},
     {"expect-hash", "--hash=EXPECTED"},
-    {"stats", "--json=FILE"}, // with a value
+    {"stats", "--json=FILE"}, // for --stats=FILE; --stats itself takes no value
 };
 
 static const char *find_synonym(const char *name, size_t length)
