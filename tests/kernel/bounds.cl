@@ -65,7 +65,7 @@ kernel void probe_bounds(global const float *rays, global const TriangleData *tr
     values[13] = triangle_depth(&sheared, &edges) * search.shear.inverse_z;
     values[14] = triangle_depth_error(&sheared) * fabs(search.shear.inverse_z);
     values[15] = search.tie;
-    values[16] = search.behind;
+    values[16] = search_behind(&search);
     values[17] = nearness.t.high;
     values[18] = nearness.t.low;
     store3(values + 19, point);
