@@ -10,6 +10,8 @@
 #include "base/clock.h"
 #include "session/costs.h"
 
+#include <string.h>
+
 KernelRequest session_kernel_request(const ClrtSettings *settings)
 {
     return (KernelRequest){(KernelForm)settings->kernel, settings->lanes,
@@ -116,6 +118,16 @@ void session_close(Session *session)
     *session = (Session){.settings = session->settings, .cache = session->cache};
 }
 
+// Returns whether a special program lacks more than the colors of vertices, which save less than
+// can be measured.
+static bool lacks_features(const SceneTraits *traits)
+{
+    const SceneTraits general = traits_general(traits->statistics);
+    SceneTraits colored = *traits;
+    colored.colors = general.colors;
+    return memcmp(&colored, &general, sizeof general) != 0;
+}
+
 static bool specialization_pays(const Session *session, const KernelSpec *special,
                                 const RenderSettings *settings)
 {
@@ -127,7 +139,8 @@ static bool specialization_pays(const Session *session, const KernelSpec *specia
     if (wanted != CLRT_SPECIALIZE_AUTO)
         return wanted == CLRT_SPECIALIZE_ALWAYS;
     return kernel_set_has(&session->kernels, special) ||
-           (session->settings.kernel_folder == NULL && saving > COMPILE_SECONDS);
+           (session->settings.kernel_folder == NULL && saving > COMPILE_SECONDS &&
+            lacks_features(&special->traits));
 }
 
 static KernelSpec spec_of(const Session *session, const RendererUse *use, const SceneTraits *traits)
