@@ -43,7 +43,7 @@ static inline float highest(Real v)
 #if CLRT_LANES == 4
 static inline float8 folded(Real v)
 {
-    return (float8)(v, v);
+    return (float8)(v.x, v.y, v.z, v.w, v.x, v.y, v.z, v.w);
 }
 #elif CLRT_LANES == 8
 static inline float8 folded(Real v)
@@ -60,7 +60,9 @@ static inline float8 folded(Real v)
 // Folds two vectors. The result's lower half has minima of a, and the upper half minima of b.
 static inline float8 lowest_of_two(float8 a, float8 b)
 {
-    return min((float8)(a.lo, b.lo), (float8)(a.hi, b.hi));
+    const float8 low = (float8)(a.s0, a.s1, a.s2, a.s3, b.s0, b.s1, b.s2, b.s3);
+    const float8 high = (float8)(a.s4, a.s5, a.s6, a.s7, b.s4, b.s5, b.s6, b.s7);
+    return min(low, high);
 }
 
 // Returns the lowest elements of four vectors. Reducing them together takes half as many
@@ -68,8 +70,9 @@ static inline float8 lowest_of_two(float8 a, float8 b)
 static inline float4 lowest_of_four(Real a, Real b, Real c, Real d)
 {
     const float8 ab = lowest_of_two(folded(a), folded(b)), cd = lowest_of_two(folded(c), folded(d));
-    const float8 pairs =
-        min((float8)(ab.s01, ab.s45, cd.s01, cd.s45), (float8)(ab.s23, ab.s67, cd.s23, cd.s67));
+    const float8 first = (float8)(ab.s0, ab.s1, ab.s4, ab.s5, cd.s0, cd.s1, cd.s4, cd.s5);
+    const float8 second = (float8)(ab.s2, ab.s3, ab.s6, ab.s7, cd.s2, cd.s3, cd.s6, cd.s7);
+    const float8 pairs = min(first, second);
     return min(pairs.even, pairs.odd);
 }
 
