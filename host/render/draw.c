@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws a picture tile by tile. Two tiles are in flight, each in its own command queue. The device
-// traces one while the host copies the other, or while the last work-groups of the other finish.
+// Draws a picture tile by tile. Two tiles are in flight, each in its own command queue: the device
+// traces one while the other is read back or finishes its last work-groups.
 //
 // All tiles use one padded grid with offset 0, because PoCL compiles another version of a kernel
 // for each local size, for offsets and for large grids. The kernels receive a tile's position by
@@ -12,6 +12,7 @@
 
 #include "device/buffer.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define SLOTS 2
@@ -20,7 +21,7 @@
 typedef struct {
     cl_command_queue queue; // one per slot, so that tiles overlap
     cl_mem outputs[2];
-    void *values[2]; // of the outputs while they are mapped, else NULL
+    void *values[2]; // host copies of the outputs
     cl_event done;
     Tile tile;
 } Slot;
@@ -35,21 +36,10 @@ static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer
     bool ok = cl_succeeded(status, "create an OpenCL queue", error);
     for (int i = 0; ok && i < pass->outputs; i++) {
         const size_t size = pass->sizes[i] > 0 ? count * pass->sizes[i] : 64;
-        ok = device_buffer(device, size, &slot->outputs[i], error);
+        slot->values[i] = memory_raw(size, 1, error);
+        ok = slot->values[i] != NULL && device_buffer(device, size, &slot->outputs[i], error);
     }
     return ok;
-}
-
-static cl_int unmap_outputs(Slot *slot)
-{
-    cl_int status = CL_SUCCESS;
-    for (int i = 0; i < 2; i++) {
-        if (slot->values[i] != NULL)
-            status |= clEnqueueUnmapMemObject(slot->queue, slot->outputs[i], slot->values[i], 0,
-                                              NULL, NULL);
-        slot->values[i] = NULL;
-    }
-    return status;
 }
 
 // Waits until the device has finished the slot's tile, and frees the slot.
@@ -57,14 +47,14 @@ static void close_slot(Slot *slot)
 {
     if (slot->queue != NULL) {
         clFinish(slot->queue);
-        unmap_outputs(slot);
-        clFinish(slot->queue);
         clReleaseCommandQueue(slot->queue);
     }
     if (slot->done != NULL)
         clReleaseEvent(slot->done);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
         device_release(&slot->outputs[i]);
+        free(slot->values[i]);
+    }
     *slot = (Slot){0};
 }
 
@@ -95,8 +85,8 @@ static bool launch(const Slot *slot, const TilePass *pass, const Renderer *rende
     return cl_succeeded(status, "run the kernel", error);
 }
 
-// Starts the kernel for the slot's tile, and then maps its outputs, which copies nothing on CPUs.
-// The first output is mapped last. slot->done is the event of this last command.
+// Starts the kernel for the slot's tile, and then the copies of its outputs. The first output is
+// copied last, so slot->done signals the end of this copy.
 static bool start_tile(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
     const size_t count = (size_t)slot->tile.width * slot->tile.height;
@@ -107,12 +97,12 @@ static bool start_tile(Slot *slot, const TilePass *pass, const Renderer *rendere
     cl_int status = CL_SUCCESS;
     for (int i = pass->outputs - 1; i >= 0 && status == CL_SUCCESS; i--)
         if (pass->sizes[i] > 0)
-            slot->values[i] = clEnqueueMapBuffer(slot->queue, slot->outputs[i], CL_FALSE,
-                                                 CL_MAP_READ, 0, count * pass->sizes[i], 0, NULL,
-                                                 i == 0 ? &slot->done : NULL, &status);
+            status = clEnqueueReadBuffer(slot->queue, slot->outputs[i], CL_FALSE, 0,
+                                         count * pass->sizes[i], slot->values[i], 0, NULL,
+                                         i == 0 ? &slot->done : NULL);
     if (status == CL_SUCCESS)
         status = clFlush(slot->queue);
-    return cl_succeeded(status, "map a tile", error);
+    return cl_succeeded(status, "read a tile back", error);
 }
 
 static bool finish_tile(Slot *slot, const TilePass *pass, Error *error)
@@ -122,7 +112,7 @@ static bool finish_tile(Slot *slot, const TilePass *pass, Error *error)
     clReleaseEvent(slot->done);
     slot->done = NULL;
     pass->take(pass->context, &slot->tile, slot->values);
-    return cl_succeeded(unmap_outputs(slot), "unmap a tile", error);
+    return true;
 }
 
 bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderObserver *observer,
