@@ -25,7 +25,8 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 from pictures import read_exr  # noqa: E402 pylint: disable=wrong-import-position
 
 CLRT, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
-CREATURE = SCENES / "creature.scn"
+# Not a scene with a model that the build makes: the build under sanitizers makes none.
+REFLECTIONS = SCENES / "reflections.scn"
 CUBE = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], float)
 SIDES = np.array([(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4),
                   (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)])
@@ -44,9 +45,9 @@ class Mesh:
 
 class Pictures(unittest.TestCase):
     def test_a_picture_has_the_programs_hash(self):
-        printed = subprocess.run([CLRT, CREATURE, "--hash", "-s", "96x64", "--aa=2"], check=True,
+        printed = subprocess.run([CLRT, REFLECTIONS, "--hash", "-s", "96x64", "--aa=2"], check=True,
                                  capture_output=True, text=True).stdout.strip()
-        picture = clrt.load(CREATURE).render(96, 64, samples=2)
+        picture = clrt.load(REFLECTIONS).render(96, 64, samples=2)
         self.assertEqual(picture.shape, (64, 96, 3))
         self.assertEqual(picture.dtype, np.float32)
         self.assertEqual(clrt.hash(picture), printed)
@@ -71,11 +72,11 @@ class Pictures(unittest.TestCase):
         # The numbers of tests depend on the kernel.
         names = [name for name in clrt.channel_kinds() if not name.endswith("tests")]
         with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder, "creature.exr")
-            subprocess.run([CLRT, CREATURE, "-o", path, "-s", "64x48", "--aov", ",".join(names)],
+            path = pathlib.Path(folder, "reflections.exr")
+            subprocess.run([CLRT, REFLECTIONS, "-o", path, "-s", "64x48", "--aov", ",".join(names)],
                            check=True, capture_output=True)
             _, stored = read_exr(path)
-        picture = clrt.load(CREATURE).render(64, 48, channels=names)
+        picture = clrt.load(REFLECTIONS).render(64, 48, channels=names)
         arrays = {"R": picture[..., 0], "G": picture[..., 1], "B": picture[..., 2]}
         for name, array in picture.channels.items():
             prefix = {"depth": "Z", "normal": "N", "position": "P"}.get(name, name)
@@ -89,7 +90,7 @@ class Pictures(unittest.TestCase):
             self.assertEqual(arrays[name].tobytes(), expected.tobytes(), name)
 
     def test_channels_are_arrays_and_agree_with_rays(self):
-        scene, renderer = clrt.load(CREATURE), clrt.Renderer()
+        scene, renderer = clrt.load(REFLECTIONS), clrt.Renderer()
         picture = renderer.render(scene, 48, 32, channels=["depth", "primitive", "normal"])
         self.assertEqual(picture.channels["depth"].shape, (32, 48))
         self.assertEqual(picture.channels["normal"].shape, (32, 48, 3))
@@ -100,11 +101,11 @@ class Pictures(unittest.TestCase):
             self.assertEqual(hits.primitive[0], ray["primitive"])
 
     def test_notebooks_show_png(self):
-        data = clrt.load(CREATURE).render(8, 4)._repr_png_()
+        data = clrt.load(REFLECTIONS).render(8, 4)._repr_png_()
         self.assertTrue(data.startswith(b"\x89PNG"))
 
     def test_pictures_compare(self):
-        one = clrt.load(CREATURE).render(32, 32)
+        one = clrt.load(REFLECTIONS).render(32, 32)
         other = one.copy()
         self.assertEqual(clrt.compare(one, other)["largest"], 0)
         other[3, 4, 1] += 0.5
@@ -114,15 +115,15 @@ class Pictures(unittest.TestCase):
 
     def test_progress_stops_a_picture(self):
         with self.assertRaises(clrt.Stopped):
-            clrt.load(CREATURE).render(300, 300, progress=lambda done, all_: False)
+            clrt.load(REFLECTIONS).render(300, 300, progress=lambda done, all_: False)
 
 
     def test_exceptions_of_progress_functions_arrive(self):
         with self.assertRaises(ZeroDivisionError):
-            clrt.load(CREATURE).render(300, 300, progress=lambda done, all_: 1 / 0)
+            clrt.load(REFLECTIONS).render(300, 300, progress=lambda done, all_: 1 / 0)
 
     def test_crops_and_references_are_settings(self):
-        renderer, scene = clrt.Renderer(), clrt.load(CREATURE)
+        renderer, scene = clrt.Renderer(), clrt.load(REFLECTIONS)
         picture = renderer.render(scene, 32, 32)
         part = renderer.render(scene, 32, 32, crop=(4, 8, 16, 2))
         self.assertTrue((part == picture[8:10, 4:20]).all())
@@ -208,7 +209,7 @@ class Rays(unittest.TestCase):
 class Checks(unittest.TestCase):
     def test_checks_have_the_facts_of_the_program(self):
         renderer = clrt.Renderer()
-        for file in (CREATURE, SCENES / "cone.ply", SCENES / "ball.scn"):
+        for file in (REFLECTIONS, SCENES / "cone.ply", SCENES / "ball.scn"):
             printed = json.loads(subprocess.run([CLRT, "check", file, "--json", "-q"], check=True,
                                                 capture_output=True, text=True).stdout)
             found = renderer.check(clrt.load(file))
@@ -246,7 +247,7 @@ class Errors(unittest.TestCase):
                      CUBE, SIDES, colors=[(0, 255, 0)] * 8)),
                  (clrt.ArgumentError, "shape", lambda: clrt.Scene().mesh(CUBE[0], SIDES)),
                  (clrt.ArgumentError, "channel",
-                  lambda: clrt.load(CREATURE).render(8, 8, channels=["dept"])),
+                  lambda: clrt.load(REFLECTIONS).render(8, 8, channels=["dept"])),
                  (clrt.ArgumentError, "directions",
                   lambda: clrt.Renderer().trace(cube(), [(0, 0, 0)], [(0, 0, 1)] * 2)),
                  (ValueError, "primitive", lambda: clrt.Renderer().trace(
