@@ -117,7 +117,6 @@ class Pictures(unittest.TestCase):
         with self.assertRaises(clrt.Stopped):
             clrt.load(REFLECTIONS).render(300, 300, progress=lambda done, all_: False)
 
-
     def test_exceptions_of_progress_functions_arrive(self):
         with self.assertRaises(ZeroDivisionError):
             clrt.load(REFLECTIONS).render(300, 300, progress=lambda done, all_: 1 / 0)
@@ -240,7 +239,8 @@ class Errors(unittest.TestCase):
     def test_errors_have_the_librarys_text_and_a_kind(self):
         cases = ((clrt.SceneError, "cannot be opened", lambda: clrt.load("/nowhere.scn")),
                  (clrt.ArgumentError, "vertex 12", lambda: clrt.Scene().mesh(CUBE, [(0, 1, 12)])),
-                 (clrt.ArgumentError, "not an integer", lambda: clrt.Scene().mesh(CUBE, [(0, 1, -1)])),
+                 (clrt.ArgumentError, "not an integer",
+                  lambda: clrt.Scene().mesh(CUBE, [(0, 1, -1)])),
                  (clrt.ArgumentError, "7 colors for 8", lambda: clrt.Scene().mesh(
                      CUBE, SIDES, colors=[(0, 0, 0)] * 7)),
                  (clrt.ArgumentError, "color of vertex 0", lambda: clrt.Scene().mesh(
