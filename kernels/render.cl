@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The rendering kernel. With binary nodes, a work-item renders one pixel of a tile. With wide
-// nodes, it renders a block of BLOCK x BLOCK pixels, PACKETS packets at a time.
+// The colors of pixels and samples. All kernels are compiled after this file. With binary nodes, a
+// work-item has one pixel. With wide nodes, it has a block of BLOCK x BLOCK pixels, of which it
+// traces PACKETS packets at a time.
 //
 // Invariant: colors are rounded to integer steps of 2^-32 and summed as integers. A pixel's color
 // therefore does not depend on the order of its samples, or on how pixels are assigned to
@@ -32,11 +33,6 @@
 #define LANE_X        (uint16)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3)
 #define LANE_Y        (uint16)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3)
 #endif
-
-// The packets of a beam, side by side.
-#define BEAM_COLUMNS (PACKETS == 1 ? 1 : 2)
-#define BEAM_WIDTH   (PACKET_WIDTH * BEAM_COLUMNS)
-#define BEAM_HEIGHT  (PACKET_HEIGHT * (PACKETS / BEAM_COLUMNS))
 
 static inline Real mean_of(ULong sum, ulong count)
 {
@@ -112,67 +108,11 @@ static inline void store_tally(global uint *counts, const Tally *tally)
     counts[TALLY_SPHERE_TESTS] = tally->sphere_tests;
 }
 
-typedef struct {
-    global float *pixels;
-    global uint *tallies;
-} Output;
-
-#if PACKET_WIDTH == 4
-// Stores four adjacent pixels.
-static inline void store_row(global float *pixels, float4 red, float4 green, float4 blue)
-{
-    vstore4((float4)(red.x, green.x, blue.x, red.y), 0, pixels);
-    vstore4((float4)(green.y, blue.y, red.z, green.z), 1, pixels);
-    vstore4((float4)(blue.z, red.w, green.w, blue.w), 2, pixels);
-}
-
-// Stores the packet if it is entirely inside the tile. Returns whether it is.
-static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 *color,
-                              global float *pixels)
-{
-    const float4 *red = (const float4 *)&color->x, *green = (const float4 *)&color->y,
-                 *blue = (const float4 *)&color->z;
-    if (corner.x + PACKET_WIDTH > frame->tile_width ||
-        corner.y + PACKET_HEIGHT > frame->tile_height)
-        return false;
-    for (uint row = 0; row < PACKET_HEIGHT; row++) {
-        const size_t place = (size_t)(corner.y + row) * frame->tile_width + corner.x;
-        store_row(pixels + 3 * place, red[row], green[row], blue[row]);
-    }
-    return true;
-}
-#else
-static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 *color,
-                              global float *pixels)
-{
-    (void)frame, (void)corner, (void)color, (void)pixels;
-    return false;
-}
-#endif
-
 static inline void store_lane(global float *pixel, const Real3 *color, uint lane)
 {
     pixel[0] = (float)((const Scalar *)&color->x)[lane];
     pixel[1] = (float)((const Scalar *)&color->y)[lane];
     pixel[2] = (float)((const Scalar *)&color->z)[lane];
-}
-
-// Stores the colors of the lanes inside the tile, and the tally at the first lane.
-static inline void store_packet(const FrameData *frame, uint2 corner, const Real3 *color,
-                                const Tally *tally, const Output *output)
-{
-    const Tally none = {0};
-    if (!CLRT_STATISTICS && store_rows(frame, corner, color, output->pixels))
-        return;
-    for (uint lane = 0; lane < CLRT_LANES; lane++) {
-        const uint column = corner.x + lane % PACKET_WIDTH, row = corner.y + lane / PACKET_WIDTH;
-        if (column >= frame->tile_width || row >= frame->tile_height)
-            continue;
-        const size_t place = (size_t)row * frame->tile_width + column;
-        store_lane(output->pixels + 3 * place, color, lane);
-        if (CLRT_STATISTICS)
-            store_tally(output->tallies + place * TALLY_KINDS, lane == 0 ? tally : &none);
-    }
 }
 
 // Returns a packet's pixels; pixels outside the tile are inactive.
@@ -181,40 +121,4 @@ static inline Places places_at(const FrameData *frame, uint2 corner)
     const UInt column = corner.x + LANE_X, row = corner.y + LANE_Y;
     return (Places){frame->tile_x + column, frame->tile_y + row,
                     column < frame->tile_width && row < frame->tile_height};
-}
-
-// Returns the top left pixel of a beam's packet.
-static inline uint2 packet_corner(uint2 beam, uint packet)
-{
-    return (uint2)(beam.x + packet % BEAM_COLUMNS * PACKET_WIDTH,
-                   beam.y + packet / BEAM_COLUMNS * PACKET_HEIGHT);
-}
-
-// Renders the beam whose top left pixel is given.
-static NOT_INLINE void render_beam(const Tracer *tracer, uint2 beam, const Output *output)
-{
-    const Tally none = {0};
-    Places places[PACKETS];
-    Real3 colors[PACKETS];
-    for (uint i = 0; i < PACKETS; i++)
-        places[i] = places_at(tracer->frame, packet_corner(beam, i));
-    pixel_colors(tracer, places, colors);
-    for (uint i = 0; i < PACKETS; i++)
-        store_packet(tracer->frame, packet_corner(beam, i), &colors[i],
-                     i == 0 ? tracer->tally : &none, output);
-}
-
-// Renders a tile. pixels receives tile_width * tile_height colors of three floats, top row first.
-// tallies receives TALLY_KINDS counts per pixel, if statistics are compiled in. The range of
-// work-items is padded to whole work-groups.
-kernel void render_tile(TRACER_ARGUMENTS, global float *pixels, global uint *tallies)
-{
-    const Output output = {pixels, tallies};
-    const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
-    for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += BEAM_HEIGHT)
-        for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += BEAM_WIDTH) {
-            Tally tally = {0};
-            const Tracer tracer = TRACER(&tally);
-            render_beam(&tracer, (uint2)(x, y), &output);
-        }
 }

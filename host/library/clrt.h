@@ -230,8 +230,8 @@ typedef struct {
     uint32_t group_width, group_height; // of work-groups, at most 1024; 0: 8 (pair) or 2 (others)
 } ClrtSettings;
 
-// Opens an OpenCL device and compiles the kernels, which takes seconds unless they are cached.
-// settings may be NULL.
+// Opens an OpenCL device. Each kernel is compiled by the first call that needs it, which takes
+// seconds unless the kernel is cached. settings may be NULL.
 //
 // On a CPU device, the driver chooses the number of threads that draw. To limit PoCL's threads, a
 // program sets the environment variable POCL_MAX_PTHREAD_COUNT (in later versions
@@ -239,7 +239,8 @@ typedef struct {
 //
 // This call, clrt_device_count and clrt_device_get read environment variables, and PoCL sets some
 // when it is called first. During these calls, other threads must not use the environment, because
-// most versions of getenv and setenv are not thread-safe. No other function uses the environment.
+// most versions of getenv and setenv are not thread-safe. Later calls only read the environment,
+// and only while they compile or store kernels.
 //
 // The library stores compiled kernels with checksums in the subfolder clrt of $POCL_CACHE_DIR,
 // $XDG_CACHE_HOME or ~/.cache. It compiles damaged kernels again. PoCL stores files of its own in
@@ -287,8 +288,8 @@ typedef struct {
     uint64_t sample_count;     // samples taken
     double smallest_feature;   // in pixels: samples hit 95 % of disks of this diameter
     uint64_t pixels_open, pixels_repaired, pixels_certified; // with the channel certainty
-    double seconds;                                          // for colors and channels
-    bool cached; // an earlier process compiled the kernels
+    double seconds; // for colors and channels, including compiling their kernels
+    bool cached;    // an earlier process compiled the kernels
 
     // Zero without ClrtPicture::statistics.
     uint64_t camera_rays, shadow_rays, reflected_rays, camera_hits, shaded_points;

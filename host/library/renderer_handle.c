@@ -14,18 +14,11 @@
 // reads it.
 static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
 
-static bool make_kernel(Session *session, Error *cause)
-{
-    const RendererUse use = {.entry = picture_entry(&(PictureGoal){0})};
-    const SceneTraits traits = traits_general(false);
-    return session_kernel(session, &use, &traits, cause) != NULL;
-}
-
 static bool open_session(Session *session, Error *cause)
 {
     pthread_mutex_lock(&opening);
     cache_open_for_library(&session->cache);
-    const bool ok = session_open(session, cause) && make_kernel(session, cause);
+    const bool ok = session_open(session, cause);
     pthread_mutex_unlock(&opening);
     return ok;
 }

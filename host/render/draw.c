@@ -15,6 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+// kernels/tile.cl, embedded at build time.
+extern const char tile_source[];
+
 #define SLOTS 2
 
 // A tile in flight.
@@ -173,7 +176,8 @@ static bool draw_first_run(const Kernel *kernel, Error *error)
     return tile_pass_run_first(kernel, 2, error);
 }
 
-const KernelEntry draw_entry = {.name = "render_tile", .first_run = draw_first_run};
+const KernelEntry draw_entry = {
+    .name = "render_tile", .source = tile_source, .first_run = draw_first_run};
 
 typedef struct {
     Renderer *renderer;

@@ -69,7 +69,7 @@ static const char *const commands[] = {
     [ACTION_CONVERT] = "It writes files.",
     [ACTION_EXPLAIN_SCENE] = "The report on kernels is text for users.",
     [ACTION_EXPLAIN] = "clrt_explain clrt_explanation_get_light",
-    [ACTION_WARM] = "clrt_renderer_create",
+    [ACTION_WARM] = "A program draws a small picture, which compiles its kernel.",
     [ACTION_DEVICES] = "clrt_device_count clrt_device_get",
 };
 

@@ -19,7 +19,7 @@ PAIR = "-DCLRT_GPU=1"
 FP64 = "-DCLRT_GPU=1 -DCLRT_FP64=1"
 CREATURE = "-DCLRT_GPU=1 -DCLRT_SPHERES=0 -DCLRT_COLORS=0"
 # Kernel, the file appended to render.cl, options.
-PROGRAMS = (("render_tile", "", PAIR), ("render_tile", "", CREATURE), ("render_tile", "", FP64),
+PROGRAMS = (*(("render_tile", "tile.cl", options) for options in (PAIR, CREATURE, FP64)),
             ("trace_samples", "samples.cl", PAIR + " -DCLRT_SIGNATURES=1"),
             ("trace_pixels", "ladder.cl", PAIR), ("trace_paths", "aov.cl", PAIR),
             ("explain_sample", "explain.cl", PAIR), ("certify_tile", "certify.cl", FP64),
@@ -49,7 +49,7 @@ def find_ptxas():
 def assembly(program, target, bitcode):
     """Returns clang's output for a program."""
     _, appended, options = program
-    text = "".join(f'#include "{KERNELS / name}"\n' for name in ("render.cl", appended) if name)
+    text = "".join(f'#include "{KERNELS / name}"\n' for name in ("render.cl", appended))
     command = ["clang-19", "-w", "-x", "cl", "-cl-std=CL1.2", *options.split(), *target, "-O3",
                "-Xclang", "-finclude-default-header", "-Xclang", "-mlink-builtin-bitcode", "-Xclang",
                str(BITCODE / bitcode), "-S", "-o", "-", "-"]

@@ -13,7 +13,7 @@ compiles() {
     -fsyntax-only -DCLRT_SIGNATURES=1 "$@" -include render.cl "$source"
 }
 
-for source in rays.cl samples.cl ladder.cl aov.cl explain.cl; do
+for source in tile.cl rays.cl samples.cl ladder.cl aov.cl explain.cl; do
   compiles "$source" -DCLRT_WIDE_NODES=0 -DCLRT_PACKET=0
   compiles "$source" -DCLRT_WIDE_NODES=1 -DCLRT_PACKET=0
   compiles "$source" -DCLRT_WIDE_NODES=1 -DCLRT_PACKET=1

@@ -4,7 +4,9 @@
 
 usage: test_python.py CLRT SCENES"""
 import json
+import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -179,6 +181,17 @@ class Rays(unittest.TestCase):
         for other in (np.asfortranarray(origins), np.repeat(origins, 2, 0)[::2], wide[:, :3],
                       wide[::-1, :3][::-1], origins.tolist()):
             self.assertTrue((renderer.trace(scene, other, -origins).distance == expected).all())
+
+    def test_calls_compile_only_their_kernel(self):
+        code = ("import clrt, sys; renderer = clrt.Renderer();"
+                " renderer.trace(clrt.load(sys.argv[1]), (0, 0, 9), [(0, 0, -1)]); del renderer;"
+                " clrt.Renderer()")
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, "-c", code, REFLECTIONS], check=True,
+                           env={**os.environ, "POCL_CACHE_DIR": folder})
+            program, = pathlib.Path(folder, "clrt").glob("*.bin")
+            kernels = re.findall(rb"trace_rays|render_tile|find_crossings", program.read_bytes())
+        self.assertEqual(set(kernels), {b"trace_rays"})
 
     def test_threads_get_the_same_hits(self):
         scene, found = cube(), [None] * 4
