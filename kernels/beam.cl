@@ -142,12 +142,12 @@ static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint packets
     shear_packets(beam);
     for (; packets != 0; packets &= packets - 1) {
         const uint number = lowest_bit(packets);
-        Hit hit = beam->hits[number];
+        Hit hit = read_hit(&beam->hits[number]);
         if (CLRT_STATISTICS)
             beam->tracer->tally->triangle_tests += WIDE * popcount(bits[number]);
         if (!intersect_packet_block(&start, &beam->packets[number], bits[number], near, &hit))
             continue;
-        beam->hits[number] = hit;
+        beam->hits[number] = read_hit(&hit);
         update_packet(beam, number);
         any = true;
     }

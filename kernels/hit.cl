@@ -11,6 +11,12 @@ typedef struct {
     UInt id, index;
 } Hit;
 
+// Returns *hit, read as by read3.
+static inline Hit read_hit(const Hit *hit)
+{
+    return (Hit){hit->t, hit->id, hit->index};
+}
+
 // Returns whether a primitive at t precedes the best hit. At equal distances, the lowest id wins,
 // so the order of the tests does not matter. For triangles at almost equal distances, order.cl
 // decides instead.

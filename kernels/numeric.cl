@@ -51,6 +51,13 @@ static inline Real3 real3_of(Real x, Real y, Real z)
     return (Real3){x, y, z};
 }
 
+// Returns *v, read component by component. PoCL copies whole structs by parts of registers, and a
+// register that is read soon afterwards waits for its parts.
+static inline Real3 read3(const Real3 *v)
+{
+    return real3_of(v->x, v->y, v->z);
+}
+
 // Loads the same three components into every lane.
 static inline Real3 load3(global const float *components)
 {

@@ -72,9 +72,9 @@ static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
     Heading heading = {light->position, true};
     const Real sine = fabs(dot_product(surface->face, light->toward));
     const Real3 point = point_left(tracer, surface, &heading, sine, light->faces);
-    return (Ray){point,       difference(light->position, point),
-                 surface->id, surface->index,
-                 RAY_SHADOW,  light->faces};
+    return (Ray){read3(&point), difference(light->position, point),
+                 surface->id,   surface->index,
+                 RAY_SHADOW,    light->faces};
 }
 
 // The surfaces and materials of a packet, and the lanes that need light.

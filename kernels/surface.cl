@@ -291,7 +291,7 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
     const Real3 middle = weighted(real3_of(third, third, third), &leaving.corners);
     const Real3 inward = difference(middle, surface->point);
     const Real unit = UNIT_ROUNDOFF / (sine * largest_component(inward));
-    Real3 point = surface->point;
+    Real3 point = read3(&surface->point);
     Mask misses = near_edge;
     for (uint step = 1; step <= 256 && any_lane(misses); step *= 2) {
         misses = misses && !passes(&leaving, point, direction_from(point, heading));
@@ -315,7 +315,7 @@ static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Hea
     const Real least = 8.0f * POINT_BLUR * UNIT_ROUNDOFF * surface->edge;
     const Mask near_edge = active && surface->index != NOTHING && !(surface->room * sine > least);
     if (!CLRT_TRIANGLES || !any_lane(near_edge))
-        return surface->point;
+        return read3(&surface->point);
     return point_inside(tracer, surface, heading, sine, near_edge);
 }
 
@@ -333,7 +333,8 @@ static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Ma
     Heading heading = {turned, false};
     const Real sine = fabs(dot_product(surface->face, turned));
     const Real3 point = point_left(tracer, surface, &heading, sine, active);
-    return (Ray){point, heading.to, surface->id, surface->index, RAY_REFLECTED, active};
+    return (Ray){read3(&point),  read3(&heading.to), surface->id,
+                 surface->index, RAY_REFLECTED,      active};
 }
 
 #endif
