@@ -21,7 +21,8 @@ typedef struct {
     int outputs;     // 1 or 2
     size_t sizes[2]; // bytes per pixel of each output; 0 if the kernel does not write the second
     uint64_t first;  // the number of the first tile to draw
-    // Receives a tile's outputs, row by row. The tiles come in the order of their numbers.
+    Framebuffer *framebuffer; // receives the first output; NULL if take does
+    // Receives a tile's other outputs, row by row. The tiles come in the order of their numbers.
     void (*take)(void *context, const Tile *tile, void *const values[2]);
     void *context;
 } TilePass;
