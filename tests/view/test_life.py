@@ -51,7 +51,8 @@ def seconds_to_close(screen, scene, *options, is_tracing):
     if is_tracing:
         window.until(is_picture, "shows a picture")
         time.sleep(1.5)
-        assert not any("ray traced" in line for line in list(window.lines.queue)), "the picture was complete too early"
+        assert not any("ray traced" in line for line in list(window.lines.queue)), \
+            "the picture was complete too early"
     else:
         window.wait("OpenGL, view 1")
     screen.do("key", "q")
@@ -66,7 +67,9 @@ def a_window_closed_while_it_traces_is_gone_at_once(screen, folder):
         cases.append((write_large(folder), ["--tune=bvh=none"]))
     for scene, options in cases:
         rest = seconds_to_close(screen, scene, *options, is_tracing=False)
-        seconds = seconds_to_close(screen, scene, *options, is_tracing=True)
+        # A busy machine only delays, so the least of three decides.
+        seconds = min(seconds_to_close(screen, scene, *options, is_tracing=True)
+                      for _ in range(3))
         print(f"         {scene.stem} {options}: closes in {1e3 * seconds:.0f} ms while "
               f"tracing, in {1e3 * rest:.0f} ms when idle")
         assert seconds < rest + GONE_SECONDS, f"{scene.stem}: gone after {seconds:.3f} s"
