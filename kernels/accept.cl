@@ -68,17 +68,15 @@ static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask 
 }
 
 // Records the triangle as the hit of the candidates that it precedes, and returns these lanes.
-static inline Mask accept_triangle(const Search *search, Mask candidates, const Hit *triangle,
-                                   Hit *best)
+static inline Mask accept_triangle(const Search *search, Mask candidates, Hit *triangle, Hit *best)
 {
-    const Real t = triangle->t;
-    const Mask close = candidates && is_close(search, t, best);
-    Mask precedes = candidates && hit_precedes(t, triangle->id, best);
+    const Mask close = candidates && is_close(search, triangle->t, best);
+    Mask precedes = candidates && hit_precedes(triangle->t, triangle->id, best);
     if (any_lane(close)) {
         const Mask nearer = triangle_is_nearer(search, triangle, best, close);
         precedes = close ? nearer : precedes;
     }
-    best->t = precedes ? t : best->t;
+    best->t = precedes ? triangle->t : best->t;
     best->id = precedes ? triangle->id : best->id;
     best->index = precedes ? triangle->index : best->index;
     return precedes;
@@ -126,7 +124,7 @@ static ALWAYS_INLINE Mask intersect_triangle(const Search *search, const Triangl
     if (!any_lane(test.inside))
         return 0;
     const Real t = stop_distances(search, name, &test, search_reach(search, best));
-    const Hit triangle = {t, (UInt)(name->id), (UInt)(name->index)};
+    Hit triangle = {t, (UInt)(name->id), (UInt)(name->index)};
     return accept_triangle(search, lanes, &triangle, best);
 }
 

@@ -160,14 +160,22 @@ static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index
 }
 
 // Returns whether a triangle precedes the best hit, in the given lanes. There, the best hit must be
-// a triangle too.
-static NOT_INLINE Mask triangle_is_nearer(const Search *search, const Hit *triangle,
-                                          const Hit *best, Mask lanes)
+// a triangle too. If the nearnesses are equal, both triangles get their common distance as t,
+// because their own t differ by rounding. The id then decides only which triangle is hit.
+static NOT_INLINE Mask triangle_is_nearer(const Search *search, Hit *triangle, Hit *best,
+                                          Mask lanes)
 {
     const UInt index = lanes ? best->index : triangle->index;
     const Nearness other = nearness_of(search->tracer, search->ray, triangle->index);
     const Nearness nearest = nearness_of(search->tracer, search->ray, index);
-    return is_nearer(&other, &nearest, triangle->id < best->id);
+    const Mask lower = triangle->id < best->id;
+    const Mask nearer = is_nearer(&other, &nearest, lower);
+    const Mask tied = lanes && nearer != is_nearer(&other, &nearest, !lower);
+    const Real below_limit = as_real(as_bits(search->limit) - 1); // is_close requires such a t
+    const Real t = max(min(other.t.high, below_limit), (Real)(0.0f));
+    triangle->t = tied ? t : triangle->t;
+    best->t = tied ? t : best->t;
+    return nearer;
 }
 
 // Returns the lanes in which nearness decides between a triangle at t and the best hit. Only

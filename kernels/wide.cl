@@ -186,8 +186,8 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     bool changed = false;
     for (; candidates != 0; candidates &= candidates - 1) {
         const uint place = lowest_bit(candidates);
-        const Hit triangle = {((const float *)&distances)[place], ((const uint *)&ids)[place],
-                              start->index + place};
+        Hit triangle = {((const float *)&distances)[place], ((const uint *)&ids)[place],
+                        start->index + place};
         const Mask accepted = accept_triangle(search, lanes_of(1u << lane), &triangle, hits);
         changed |= any_lane(accepted);
     }

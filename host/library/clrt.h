@@ -397,9 +397,10 @@ typedef struct {
     uint8_t *certain; // 1 if rounding cannot have changed the primitive, or that there is none
 } ClrtHits;
 
-// Finds each ray's nearest hit. At equal distances, the lowest id counts. A ray's results depend
-// only on the ray and the scene, and not on the batch, the threads or the device. A ray through an
-// edge or vertex of a closed mesh hits the mesh.
+// Finds each ray's nearest hit. At equal distances, the lowest id counts, so the order of triangles
+// changes the hit but not its distance. A ray's results depend only on the ray and the scene, and
+// not on the batch, the threads or the device. A ray through an edge or vertex of a closed mesh
+// hits the mesh.
 //
 // These statements are exact for the scene in the units in which clrt traces it. clrt centers the
 // scene in double precision, scales it by a power of two so that the longest side of the box around
