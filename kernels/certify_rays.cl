@@ -55,19 +55,14 @@ static inline bool certify_ray(const Tracer *tracer, global const RayData *data,
 // Stores in hits[i] the id of the primitive that ray i certainly hits, or NOTHING if it certainly
 // hits none, with t = 0. t is INFINITY if the hit is uncertain. The arguments are those of
 // trace_rays.
-kernel void certify_rays(const FrameData frame, global const SphereData *spheres,
-                         global const Node *nodes, global const Triangles *triangles,
-                         global const RayData *rays, uint count, uint kind, global HitData *hits)
+kernel void certify_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
+                         global HitData *hits)
 {
     const uint place = (uint)get_global_id(0);
     if (place >= count)
         return;
     Tally tally = {0};
-    const Tracer tracer = {.spheres = spheres,
-                           .nodes = nodes,
-                           .triangles = triangles,
-                           .frame = &frame,
-                           .tally = &tally};
+    const Tracer tracer = TRACER(&tally);
     uint id;
     const bool is_certain = certify_ray(&tracer, &rays[place], kind, &id);
     hits[place] = (HitData){is_certain ? 0.0f : INFINITY, id};

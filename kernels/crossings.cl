@@ -149,20 +149,14 @@ static inline void cross_triangles(const Tracer *tracer, const Ray *along, Real 
 
 // Stores the number of crossings of each ray in counts. Stores the nearest `room` crossings of each
 // ray in hits, which has `room` entries for each ray.
-kernel void find_crossings(const FrameData frame, global const SphereData *spheres,
-                           global const Node *nodes, global const Triangles *triangles,
-                           global const RayData *rays, uint count, uint room, global HitData *hits,
-                           global uint *counts)
+kernel void find_crossings(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint room,
+                           global HitData *hits, global uint *counts)
 {
     const uint place = (uint)get_global_id(0);
     if (place >= count)
         return;
     Tally tally = {0};
-    const Tracer tracer = {.spheres = spheres,
-                           .nodes = nodes,
-                           .triangles = triangles,
-                           .frame = &frame,
-                           .tally = &tally};
+    const Tracer tracer = TRACER(&tally);
     global const RayData *data = &rays[place];
     const Ray ray = {load3(data->origin), load3(data->direction), data->own, NOTHING,
                      RAY_CAMERA,          lanes_of(ALL_LANES)};

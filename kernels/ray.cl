@@ -80,8 +80,8 @@ typedef struct {
     Tally *tally;
 } Tracer;
 
-// The first arguments of all kernels that shade or follow paths, in the order in which the host
-// sets them. TRACER makes a Tracer of these arguments.
+// The first arguments of all kernels that trace rays, in the order in which the host sets them.
+// TRACER makes a Tracer of these arguments.
 #define TRACER_ARGUMENTS                                                                           \
     const FrameData frame, global const PointLight *lights, global const Material *materials,      \
         global const SphereData *spheres, global const Node *nodes,                                \

@@ -87,19 +87,14 @@ static inline void store_hits(global HitData *hits, uint left, const Hit *found)
 
 // Finds the nearest hits of `count` rays, all of one kind (RayKind), or any hits if the kind has
 // RAY_ANY_HIT. A work-item traces PACKETS packets of consecutive rays.
-kernel void trace_rays(const FrameData frame, global const SphereData *spheres,
-                       global const Node *nodes, global const Triangles *triangles,
-                       global const RayData *rays, uint count, uint kind, global HitData *hits)
+kernel void trace_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
+                       global HitData *hits)
 {
     const uint start = PACKETS * CLRT_LANES * (uint)get_global_id(0);
     if (start >= count)
         return;
     Tally tally = {0};
-    const Tracer tracer = {.spheres = spheres,
-                           .nodes = nodes,
-                           .triangles = triangles,
-                           .frame = &frame,
-                           .tally = &tally};
+    const Tracer tracer = TRACER(&tally);
     Ray packets[PACKETS];
     Hit found[PACKETS];
     for (uint i = 0; i < PACKETS; i++)

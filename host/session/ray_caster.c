@@ -11,10 +11,6 @@
 // The smallest vector width of wide kernels; the host may not know the actual width.
 #define FEWEST_LANES 4
 
-// Rays need three of the arrays that flat_arrays lists: spheres, nodes and triangles.
-#define FIRST_ARRAY 2
-#define ARRAYS      3
-
 // Files of kernels, embedded at build time.
 extern const char rays_source[], crossings_source[], certify_rays_source[];
 
@@ -32,19 +28,18 @@ static bool finds_all(const RayCaster *caster)
 
 static bool set_arguments(const RayCaster *caster, const RayCast *cast, cl_uint count, Error *error)
 {
-    const SceneBuffers *scene = cast->scene;
+    const Renderer renderer = {.kernel = caster->kernel, .scene = cast->scene};
     const bool all = finds_all(caster);
-    const cl_uint kind = cast->start | (cast->any ? RAY_ANY_HIT : 0);
+    const cl_uint kind = cast->start | (cast->any ? RAY_ANY_HIT : 0), next = FLAT_ARRAYS + 1;
     cl_kernel kernel = caster->kernel->handle;
-    cl_int status = clSetKernelArg(kernel, 0, sizeof scene->frame, &scene->frame);
-    for (cl_uint i = 0; i < ARRAYS; i++)
-        status |= clSetKernelArg(kernel, i + 1, sizeof(cl_mem), &scene->arrays[FIRST_ARRAY + i]);
-    status |= clSetKernelArg(kernel, 4, sizeof(cl_mem), &caster->rays);
-    status |= clSetKernelArg(kernel, 5, sizeof count, &count);
-    status |= clSetKernelArg(kernel, 6, sizeof kind, all ? &cast->room : &kind);
-    status |= clSetKernelArg(kernel, 7, sizeof(cl_mem), &caster->hits);
+    if (!renderer_set_scene(&renderer, &cast->scene->frame, error))
+        return false;
+    cl_int status = clSetKernelArg(kernel, next, sizeof(cl_mem), &caster->rays);
+    status |= clSetKernelArg(kernel, next + 1, sizeof count, &count);
+    status |= clSetKernelArg(kernel, next + 2, sizeof kind, all ? &cast->room : &kind);
+    status |= clSetKernelArg(kernel, next + 3, sizeof(cl_mem), &caster->hits);
     if (all)
-        status |= clSetKernelArg(kernel, 8, sizeof(cl_mem), &caster->counts);
+        status |= clSetKernelArg(kernel, next + 4, sizeof(cl_mem), &caster->counts);
     return cl_succeeded(status, "set the arguments of a kernel for rays", error);
 }
 
