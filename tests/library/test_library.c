@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: MIT
 // libclrt renders the same bits as the program, and fulfills clrt.h.
 #include "library/filled.h"
-#include "library/program.h"
-#include "unit/cmocka_all.h"
+#include "library/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define TILE 128
-
-static ClrtRenderer *renderer; // shared by most tests
-
-SET_UP(open_all)
-{
-    renderer = program_renderer(0);
-    return renderer == NULL;
-}
-
-TEAR_DOWN(close_all)
-{
-    clrt_renderer_free(renderer);
-    return 0;
-}
 
 static ClrtScene *load(const char *path)
 {

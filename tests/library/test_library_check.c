@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Checks meshes made of arrays. test_python compares checks of files with the program's.
 #include "library/faults.h"
-#include "unit/cmocka_all.h"
+#include "library/renderer.h"
 
 #include <string.h>
 
@@ -9,20 +9,7 @@
 static const double corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 2}};
 static const uint32_t sides[5][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {1, 2, 2}};
 
-static ClrtRenderer *renderer;
 static ClrtScene *scene;
-
-SET_UP(open_renderer)
-{
-    renderer = clrt_renderer_create(NULL, NULL);
-    return renderer == NULL;
-}
-
-TEAR_DOWN(close_renderer)
-{
-    clrt_renderer_free(renderer);
-    return 0;
-}
 
 static ClrtCheck *check_sides(size_t first, size_t count)
 {

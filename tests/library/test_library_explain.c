@@ -2,8 +2,7 @@
 // Explanations of pixels agree with the picture and with its channels.
 #include "library/faults.h"
 #include "library/filled.h"
-#include "library/program.h"
-#include "unit/cmocka_all.h"
+#include "library/renderer.h"
 
 #include <math.h>
 
@@ -12,21 +11,18 @@
 #define PIXELS  (WIDTH * HEIGHT)
 #define NOTHING UINT32_MAX
 
-static ClrtRenderer *renderer;
 static ClrtScene *scene;
 static float rgb[PIXELS][3];
 
-SET_UP(open_all)
+SET_UP(make_scene)
 {
-    renderer = program_renderer(0);
     scene = filled_make();
-    return renderer == NULL;
+    return scene == NULL;
 }
 
-TEAR_DOWN(close_all)
+TEAR_DOWN(free_scene)
 {
     clrt_scene_free(scene);
-    clrt_renderer_free(renderer);
     return 0;
 }
 

@@ -3,10 +3,9 @@
 // exact tie. A third of the rays go to vertices, and another third along axes to vertices, where
 // neighbors tie exactly, too.
 #include "library/closed_meshes.h"
-#include "unit/cmocka_all.h"
+#include "library/renderer.h"
 #include "unit/random.h"
 
-#include <clrt.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -14,7 +13,6 @@
 
 enum { RAYS = 4000, COPIES = 2 };
 
-static ClrtRenderer *renderer;
 static ClosedMesh mesh;
 static double (*positions)[3];
 static double origins[RAYS][3], directions[RAYS][3];
@@ -31,18 +29,6 @@ typedef struct {
 } Results;
 
 static Results first, second;
-
-SET_UP(open_renderer)
-{
-    renderer = clrt_renderer_create(NULL, NULL);
-    return renderer == NULL;
-}
-
-TEAR_DOWN(close_renderer)
-{
-    clrt_renderer_free(renderer);
-    return 0;
-}
 
 static void open_mesh(int number)
 {

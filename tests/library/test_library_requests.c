@@ -5,8 +5,7 @@
 #include "image/image_read.h"
 #include "library/faults.h"
 #include "library/filled.h"
-#include "library/program.h"
-#include "unit/cmocka_all.h"
+#include "library/renderer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,22 +17,19 @@
 #define HEIGHT 50
 #define PIXELS (WIDTH * HEIGHT)
 
-static ClrtRenderer *renderer;
 static ClrtScene *scene; // of reflections.scn
 static float rgb[3 * PIXELS];
 static const char file[] = "scenes/reflections.scn";
 
-SET_UP(open_all)
+SET_UP(load_scene)
 {
-    renderer = program_renderer(0);
     scene = clrt_scene_load(program_file(file), NULL, NULL);
-    return renderer == NULL || scene == NULL;
+    return scene == NULL;
 }
 
-TEAR_DOWN(close_all)
+TEAR_DOWN(free_scene)
 {
     clrt_scene_free(scene);
-    clrt_renderer_free(renderer);
     return 0;
 }
 

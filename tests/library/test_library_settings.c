@@ -2,8 +2,7 @@
 // Devices, the settings of renderers, and the ways to load and fill scenes equal the program's.
 #include "library/faults.h"
 #include "library/filled.h"
-#include "library/program.h"
-#include "unit/cmocka_all.h"
+#include "library/renderer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,20 +12,6 @@
 
 static const ClrtPicture picture = {
     .size = sizeof picture, .width = WIDTH, .height = HEIGHT, .samples = 1};
-
-static ClrtRenderer *renderer; // with default settings
-
-SET_UP(open_renderer)
-{
-    renderer = program_renderer(0);
-    return renderer == NULL;
-}
-
-TEAR_DOWN(close_renderer)
-{
-    clrt_renderer_free(renderer);
-    return 0;
-}
 
 // Expects the program's picture of the scene's file. Frees the scene.
 static void expect_program(ClrtScene *scene, const char *file, const char *options)

@@ -3,17 +3,16 @@
 // full run, ctest -C extremes2, has ten million points and a million rays through vertices, through
 // edges and along faces.
 #include "library/closed_meshes.h"
+#include "library/renderer.h"
 #include "library/winding.h"
-#include "unit/cmocka_all.h"
 #include "unit/random.h"
 
-#include <clrt.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 enum { CHUNK = 100000 };
 
-static ClrtRenderer *renderer;
 static ClosedMesh mesh;
 static ClrtScene *scene;
 static uint64_t numbers = 17;
@@ -29,18 +28,6 @@ static size_t full_or(size_t full, size_t quick)
 {
     const char *tier = getenv("CLRT_TEST_TIER");
     return tier != NULL && atoi(tier) > 1 ? full : quick;
-}
-
-SET_UP(open_renderer)
-{
-    renderer = clrt_renderer_create(NULL, NULL);
-    return renderer == NULL;
-}
-
-TEAR_DOWN(close_renderer)
-{
-    clrt_renderer_free(renderer);
-    return 0;
 }
 
 static void open_mesh(int number)
@@ -206,4 +193,42 @@ TEST(rays_through_vertices_and_edges_and_along_faces_cross_once)
         judge_aims("along_faces", aim_along_face, full_or(30000, 1000));
         close_mesh();
     }
+}
+
+// Directions along axes and diagonals, from points of a grid, pass exactly through the cube's edges
+// and corners and along its faces.
+TEST(rays_through_edges_cross_a_cube_once)
+{
+    static const double cube[8][3] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},
+                                      {-1, -1, 1},  {1, -1, 1},  {-1, 1, 1},  {1, 1, 1}};
+    static const uint32_t sides[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                          {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                          {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    enum { SIDE = 9, POINTS = SIDE * SIDE * SIDE, WAYS = 27 };
+    const ClrtMesh given = {.size = sizeof given,
+                            .positions = cube[0],
+                            .triangles = sides[0],
+                            .vertex_count = 8,
+                            .triangle_count = 12};
+    ClrtScene *box = clrt_scene_create(NULL);
+    assert_true(clrt_scene_add_mesh(box, &given, NULL));
+    const ClrtRays rays = {
+        .size = sizeof rays, .count = POINTS, .origins = points[0], .directions = directions[0]};
+    for (int way = 0; way < WAYS; way++) {
+        if (way == WAYS / 2) // 0 0 0
+            continue;
+        for (int i = 0; i < POINTS; i++)
+            for (int axis = 0, place = i, turn = way; axis < 3; axis++, place /= SIDE, turn /= 3) {
+                points[i][axis] = 0.5 * (place % SIDE - SIDE / 2);
+                directions[i][axis] = turn % 3 - 1;
+            }
+        assert_true(clrt_contains(renderer, box, &rays, inside, NULL));
+        for (int i = 0; i < POINTS; i++) {
+            const double *at = points[i];
+            const double most = fmax(fmax(fabs(at[0]), fabs(at[1])), fabs(at[2]));
+            if (most != 1) // on the surface, the result is either
+                assert_int_equal(inside[i], most < 1);
+        }
+    }
+    clrt_scene_free(box);
 }

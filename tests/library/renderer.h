@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Opens a renderer with default settings, which the tests of a file share, on the device that
+// CLRT_DEVICE names.
+#pragma once
+
+#include "library/program.h"
+#include "unit/cmocka_all.h"
+
+static ClrtRenderer *renderer;
+
+SET_UP(open_renderer)
+{
+    renderer = program_renderer(0);
+    return renderer == NULL;
+}
+
+TEAR_DOWN(close_renderer)
+{
+    clrt_renderer_free(renderer);
+    return 0;
+}
