@@ -1,26 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A mesh file -> objects of a scene. A lone mesh file -> a whole scene (mesh_scene.c).
+// A mesh file -> objects of a scene.
 #pragma once
 
 #include "base/file.h"
 #include "mesh/normals.h"
 #include "mesh/ply.h"
 #include "scene/scene.h"
-
-typedef enum {
-    NORMALS_AUTO,  // as NORMALS_SMOOTH with CREASE_BY_SHAPE
-    NORMALS_FLAT,  // ignore the file's normals
-    NORMALS_SMOOTH // compute the normals that the file lacks
-} Normals;
-
-// The options of scn_load. {0} suits most callers. Scene text sets up axes and normals by
-// statements. For scene text, scn_load therefore fails unless `up` and `normals` are 0.
-typedef struct {
-    bool is_tolerant;      // reads PLY meshes with ply_parse_tolerantly
-    UpAxis up;             // of a lone mesh file
-    Normals normals;       // of a lone mesh file
-    double crease_degrees; // an angle or CREASE_BY_SHAPE; used only with NORMALS_SMOOTH
-} SceneLoadOptions;
 
 #define NO_CREASE (-2)
 
@@ -65,15 +50,3 @@ bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *opt
 // failure, returns false with a message that names the file.
 bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
                        Error *error);
-
-// The scene of a lone mesh file has lights, a floor, and cameras that frame the mesh. The mesh is
-// turned upright and is visible from both sides.
-
-// Returns whether the bytes are a PLY file. All other bytes are read as scene text.
-bool mesh_scene_is_mesh(const char *bytes, size_t size);
-
-// Fills scene from a PLY file in memory. If ply is NULL, reads the file at path in another format,
-// with the file's own materials. Adds the viewpoints three-quarter, front, right, back, left and
-// top. z is up.
-bool mesh_scene_load(Scene *scene, const File *ply, const char *path,
-                     const SceneLoadOptions *options, Error *error);

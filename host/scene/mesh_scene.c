@@ -2,11 +2,10 @@
 // Builds a small studio around the meshes of a lone mesh file: six cameras that frame the meshes
 // tightly, three lights and a floor. Most mesh formats do not define which axis points up. The
 // file's format or the mesh's shape then decides.
-#include "scene/mesh_load.h"
+#include "scene/mesh_scene.h"
 
 #include "base/clock.h"
 #include "base/limits.h"
-#include "scene/scn.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -196,7 +195,7 @@ static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error
     return ok;
 }
 
-static const char studio[] =
+const char mesh_scene_studio[] =
     "background 0.8 0.84 0.88\n"
     "ambient 0.3\n"
     "define clay blinn_phong diffuse 0.93 0.85 0.76 kd 1 ks 0.25 shininess 40\n"
@@ -305,13 +304,12 @@ static MeshLoadOptions mesh_options_of(const SceneLoadOptions *options)
                              .parse = options->is_tolerant ? ply_parse_tolerantly : ply_parse};
 }
 
-bool mesh_scene_load(Scene *scene, const File *ply, const char *path,
+bool mesh_scene_fill(Scene *scene, const File *ply, const char *path,
                      const SceneLoadOptions *options, Error *error)
 {
     const MeshLoadOptions mesh = mesh_options_of(options);
     const double start = clock_seconds();
-    bool ok = scn_parse(scene, studio, sizeof studio - 1, "", error) &&
-              (ply != NULL ? ply_mesh_add(scene, ply, path, &mesh, error)
+    bool ok = (ply != NULL ? ply_mesh_add(scene, ply, path, &mesh, error)
                            : foreign_mesh_add(scene, path, &mesh, error)) &&
               mesh_load_normals(scene, 0, &mesh, error);
     scene->mesh_seconds = clock_seconds() - start;
@@ -320,7 +318,5 @@ bool mesh_scene_load(Scene *scene, const File *ply, const char *path,
                    scene, is_auto ? up_axis_of_file(scene, path, ply != NULL) : options->up, error);
     if (ok)
         hash_choices(scene, options);
-    else
-        scene_free(scene);
     return ok;
 }

@@ -252,15 +252,26 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
     return parse(&parser, text, size, name);
 }
 
+// Frees a scene that could not be completed after parsing.
+static bool keep(Scene *scene, bool ok)
+{
+    if (!ok)
+        scene_free(scene);
+    return ok;
+}
+
 // Parses a scene file and adds its path to the inputs, after the paths of its meshes.
 static bool load_text(Parser *parser, const File *file, const char *path)
 {
-    if (!parse(parser, file->bytes, file->size, path))
-        return false;
-    if (scene_add_input(parser->scene, path, parser->error))
-        return true;
-    scene_free(parser->scene);
-    return false;
+    return parse(parser, file->bytes, file->size, path) &&
+           keep(parser->scene, scene_add_input(parser->scene, path, parser->error));
+}
+
+static bool load_mesh(Scene *scene, const File *ply, const char *path,
+                      const SceneLoadOptions *options, Error *error)
+{
+    return scn_parse(scene, mesh_scene_studio, strlen(mesh_scene_studio), "", error) &&
+           keep(scene, mesh_scene_fill(scene, ply, path, options, error));
 }
 
 // Fails if the options contain choices that are only for lone mesh files.
@@ -285,7 +296,7 @@ bool scn_take(Scene *scene, const File *file, const char *name, const SceneLoadO
                      .mesh.parse = options->is_tolerant ? ply_parse_tolerantly : ply_parse,
                      .error = error};
     if (mesh_scene_is_mesh(file->bytes, file->size))
-        return mesh_scene_load(scene, file, name, options, error);
+        return load_mesh(scene, file, name, options, error);
     return check_for_text(options, name, error) && load_text(&parser, file, name);
 }
 
@@ -293,7 +304,7 @@ bool scn_load(Scene *scene, const char *path, const SceneLoadOptions *options, E
 {
     File file = {0};
     if (foreign_format_is(path))
-        return mesh_scene_load(scene, NULL, path, options, error);
+        return load_mesh(scene, NULL, path, options, error);
     const bool ok = file_read(&file, path, error) && scn_take(scene, &file, path, options, error);
     file_free(&file);
     return ok;

@@ -3,13 +3,13 @@
 // statements and clrt's extensions.
 #pragma once
 
-#include "scene/mesh_load.h"
+#include "scene/mesh_scene.h"
 
 // Parses the `size` bytes of a scene file. Mesh paths are relative to the folder of the file called
 // name. Returns false at the first error, with "name:line:column: ..." if the text itself is wrong.
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
 
-// Loads a scene file or a lone mesh file (mesh_load.h).
+// Loads a scene file or a lone mesh file (mesh_scene.h).
 bool scn_load(Scene *scene, const char *path, const SceneLoadOptions *options, Error *error);
 
 // Loads a scene file or a PLY file that is in memory. Mesh paths are relative to the folder of the
