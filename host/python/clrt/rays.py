@@ -41,11 +41,9 @@ class Hits:
     @property
     def hit(self) -> np.ndarray:
         """Which rays hit something, as bools, from distance or primitive."""
-        if self.primitive is not None:
-            return self.primitive != NOTHING
-        if self.distance is not None:
-            return np.isfinite(self.distance)
-        raise ArgumentError("neither 'distance' nor 'primitive' was requested")
+        if self.primitive is None and self.distance is None:
+            raise ArgumentError("neither 'distance' nor 'primitive' was requested")
+        return np.isfinite(self.distance) if self.primitive is None else self.primitive != NOTHING
 
     u = property(lambda self: self.weights[:, 0])
     v = property(lambda self: self.weights[:, 1])
@@ -66,16 +64,12 @@ def rays(origins, directions, *, near=None, far=None, starts=None, one_sided=Fal
     count = len(origins)
     if len(directions) != count:
         raise ArgumentError(f"there are {count} origins, but {len(directions)} directions")
-
-    def per_ray(values, dtype, what):
-        values = None if values is None else np.broadcast_to(numbers(values, dtype, what), count)
-        return None if values is None else np.ascontiguousarray(values)
-
-    return struct("ClrtRays", count=count, origins=origins, directions=directions,
-                  origin_stride=stride_of(origins), direction_stride=stride_of(directions),
-                  one_sided=one_sided,
-                  nears=per_ray(near, np.float64, "near"), fars=per_ray(far, np.float64, "far"),
-                  starts=per_ray(starts, np.uint32, "starts"))
+    limits = {"nears": (near, np.float64), "fars": (far, np.float64), "starts": (starts, np.uint32)}
+    limits = {name: np.ascontiguousarray(np.broadcast_to(numbers(values, dtype, name), count))
+              for name, (values, dtype) in limits.items() if values is not None}
+    return struct("ClrtRays", count=count, origins=origins, origin_stride=stride_of(origins),
+                  directions=directions, direction_stride=stride_of(directions),
+                  one_sided=one_sided, **limits)
 
 
 def hit_arrays(results, count, room=1):

@@ -8,15 +8,12 @@ from typing import Any, Callable, Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .library import (call, choice, described, ffi, lib, progress_of, rows, stride_of, struct,
-                      values_of)
+from .library import call, described, ffi, lib, progress_of, rows, stride_of, struct, values_of
 from .picture import Picture, channel_array
 from .rays import RESULTS, Hits, hit_arrays, rays
 from .scene import Scene
 
 Progress = bool | Callable[[int, int], bool | None] | None
-_EXPLAINED = ("pixel", "sample", "ray", "light")
-_LIGHTS = ("behind", "reaches", "blocked", "behind face")
 
 
 class Renderer:
@@ -29,8 +26,7 @@ class Renderer:
     """
 
     def __init__(self, device: str | None = None, threads: int = 0, precision: str = "fp32"):
-        settings = struct("ClrtSettings", device=device, threads=threads,
-                          precision=choice(("fp32", "fp64"), precision, "precision"))
+        settings = struct("ClrtSettings", device=device, threads=threads, precision=precision)
         self._handle = ffi.gc(call("renderer_create", settings), lib.clrt_renderer_free)
         self._lock = threading.Lock()
 
@@ -41,15 +37,12 @@ class Renderer:
         width, height: in pixels; 0 is the scene's size. channels: names as in `clrt --aov`, such as
         "depth", "primitive", "normal", "certainty". crop: (left, top, width, height). camera: a
         Camera to use instead of view, the number of the scene's view, from 1. Further settings are
-        members of ClrtPicture in clrt.h: samples (N for N x N per pixel); contrast, error and
-        seconds, goals that choose the samples; max_level and truncation, where reflections end;
-        statistics, which counts rays for the result; reference_samples, which draws a reference of
-        the accuracy of fp64 with so many samples per pixel.
+        members of ClrtPicture in clrt.h, such as samples (N for N x N per pixel), error, max_level
+        and statistics. reference_samples draws a reference in fp64.
         """
         picture = _request(width, height, **settings)
-        size = (picture.crop_height, picture.crop_width)
-        shape = size if all(size) else (height or scene.info["height"],
-                                        width or scene.info["width"])
+        shape = (picture.crop_height or height or scene.info["height"],
+                 picture.crop_width or width or scene.info["width"])
         arrays = {name: channel_array(name, shape) for name in channels}
         names = [ffi.new("char[]", name.encode()) for name in arrays]
         array = ffi.new("ClrtChannel[]", [(name, ffi.from_buffer(values))
@@ -104,10 +97,9 @@ class Renderer:
         room = max(int(counts.max(initial=0)), 1)
         target, arrays = hit_arrays({*results, "primitive"}, given.count, room)
         self._run("trace_all", scene, given, target, progress)
-        found = np.arange(room) < counts[:, None]
-        kept = {name: array.reshape(*found.shape, *array.shape[1:])[found]
-                for name, array in arrays.items()}
-        return Hits(ray=np.nonzero(found)[0], **kept)
+        found = (np.arange(room) < counts[:, None]).ravel()
+        return Hits(ray=np.repeat(np.arange(given.count), counts),
+                    **{name: array[found] for name, array in arrays.items()})
 
     def occluded(self, scene: Scene, origins: ArrayLike, directions: ArrayLike, *,
                  progress: Progress = None, **limits: Any) -> np.ndarray:
@@ -154,17 +146,14 @@ def _request(width, height, crop=None, camera=None, max_level=None, **settings):
                   max_level=-1 if max_level == 0 else max_level, **settings)
 
 
-def _explained(explanation, place=()):
+def _explained(explanation, *place):
     """The part of an explanation at a place: numbers of a sample, a ray and a light."""
-    kind, *kinds = _EXPLAINED[len(place):]
-    where = place if len(place) < 2 else [list(place)]
+    kind, *parts = ("pixel", "sample", "ray", "light")[len(place):]
     values = described("ClrtExplained" + kind.capitalize(), "explanation_get_" + kind, explanation,
-                       *where)
-    if kinds:
-        values[kinds[0] + "s"] = [_explained(explanation, (*place, i))
-                                  for i in range(values[kinds[0] + "_count"])]
-    else:
-        values["state"] = _LIGHTS[values["state"]]
+                       *(place if len(place) < 2 else [place]))
+    for part in parts[:1]:
+        values[part + "s"] = [_explained(explanation, *place, i)
+                              for i in range(values[part + "_count"])]
     return values
 
 

@@ -14,8 +14,6 @@ from .picture import Picture
 Vector = Sequence[float] | np.ndarray
 
 _MATERIALS = ("silhouette", "matte", "blinn_phong", "mirror")
-_SHADINGS = ("silhouette", "matte", "blinn_phong")
-_UPS = ("auto", "x", "y", "z", "-x", "-y", "-z")
 
 
 @dataclasses.dataclass
@@ -28,25 +26,15 @@ class Camera:
     fov: float = 45.0
 
     def _struct(self):
-        return struct("ClrtCamera", eye=vector(self.eye, "eye"),
-                      look_at=vector(self.look_at, "look_at"), up=vector(self.up, "up"),
+        return struct("ClrtCamera", eye=self.eye, look_at=self.look_at, up=self.up,
                       fov_degrees=self.fov)
 
 
 class Scene:
-    """An empty scene with a white background. `load` reads one from a file.
+    """An empty scene with a white background. `load` reads one from a file."""
 
-    >>> import clrt
-    >>> scene = clrt.Scene()
-    >>> gold = scene.material(diffuse=(0.9, 0.7, 0.2), reflectivity=0.3)
-    >>> scene.sphere((0, 0, 1), 1, gold)
-    >>> scene.light((4, -2, 6))
-    >>> scene.info["sphere_count"]
-    1
-    """
-
-    def __init__(self):
-        self._handle = ffi.gc(call("scene_create"), lib.clrt_scene_free)
+    def __init__(self, handle: Any = None):
+        self._handle = ffi.gc(handle or call("scene_create"), lib.clrt_scene_free)
 
     def material(self, shading: str = "blinn_phong", *, diffuse: Vector = (1, 1, 1),
                  specular: Vector = (1, 1, 1), kd: float = 0.8, ks: float = 0.5,
@@ -57,9 +45,8 @@ class Scene:
         formula.
         """
         number = ffi.new("uint32_t *")
-        given = struct("ClrtMaterial", shading=choice(_SHADINGS, shading, "shading"),
-                       diffuse=vector(diffuse, "diffuse"), specular=vector(specular, "specular"),
-                       kd=kd, ks=ks, shininess=shininess, reflectivity=reflectivity)
+        given = struct("ClrtMaterial", shading=shading, diffuse=diffuse, specular=specular, kd=kd,
+                       ks=ks, shininess=shininess, reflectivity=reflectivity)
         call("scene_add_material", self._handle, given, number)
         return number[0]
 
@@ -75,10 +62,10 @@ class Scene:
         backs of two_sided meshes, too. material: a number that `material` returned, "silhouette",
         "matte", "blinn_phong" or "mirror".
         """
-        vertices = np.ascontiguousarray(rows(vertices, np.float64, "vertices"))
-        faces = np.ascontiguousarray(rows(faces, np.uint32, "faces"))
+        vertices = rows(vertices, np.float64, "vertices", is_dense=True)
+        faces = rows(faces, np.uint32, "faces", is_dense=True)
         normals = _per_vertex(normals, len(vertices), "normals")
-        colors = _per_vertex(_brightness(colors), len(vertices), "colors")
+        colors = _per_vertex(colors, len(vertices), "colors")
         given = struct("ClrtMesh", positions=vertices, triangles=faces, normals=normals,
                        colors=colors, vertex_count=len(vertices), triangle_count=len(faces),
                        material=_material(material), two_sided=two_sided, smooth=smooth,
@@ -135,25 +122,17 @@ def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
     up: the axis of a mesh file that points up, "x" to "-z". flat ignores its normals. Angles above
     `crease` degrees stay sharp.
     """
-    settings = struct("ClrtLoad", up=choice(_UPS, up, "up"), flat=flat, crease_degrees=crease)
-    scene = Scene.__new__(Scene)
-    scene._handle = ffi.gc(call("scene_load", os.fsencode(path), settings), lib.clrt_scene_free)
-    return scene
+    settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=crease)
+    return Scene(call("scene_load", os.fsencode(path), settings))
 
 
 def _per_vertex(given, count, what):
-    if given is None:
-        return None
-    given = np.ascontiguousarray(rows(given, np.float32, what))
-    if len(given) != count:
+    """Three numbers per vertex or None. Integers of one or two bytes become numbers in [0, 1]."""
+    if getattr(given, "dtype", None) in (np.uint8, np.uint16):
+        given = given / np.iinfo(given.dtype).max
+    if given is not None and len(given) != count:
         raise ArgumentError(f"{len(given)} {what} for {count} vertices")
-    return given
-
-
-def _brightness(colors):
-    """Scales uint8 and uint16 to [0, 1]."""
-    dtype = getattr(colors, "dtype", None)
-    return colors / np.iinfo(dtype).max if dtype in (np.uint8, np.uint16) else colors
+    return None if given is None else rows(given, np.float32, what, is_dense=True)
 
 
 def _material(material):
