@@ -40,6 +40,10 @@ typedef uint64_t ulong;
 // (search.cl) covers hits beyond the best one. In measurements, doubling the slack costs nothing.
 #define BVH_SLACK 0x1p-16f
 
+// The margin of the box around all primitives, in units of its largest coordinate. The kernels add
+// it once more in units of the box's distance. Rays outside hit nothing (docs/numerics.md, B17).
+#define SKY_SLACK 0x1p-12f
+
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG } Shader;
 
 // Color seen = (1 - reflectivity) * clamp(shaded) + reflectivity * reflected.
@@ -182,9 +186,10 @@ typedef struct {
     uint max_level;     // rays of this level return the background
     uint tile_x, tile_y, tile_width, tile_height;
     uint light_count, sphere_count, triangle_count;
-    uint uses_bvh; // zero tests every triangle
+    uint uses_bvh;         // zero tests every triangle
+    float low[3], high[3]; // a box around all primitives, with a margin (SKY_SLACK)
 } FrameData;
-CLRT_SAME_SIZE(FrameData, 128)
+CLRT_SAME_SIZE(FrameData, 152)
 
 // The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
 // that the ray and its reflections hit, and of the lights that reach these surfaces.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The kernel that renders pictures, tile by tile. It is compiled after render.cl, and only if
 // requested.
+#include "sky.cl"
 
 // The packets of a beam, side by side.
 #define BEAM_COLUMNS (PACKETS == 1 ? 1 : 2)
@@ -70,6 +71,15 @@ static inline uint2 packet_corner(uint2 beam, uint packet)
                    beam.y + packet / BEAM_COLUMNS * PACKET_HEIGHT);
 }
 
+// Renders a beam of sky.
+static NOT_INLINE void render_sky(const FrameData *frame, uint2 beam, const Output *output)
+{
+    const Tally none = {0};
+    const Real3 color = scaled3(0x1p-32f, in_steps3(load_private3(frame->background)));
+    for (uint i = 0; i < PACKETS; i++)
+        store_packet(frame, packet_corner(beam, i), &color, &none, output);
+}
+
 // Renders the beam whose top left pixel is given.
 static NOT_INLINE void render_beam(const Tracer *tracer, uint2 beam, const Output *output)
 {
@@ -91,10 +101,14 @@ kernel void render_tile(TRACER_ARGUMENTS, global float *pixels, global uint *tal
 {
     const Output output = {pixels, tallies};
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);
+    const bool has_hits = BLOCK == 1 || CLRT_STATISTICS || !is_sky(&frame, left, top);
     for (uint y = top; y < min(top + BLOCK, frame.tile_height); y += BEAM_HEIGHT)
         for (uint x = left; x < min(left + BLOCK, frame.tile_width); x += BEAM_WIDTH) {
             Tally tally = {0};
             const Tracer tracer = TRACER(&tally);
-            render_beam(&tracer, (uint2)(x, y), &output);
+            if (has_hits)
+                render_beam(&tracer, (uint2)(x, y), &output);
+            else
+                render_sky(&frame, (uint2)(x, y), &output);
         }
 }

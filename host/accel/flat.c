@@ -204,6 +204,7 @@ static bool make_all(FlatScene *flat, const FlatSource *source, Error *error)
         flatten_light(&flat->lights[i], &scene->lights.data[i], normalization);
     for (uint32_t i = 0; i < flat->sphere_count; i++)
         flatten_sphere(&flat->spheres[i], &scene->spheres.data[i], normalization);
+    flat->bounds = flat_bounds(flat, source);
     return flat_looks_make(flat, source, error) &&
            (source->layout == NODES_WIDE ? flat_wide_make(flat, source, error)
                                          : flat_pair_make(flat, source, error));

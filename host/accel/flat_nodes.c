@@ -37,12 +37,11 @@ static float rounded_up(double value)
     return -rounded_down(-value);
 }
 
-// Moves each plane of a box outward by BVH_SLACK times the box's largest coordinate. The sum is
-// nearly exact in fp64, and is then rounded outward to float. The slack makes the kernels' culling
-// conservative (kernels/search.cl).
-static Box box_grow(const Box *box)
+// Moves each plane of a box outward by `share` times the box's largest coordinate. The sum is
+// nearly exact in fp64, and is then rounded outward to float.
+static Box box_grow(const Box *box, float share)
 {
-    const double slack = (double)BVH_SLACK * (double)largest_coordinate(box);
+    const double slack = (double)share * (double)largest_coordinate(box);
     Box grown;
     for (int axis = 0; axis < 3; axis++) {
         grown.low[axis] = rounded_down((double)box->low[axis] - slack);
@@ -52,17 +51,39 @@ static Box box_grow(const Box *box)
 }
 
 // Stores a child's box, grown by BVH_SLACK, in the planes of a node with room for `children`
-// children. If box is NULL, no ray enters the stored box. On each axis, the low planes of all
-// children precede the high ones.
+// children. The slack makes the kernels' culling conservative (kernels/search.cl). If box is NULL,
+// no ray enters the stored box. On each axis, the low planes of all children precede the high ones.
 static void box_store(float *planes, uint32_t children, uint32_t child, const Box *box)
 {
     const Box grown =
-        box != NULL ? box_grow(box)
+        box != NULL ? box_grow(box, BVH_SLACK)
                     : (Box){{0x1p100f, 0x1p100f, 0x1p100f}, {-0x1p100f, -0x1p100f, -0x1p100f}};
     for (uint32_t axis = 0; axis < 3; axis++) {
         planes[2 * axis * children + child] = grown.low[axis];
         planes[(2 * axis + 1) * children + child] = grown.high[axis];
     }
+}
+
+static void include_point(Box *box, const float point[3], float margin)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        box->low[axis] = fminf(box->low[axis], point[axis] - margin);
+        box->high[axis] = fmaxf(box->high[axis], point[axis] + margin);
+    }
+}
+
+Box flat_bounds(const FlatScene *flat, const FlatSource *source)
+{
+    Box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    const bool has_tree = source->bvh->node_count > 0;
+    if (has_tree)
+        box = source->bvh->nodes[0].box;
+    for (uint32_t i = 0; !has_tree && i < flat->triangle_count; i++)
+        for (int corner = 0; corner < 3; corner++)
+            include_point(&box, triangles_corner(source->triangles, i, corner), 0);
+    for (uint32_t i = 0; i < flat->sphere_count; i++)
+        include_point(&box, flat->spheres[i].center, flat->spheres[i].radius);
+    return box_grow(&box, SKY_SLACK);
 }
 
 // Returns the number of pairs: one per inner node, and one if the root is a leaf.

@@ -12,3 +12,7 @@ bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error);
 // flags move from the looks to the blocks. Without a tree, the triangles of both layouts are in
 // file order.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);
+
+// Returns a box around all primitives, grown by SKY_SLACK; unspecified if there are none. The
+// spheres of flat must be filled.
+Box flat_bounds(const FlatScene *flat, const FlatSource *source);

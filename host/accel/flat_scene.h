@@ -27,6 +27,7 @@ typedef struct {
     uint32_t node_count; // entries of pairs or wides
     uint32_t triangle_count, block_count, normals_count, colors_count;
     float background[3], ambient;
+    Box bounds; // of all primitives, grown by SKY_SLACK; unspecified if there are none
 } FlatScene;
 
 // The input of flattening. If bvh has no nodes, the kernels test every triangle.

@@ -16,6 +16,8 @@ static FrameData frame_of(const FlatScene *flat)
                        .triangle_count = flat->triangle_count,
                        .uses_bvh = flat->node_count > 0};
     memcpy(frame.background, flat->background, sizeof frame.background);
+    memcpy(frame.low, flat->bounds.low, sizeof frame.low);
+    memcpy(frame.high, flat->bounds.high, sizeof frame.high);
     return frame;
 }
 

@@ -6,6 +6,7 @@
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -155,6 +156,41 @@ TEST(floors_of_many_triangles_reflect_all_that_stands_on_them)
     expect_same_in_every_form_and_tree(request);
     unlink(mesh);
     unlink(scene);
+}
+
+// Writes a cube, and in some views a sphere. The eye is inside, near or far from both.
+static void write_view(char path[TEMPORARY_PATH], uint64_t *state, bool has_sphere)
+{
+    const double reach = exp(random_between(state, -2, 12));
+    const double x = random_between(state, -1, 1), y = random_between(state, -1, 1);
+    const double z = random_between(state, -1, 1);
+    const double degrees = 1 + fmin(150, 300 / reach) * random_unit(state);
+    FILE *stream = temporary_open(path);
+    fprintf(stream,
+            "define it silhouette diffuse 1 0 0\nmaterial it\nsides two\nply_file %s\n"
+            "camera %g %g %g  %g %g %g  %g\n",
+            CLRT_SOURCE_FOLDER "/scenes/cube.ply", reach * x, reach * y, reach * z, z, x, y,
+            degrees);
+    if (has_sphere)
+        fprintf(stream, "sphere 3 %g 2 1\n", random_between(state, -4, 4));
+    temporary_close(stream);
+}
+
+// Kernels with wide nodes trace no rays in blocks that are certainly sky (docs/numerics.md, B17).
+TEST(no_primitive_is_mistaken_for_sky)
+{
+    uint64_t random = 17;
+    for (int view = 0; view < 24; view++) {
+        char scene[TEMPORARY_PATH];
+        write_view(scene, &random, view % 3 == 0);
+        PictureRequest pair = rendered_in_form(picture_request(scene, 1), &form_all[0]);
+        pair.width = 97;
+        pair.height = 61;
+        const PictureRequest wide[] = {rendered_in_form(pair, &form_all[1]),
+                                       rendered_in_form(pair, &form_all[2])};
+        rendered_expect_same(&pair, wide, 2);
+        unlink(scene);
+    }
 }
 
 TEST(every_form_draws_pictures_of_a_few_pixels)

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Finds the blocks of pixels in which no camera ray hits anything, by two separating planes: sides
+// of the box around all primitives, and sides of the pyramid of the block's rays.
+//
+// Invariant: a block that may hit something is never sky (docs/numerics.md, B17).
+
+// The range of a block's rays, in half samples from the picture's center (camera.cl).
+typedef struct {
+    float left, right, top, bottom;
+} RayRange;
+
+static inline RayRange block_range(const FrameData *frame, uint left, uint top)
+{
+    const int step = 2 * (int)frame->samples;
+    const int x = step * (int)(frame->tile_x + left) - (int)(frame->width * frame->samples);
+    const int y = step * (int)(frame->tile_y + top) - (int)(frame->height * frame->samples);
+    return (RayRange){(float)x, (float)(x + step * BLOCK), (float)y, (float)(y + step * BLOCK)};
+}
+
+// Returns whether the eye is beyond a side of the box and all rays lead away from this side.
+static inline bool leave_box(const FrameData *frame, const RayRange *range)
+{
+    const float across = 0.5f * (range->left + range->right), width = range->right - across;
+    const float along = 0.5f * (range->top + range->bottom), height = range->bottom - along;
+    float size = 0.0f, up = 0.0f, down = 0.0f;
+    for (uint axis = 0; axis < 3; axis++) {
+        const float x = frame->camera.right_step[axis], y = frame->camera.down_step[axis];
+        const float middle = fma(across, x, fma(along, y, frame->camera.forward[axis]));
+        const float spread = fma(width, fabs(x), height * fabs(y));
+        const float eye = frame->camera.eye[axis];
+        size = max(size, fabs(middle) + spread);
+        up = eye > frame->high[axis] ? max(up, middle - spread) : up;
+        down = eye < frame->low[axis] ? max(down, -middle - spread) : down;
+    }
+    return max(up, down) > SKY_SLACK * size;
+}
+
+// Returns whether the box is outside one of the four planes through the eye and a side of the
+// block.
+static inline bool pass_box(const FrameData *frame, const RayRange *range)
+{
+    const float *right = frame->camera.right_step, *down = frame->camera.down_step;
+    const float *forward = frame->camera.forward;
+    const float4 places = (float4)(range->left, -range->right, range->top, -range->bottom);
+    float4 height = 0.0f, size = 0.0f;
+    float reach = 0.0f;
+    for (uint axis = 0; axis < 3; axis++) {
+        const uint i = (axis + 1) % 3, j = (axis + 2) % 3;
+        const float across = down[i] * forward[j] - down[j] * forward[i];
+        const float along = right[i] * forward[j] - right[j] * forward[i];
+        const float ahead = down[i] * right[j] - down[j] * right[i];
+        const float low = frame->low[axis] - frame->camera.eye[axis];
+        const float high = frame->high[axis] - frame->camera.eye[axis];
+        // The inward normals of the left, right, upper and lower plane.
+        const float4 normal = (float4)(across, -across, -along, along) + places * ahead;
+        height += max(low * normal, high * normal);
+        size += fabs(normal);
+        reach = max(reach, max(fabs(low), fabs(high)));
+    }
+    return any(height < -SKY_SLACK * reach * size);
+}
+
+// Returns whether no ray of a block hits anything (docs/numerics.md, B17).
+static inline bool is_sky(const FrameData *frame, uint left, uint top)
+{
+    const RayRange range = block_range(frame, left, top);
+    return leave_box(frame, &range) || pass_box(frame, &range);
+}
