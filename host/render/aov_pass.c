@@ -3,6 +3,8 @@
 // pass counts them.
 #include "render/aov_pass.h"
 
+#include "render/tile_pass.h"
+
 // kernels/aov.cl, embedded at build time.
 extern const char aov_source[];
 

@@ -2,6 +2,8 @@
 // Runs the kernel certify_tile and copies its marks into the map, tile by tile.
 #include "render/certifier.h"
 
+#include "render/tile_pass.h"
+
 #include <stdlib.h>
 #include <string.h>
 

@@ -4,7 +4,8 @@
 // nor the lights that reach the hit points.
 #pragma once
 
-#include "render/draw.h"
+#include "image/framebuffer.h"
+#include "render/renderer.h"
 
 // The kernel certify_tile. Its KernelChoice must have PRECISION_FP64.
 extern const KernelEntry certify_entry;
