@@ -27,13 +27,36 @@ static ProgramSource source_of(const KernelSet *set, const KernelSpec *spec)
     return source;
 }
 
+static uint32_t group_info(const Kernel *kernel, cl_kernel_work_group_info name)
+{
+    size_t value = 0;
+    clGetKernelWorkGroupInfo(kernel->handle, kernel->device->id, name, sizeof value, &value, NULL);
+    return (uint32_t)value;
+}
+
+static LaunchShape shape_of(const Kernel *kernel)
+{
+    const LaunchFacts facts = {
+        .is_cpu = kernel->device->is_cpu,
+        .is_wide = kernel->choice.nodes == NODES_WIDE,
+        .compute_units = kernel->device->compute_units,
+        .group_limit = group_info(kernel, CL_KERNEL_WORK_GROUP_SIZE),
+        .group_multiple = group_info(kernel, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE)};
+    LaunchShape shape = launch_shape(&facts);
+    for (int i = 0; i < 2; i++)
+        shape.group[i] = kernel->group[i] > 0 ? kernel->group[i] : shape.group[i];
+    return shape;
+}
+
 static bool start(void *context, Error *error)
 {
     Kernel *kernel = context;
     cl_int status;
     kernel->handle = clCreateKernel(kernel->program->handle, kernel->entry->name, &status);
-    return cl_succeeded(status, "create a kernel", error) &&
-           kernel->entry->first_run(kernel, error);
+    if (!cl_succeeded(status, "create a kernel", error))
+        return false;
+    kernel->launch = shape_of(kernel);
+    return kernel->entry->first_run(kernel, error);
 }
 
 static Program *program_with_key(const KernelSet *set, const char *key)

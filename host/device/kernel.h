@@ -3,6 +3,7 @@
 // kernel is made without a scene.
 #pragma once
 
+#include "device/launch.h"
 #include "device/program.h"
 
 struct Kernel {
@@ -10,7 +11,8 @@ struct Kernel {
     const KernelEntry *entry;
     KernelChoice choice;
     SceneTraits traits;
-    uint32_t group[2]; // the size of work-groups that the kernel is for
+    uint32_t group[2]; // as in KernelSpec
+    LaunchShape launch;
     Program *program;
     cl_kernel handle;
     double seconds;    // time spent on making the kernel
@@ -23,8 +25,7 @@ typedef struct {
     ARRAY(Kernel *) kernels;
 } KernelSet;
 
-// A kernel to make. If group is {0, 0}, the code that launches the kernel chooses the size of
-// work-groups.
+// A kernel to make. If a member of group is 0, the device determines it (Kernel::launch).
 typedef struct {
     const KernelEntry *entry;
     KernelChoice choice;

@@ -8,10 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-// Sides of work-groups, in work-items. With wide nodes, a work-item renders a block of pixels.
-#define PAIR_GROUP 8
-#define WIDE_GROUP 2
-
 void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTIONS_SIZE])
 {
     const bool wide = choice->nodes == NODES_WIDE, packet = choice->family == FAMILY_PACKET;
@@ -54,11 +50,6 @@ KernelChoice kernel_choose(const KernelRequest *request, const Device *device)
                           .nodes = form <= KERNEL_PAIR ? NODES_PAIR : NODES_WIDE,
                           .lanes = request->lanes,
                           .precision = request->precision};
-}
-
-uint32_t kernel_group_side(const KernelChoice *choice)
-{
-    return choice->nodes == NODES_WIDE ? WIDE_GROUP : PAIR_GROUP;
 }
 
 bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error)

@@ -47,9 +47,6 @@ KernelChoice kernel_choose(const KernelRequest *request, const Device *device);
 // Returns whether packets finish most pictures sooner than single rays, including compilation.
 bool kernel_suits_packets(const Device *device);
 
-// Returns the side of the kernels' square work-groups, in work-items.
-uint32_t kernel_group_side(const KernelChoice *choice);
-
 // Returns false if the device cannot run the chosen kernels.
 bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error);
 

@@ -47,6 +47,7 @@ typedef struct {
     const SceneBuffers *scene; // in the node layout of the kernel
     RenderSettings settings;
     RenderProgress progress; // of the latest picture
+    double launch_samples;   // of the sampler's next launch on GPUs; 0 before the first
     bool is_special;         // the kernel is specialized for the scene
 } Renderer;
 

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Splits a list of requests into launches and keeps two launches in the queue, so that the device
-// never waits for the host. PoCL compiles a second version of a kernel for grids of 65535
-// work-items or more. LAUNCH_ITEMS keeps all grids smaller.
+// never waits for the host. The size of launches follows the device (device/launch.h).
 #include "render/sampler.h"
 
+#include "base/clock.h"
 #include "device/buffer.h"
 
 #include <stdlib.h>
 
-#define LAUNCH_ITEMS 4096
+// The work-items that progress counts as a tile.
+#define TILE_ITEMS 4096
+
+// A launch in flight.
+typedef struct {
+    cl_event done;
+    uint32_t requests;
+    double start;
+} SampleLaunch;
 
 typedef struct {
     Renderer *renderer;
@@ -16,7 +24,9 @@ typedef struct {
     uint32_t item_requests; // per work-item
     cl_mem requests, results, tallies;
     uint32_t *host_tallies;
-    cl_event done[2]; // launch i signals done[i % 2]
+    SampleLaunch launches[2];   // launch i is launches[i % 2]
+    uint32_t started, finished; // requests
+    double last_end;
 } Sampling;
 
 // Host memory, used in place by the device.
@@ -41,19 +51,34 @@ static size_t result_size(const Renderer *renderer)
     return is_ladder(renderer) ? sizeof(PixelSums) : sizeof(SampleData);
 }
 
+// Returns the samples of each request.
+static uint32_t request_samples(const Renderer *renderer, const SampleList *list)
+{
+    return is_ladder(renderer) ? ((const PixelRequest *)list->requests)->samples : 1;
+}
+
 // Returns the number of requests per work-item. The kernels compute the same number.
 static uint32_t item_requests(const Renderer *renderer, const SampleList *list)
 {
-    const PixelRequest *requests = list->requests;
-    const uint32_t item_samples =
+    const uint32_t most =
         renderer->kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE * BLOCK_SIDE : 1;
-    const uint32_t samples = is_ladder(renderer) ? requests[0].samples : 1;
-    return samples < item_samples ? item_samples / samples : 1;
+    const uint32_t samples = request_samples(renderer, list);
+    return samples < most ? most / samples : 1;
 }
 
-static uint32_t launch_requests(const Sampling *sampling)
+static double item_samples(const Sampling *sampling)
 {
-    return LAUNCH_ITEMS * sampling->item_requests;
+    return (double)sampling->item_requests * request_samples(sampling->renderer, sampling->list);
+}
+
+// Returns the most work-items of the next launch.
+static uint32_t launch_items(const Sampling *sampling)
+{
+    const LaunchShape *shape = &sampling->renderer->kernel->launch;
+    const double items = sampling->renderer->launch_samples / item_samples(sampling);
+    if (!shape->is_paced || items > shape->items)
+        return shape->items;
+    return items > 1 ? (uint32_t)items : 1;
 }
 
 static bool share(const Sampling *sampling, const Shared *shared, cl_mem *buffer, Error *error)
@@ -89,8 +114,8 @@ static void close_buffers(Sampling *sampling)
 {
     clFinish(sampling->renderer->kernel->device->queue);
     for (int i = 0; i < 2; i++)
-        if (sampling->done[i] != NULL)
-            clReleaseEvent(sampling->done[i]);
+        if (sampling->launches[i].done != NULL)
+            clReleaseEvent(sampling->launches[i].done);
     device_release(&sampling->requests);
     device_release(&sampling->results);
     device_release(&sampling->tallies);
@@ -114,50 +139,67 @@ static const char *sampling_attempt(const Renderer *renderer)
     return is_ladder(renderer) ? "run the kernel trace_pixels" : "run the kernel trace_samples";
 }
 
-static bool start_launch(Sampling *sampling, uint32_t number, Error *error)
+static bool start_launch(Sampling *sampling, SampleLaunch *launch, Error *error)
 {
     const Renderer *renderer = sampling->renderer;
-    const uint32_t most = launch_requests(sampling);
-    const cl_uint first = number * most, left = sampling->list->count - first;
+    const uint32_t most = launch_items(sampling) * sampling->item_requests;
+    const cl_uint first = sampling->started, left = sampling->list->count - first;
     const cl_uint count = left < most ? left : most, end = first + count;
-    const size_t group = (size_t)renderer->kernel->group[0] * renderer->kernel->group[1];
-    const size_t requests = sampling->item_requests;
+    const uint32_t *sides = renderer->kernel->launch.group;
+    const size_t group = (size_t)sides[0] * sides[1], requests = sampling->item_requests;
     const size_t grid = ((count + requests - 1) / requests + group - 1) / group * group;
+    *launch = (SampleLaunch){.requests = count, .start = clock_seconds()};
+    sampling->started = end;
     cl_int status = clSetKernelArg(renderer->kernel->handle, FLAT_ARRAYS + 2, sizeof first, &first);
     status |= clSetKernelArg(renderer->kernel->handle, FLAT_ARRAYS + 3, sizeof end, &end);
     if (status == CL_SUCCESS)
-        status =
-            clEnqueueNDRangeKernel(renderer->kernel->device->queue, renderer->kernel->handle, 1,
-                                   NULL, &grid, &group, 0, NULL, &sampling->done[number % 2]);
+        status = clEnqueueNDRangeKernel(renderer->kernel->device->queue, renderer->kernel->handle,
+                                        1, NULL, &grid, &group, 0, NULL, &launch->done);
     if (status == CL_SUCCESS)
         status = clFlush(renderer->kernel->device->queue);
     return cl_succeeded(status, sampling_attempt(renderer), error);
 }
 
-static bool finish_launch(Sampling *sampling, uint32_t number, Error *error)
+// Chooses the size of the next launches. A launch begins when the one before it ends.
+static void pace(Sampling *sampling, const SampleLaunch *launch)
 {
-    cl_event *done = &sampling->done[number % 2];
-    const cl_int status = clWaitForEvents(1, done);
-    clReleaseEvent(*done);
-    *done = NULL;
-    sampling->renderer->progress.tiles_done++;
+    Renderer *renderer = sampling->renderer;
+    const double now = clock_seconds();
+    const double start = launch->start > sampling->last_end ? launch->start : sampling->last_end;
+    const uint32_t items = (launch->requests - 1) / sampling->item_requests + 1;
+    renderer->launch_samples =
+        item_samples(sampling) *
+        launch_next_items(&renderer->kernel->launch, launch_items(sampling), items, now - start);
+    sampling->last_end = now;
+}
+
+static bool finish_launch(Sampling *sampling, SampleLaunch *launch, Error *error)
+{
+    const cl_int status = clWaitForEvents(1, &launch->done);
+    clReleaseEvent(launch->done);
+    launch->done = NULL;
+    sampling->finished += launch->requests;
+    pace(sampling, launch);
     return cl_succeeded(status, "trace samples", error);
 }
 
 static bool run_launches(Sampling *sampling, const RenderObserver *observer, Error *error)
 {
     RenderProgress *progress = &sampling->renderer->progress;
-    const uint32_t most = launch_requests(sampling), count = sampling->list->count;
-    const uint32_t launches = count / most + (count % most > 0);
-    uint32_t started = 0, finished = 0;
+    const uint32_t count = sampling->list->count, tile = TILE_ITEMS * sampling->item_requests;
+    const uint64_t tiles = progress->tiles_done;
+    uint32_t started = 0, finished = 0; // launches
     bool wanted = true;
-    progress->tiles += launches;
-    while (finished < (wanted ? launches : started)) {
-        for (; wanted && started < launches && started < finished + 2; started++)
-            if (!start_launch(sampling, started, error))
+    const uint32_t all = (count - 1) / tile + 1;
+    progress->tiles += all;
+    while (sampling->finished < (wanted ? count : sampling->started)) {
+        for (; wanted && sampling->started < count && started < finished + 2; started++)
+            if (!start_launch(sampling, &sampling->launches[started % 2], error))
                 return false;
-        if (!finish_launch(sampling, finished++, error))
+        if (!finish_launch(sampling, &sampling->launches[finished++ % 2], error))
             return false;
+        progress->tiles_done =
+            tiles + (sampling->finished == count ? all : sampling->finished / tile);
         wanted = render_observer_continues(observer, progress) && wanted;
     }
     return true;
@@ -196,6 +238,8 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
     if (list->count == 0)
         return true;
     Sampling sampling = {renderer, list, .item_requests = item_requests(renderer, list)};
+    if (renderer->launch_samples <= 0)
+        renderer->launch_samples = launch_first_items(&renderer->kernel->launch, 1);
     bool ok = open_buffers(&sampling, error) && set_arguments(&sampling, frame, error) &&
               run_launches(&sampling, observer, error) && read_tallies(&sampling, error) &&
               read_back(&sampling, sampling.results, list->count * result_size(renderer), error);

@@ -87,6 +87,48 @@ Tile tile_largest(const RenderSettings *settings)
                   .height = smaller(settings->tile_height, settings->height)};
 }
 
+// Returns how many of `most` tiles, counted from the first, form a rectangle. These are tiles of
+// one row, or whole rows.
+static uint64_t joined_count(const RenderSettings *settings, uint64_t first, uint64_t most)
+{
+    const uint64_t columns = columns_of(settings), left = columns - first % columns;
+    if (settings->parts > 0)
+        return 1;
+    if (left < columns || most < columns)
+        return most < left ? most : left;
+    const uint64_t rest = tile_count(settings) - first;
+    return most < rest ? most / columns * columns : rest;
+}
+
+static Tile join_tiles(const RenderSettings *settings, uint64_t first, uint64_t count)
+{
+    Tile joined = tile_at(settings, first);
+    const Tile last = tile_at(settings, first + count - 1);
+    joined.width = last.x + last.width - joined.x;
+    joined.height = last.y + last.height - joined.y;
+    return joined;
+}
+
+Tile tile_next(const RenderSettings *settings, TileCursor *cursor, uint64_t pixels, uint64_t *ended)
+{
+    const Tile largest = tile_largest(settings);
+    const uint64_t tiles = pixels / ((uint64_t)largest.width * largest.height);
+    if (cursor->row == 0 && tiles > 0) {
+        *ended = joined_count(settings, cursor->number, tiles);
+        cursor->number += *ended;
+        return join_tiles(settings, cursor->number - *ended, *ended);
+    }
+    Tile rows = tile_at(settings, cursor->number);
+    const uint64_t fitting = pixels > rows.width ? pixels / rows.width : 1;
+    const uint32_t left = rows.height - cursor->row;
+    rows.y += cursor->row;
+    rows.top += cursor->row;
+    rows.height = fitting < left ? (uint32_t)fitting : left;
+    *ended = rows.height == left;
+    *cursor = (TileCursor){cursor->number + *ended, *ended ? 0 : cursor->row + rows.height};
+    return rows;
+}
+
 void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile)
 {
     frame->tile_x = settings->left + tile->x;

@@ -56,5 +56,18 @@ Tile tile_at(const RenderSettings *settings, uint64_t number);
 // Returns the size of the largest tile, with x and y 0.
 Tile tile_largest(const RenderSettings *settings);
 
+// The place of the next launch: a tile, and the rows of this tile that earlier launches draw.
+typedef struct {
+    uint64_t number;
+    uint32_t row;
+} TileCursor;
+
+// Returns the next launch's rectangle and moves the cursor, which must be before the last tile's
+// end. The rectangle consists of consecutive tiles or, if a whole tile has more than `pixels`
+// pixels, of rows of one tile, but at least one row. The tiles of a part are not joined. *ended
+// receives the number of tiles that end with this rectangle.
+Tile tile_next(const RenderSettings *settings, TileCursor *cursor, uint64_t pixels,
+               uint64_t *ended);
+
 // Sets the tile that the frame draws.
 void tile_aim(FrameData *frame, const RenderSettings *settings, const Tile *tile);

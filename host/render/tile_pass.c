@@ -1,55 +1,85 @@
 // SPDX-License-Identifier: MIT
-// Draws a picture tile by tile. Three tiles are in flight, each in its own command queue: the
-// device traces one while another is read back or finishes its last work-groups. With two, a device
-// that draws a tile of sky in 70 us waits for the host.
+// Draws tiles by launches. Three launches are in flight, each in its own command queue: the device
+// traces one while another is read back or finishes its last work-groups. With two, a device that
+// draws a tile of sky in 70 us waits for the host.
 //
-// All tiles use one padded grid with offset 0, because PoCL compiles another version of a kernel
-// for each local size, for offsets and for large grids. The kernels receive a tile's position by
-// FrameData instead of by the offset.
+// On CPUs, a launch is a tile. All launches use one padded grid with offset 0, because PoCL
+// compiles another version of a kernel for each local size, for offsets and for large grids. The
+// kernels receive the position by FrameData instead of by the offset. On other devices, the size of
+// a launch follows the device and the time of the previous launch (device/launch.h).
 //
 // Invariant: callers receive the tiles in the order of their numbers, so a count of finished tiles
 // identifies them.
 #include "render/tile_pass.h"
 
+#include "base/clock.h"
 #include "device/buffer.h"
 
-#include <stdlib.h>
+#include <string.h>
 
 #define SLOTS 3
 
-// A tile in flight.
+// A launch in flight.
 typedef struct {
-    cl_command_queue queue; // one per slot, so that tiles overlap
+    cl_command_queue queue; // one per slot, so that launches overlap
     cl_mem outputs[2];
-    void *values[2]; // host copies of the outputs; NULL for an output that is read in place
+    HostMemory values[2]; // copies of the outputs; empty for an output that is read in place
     cl_event done;
-    Tile tile;
+    Tile area;
+    uint64_t ended; // the number of tiles that end with this launch
+    double start;
 } Slot;
 
-static bool is_read_in_place(const TilePass *pass, int output)
+// A pass in progress.
+typedef struct {
+    const TilePass *pass;
+    const Renderer *renderer;
+    Slot slots[SLOTS];
+    TileCursor cursor;
+    uint64_t pixels;            // the most pixels of the next launch
+    uint64_t started, finished; // launches
+    double last_end;
+} PassRun;
+
+static bool is_paced(const Renderer *renderer)
 {
-    return output == 0 && pass->framebuffer != NULL;
+    return renderer->kernel->launch.is_paced;
+}
+
+static bool is_read_in_place(const TilePass *pass, const Renderer *renderer, int output)
+{
+    return output == 0 && pass->framebuffer != NULL && !is_paced(renderer);
+}
+
+// Returns the most pixels of a launch. A paced launch has at least one row of a tile.
+static uint64_t most_pixels(const Renderer *renderer)
+{
+    const Tile largest = tile_largest(&renderer->settings);
+    const uint64_t all = (uint64_t)renderer->settings.width * renderer->settings.height;
+    const uint64_t items = renderer->kernel->launch.items;
+    const uint64_t most = items > largest.width ? items : largest.width;
+    if (!is_paced(renderer))
+        return (uint64_t)largest.width * largest.height;
+    return most < all ? most : all;
 }
 
 static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
     const Device *device = renderer->kernel->device;
-    const Tile largest = tile_largest(&renderer->settings);
-    const size_t count = (size_t)largest.width * largest.height;
+    const size_t count = most_pixels(renderer);
     cl_int status;
     slot->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
     bool ok = cl_succeeded(status, "create an OpenCL queue", error);
     for (int i = 0; ok && i < pass->outputs; i++) {
         const size_t size = pass->sizes[i] > 0 ? count * pass->sizes[i] : 64;
-        const bool in_place = is_read_in_place(pass, i);
-        slot->values[i] = in_place ? NULL : memory_raw(size, 1, error);
-        ok = (in_place || slot->values[i] != NULL) &&
+        ok = (is_read_in_place(pass, renderer, i) ||
+              host_memory_make(&slot->values[i], device, size, error)) &&
              device_buffer(device, size, &slot->outputs[i], error);
     }
     return ok;
 }
 
-// Waits until the device has finished the slot's tile, and frees the slot.
+// Waits until the device has finished the slot's launch, and frees the slot.
 static void close_slot(Slot *slot)
 {
     if (slot->queue != NULL) {
@@ -60,15 +90,15 @@ static void close_slot(Slot *slot)
         clReleaseEvent(slot->done);
     for (int i = 0; i < 2; i++) {
         device_release(&slot->outputs[i]);
-        free(slot->values[i]);
+        host_memory_free(&slot->values[i]);
     }
     *slot = (Slot){0};
 }
 
-static size_t grid_side(const Kernel *kernel, uint32_t tile_side, uint32_t group)
+static size_t grid_side(const Kernel *kernel, uint32_t side, uint32_t group)
 {
     const uint32_t pixels = kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE : 1;
-    const size_t items = ((size_t)tile_side + pixels - 1) / pixels;
+    const size_t items = ((size_t)side + pixels - 1) / pixels;
     return (items + group - 1) / group * group;
 }
 
@@ -76,10 +106,10 @@ static bool launch(const Slot *slot, const TilePass *pass, const Renderer *rende
                    const FrameData *frame, Error *error)
 {
     const Kernel *kernel = renderer->kernel;
-    const Tile largest = tile_largest(&renderer->settings);
-    const size_t group[2] = {kernel->group[0], kernel->group[1]};
-    const size_t grid[2] = {grid_side(kernel, largest.width, kernel->group[0]),
-                            grid_side(kernel, largest.height, kernel->group[1])};
+    const Tile size = is_paced(renderer) ? slot->area : tile_largest(&renderer->settings);
+    const size_t group[2] = {kernel->launch.group[0], kernel->launch.group[1]};
+    const size_t grid[2] = {grid_side(kernel, size.width, kernel->launch.group[0]),
+                            grid_side(kernel, size.height, kernel->launch.group[1])};
     cl_int status = CL_SUCCESS;
     if (!renderer_set_scene(renderer, frame, error))
         return false;
@@ -92,69 +122,136 @@ static bool launch(const Slot *slot, const TilePass *pass, const Renderer *rende
     return cl_succeeded(status, "run the kernel", error);
 }
 
-// Starts the copy of an output to the slot's values, or to the tile's place in the framebuffer.
-static cl_int start_read(Slot *slot, const TilePass *pass, int output, cl_event *done)
+// Starts the copy of an output to the slot's values, or to its place in the framebuffer.
+static cl_int start_read(Slot *slot, const PassRun *run, int output, cl_event *done)
 {
-    const Tile *tile = &slot->tile;
-    const size_t size = pass->sizes[output], row = tile->width * size;
-    if (!is_read_in_place(pass, output))
+    const Tile *area = &slot->area;
+    const Framebuffer *framebuffer = run->pass->framebuffer;
+    const size_t size = run->pass->sizes[output], row = area->width * size;
+    if (!is_read_in_place(run->pass, run->renderer, output))
         return clEnqueueReadBuffer(slot->queue, slot->outputs[output], CL_FALSE, 0,
-                                   row * tile->height, slot->values[output], 0, NULL, done);
-    const size_t start[3] = {0}, place[3] = {tile->left * size, tile->top, 0};
-    const size_t region[3] = {row, tile->height, 1};
+                                   row * area->height, slot->values[output].data, 0, NULL, done);
+    const size_t start[3] = {0}, place[3] = {area->left * size, area->top, 0};
+    const size_t region[3] = {row, area->height, 1};
     return clEnqueueReadBufferRect(slot->queue, slot->outputs[output], CL_FALSE, start, place,
-                                   region, row, 0, pass->framebuffer->width * size, 0,
-                                   pass->framebuffer->pixels, 0, NULL, done);
+                                   region, row, 0, framebuffer->width * size, 0,
+                                   framebuffer->pixels, 0, NULL, done);
 }
 
-// Starts the kernel for the slot's tile, and then the copies of its outputs. The first output is
-// copied last, so slot->done signals the end of this copy.
-static bool start_tile(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
+// Starts the copies of the outputs. The first output is copied last, so slot->done signals the end
+// of this copy.
+static bool start_reads(Slot *slot, const PassRun *run, Error *error)
 {
-    FrameData frame = pass->frame;
-    tile_aim(&frame, &renderer->settings, &slot->tile);
-    if (!launch(slot, pass, renderer, &frame, error))
-        return false;
     cl_int status = CL_SUCCESS;
-    for (int i = pass->outputs - 1; i >= 0 && status == CL_SUCCESS; i--)
-        if (pass->sizes[i] > 0)
-            status = start_read(slot, pass, i, i == 0 ? &slot->done : NULL);
+    for (int i = run->pass->outputs - 1; i >= 0 && status == CL_SUCCESS; i--)
+        if (run->pass->sizes[i] > 0)
+            status = start_read(slot, run, i, i == 0 ? &slot->done : NULL);
     if (status == CL_SUCCESS)
         status = clFlush(slot->queue);
     return cl_succeeded(status, "read a tile back", error);
 }
 
-static bool finish_tile(Slot *slot, const TilePass *pass, Error *error)
+// Paced launches are read when they are awaited. Otherwise, a driver that waits for a launch in
+// order to read it would delay the next launch.
+static bool start_launch(PassRun *run, Error *error)
 {
-    if (!cl_succeeded(clWaitForEvents(1, &slot->done), "trace a tile", error))
+    Slot *slot = &run->slots[run->started++ % SLOTS];
+    const RenderSettings *settings = &run->renderer->settings;
+    FrameData frame = run->pass->frame;
+    slot->area = tile_next(settings, &run->cursor, run->pixels, &slot->ended);
+    slot->start = clock_seconds();
+    tile_aim(&frame, settings, &slot->area);
+    if (!launch(slot, run->pass, run->renderer, &frame, error))
+        return false;
+    return is_paced(run->renderer) ? cl_succeeded(clFlush(slot->queue), "start the kernel", error)
+                                   : start_reads(slot, run, error);
+}
+
+// Chooses the size of the next launches. A launch begins when the one before it ends.
+static void pace(PassRun *run, const Slot *slot)
+{
+    const double now = clock_seconds();
+    const double start = slot->start > run->last_end ? slot->start : run->last_end;
+    const uint32_t pixels = slot->area.width * slot->area.height;
+    run->pixels = launch_next_items(&run->renderer->kernel->launch, (uint32_t)run->pixels, pixels,
+                                    now - start);
+    run->last_end = now;
+}
+
+static void copy_colors(const Slot *slot, Framebuffer *framebuffer)
+{
+    const Tile *area = &slot->area;
+    const float(*colors)[3] = slot->values[0].data;
+    for (size_t row = 0; row < area->height; row++)
+        memcpy(framebuffer->pixels[(area->top + row) * framebuffer->width + area->left],
+               colors[row * area->width], area->width * sizeof *colors);
+}
+
+static bool finish_launch(PassRun *run, Error *error)
+{
+    Slot *slot = &run->slots[run->finished++ % SLOTS];
+    const TilePass *pass = run->pass;
+    const bool paced = is_paced(run->renderer);
+    if ((paced && !start_reads(slot, run, error)) ||
+        !cl_succeeded(clWaitForEvents(1, &slot->done), "trace a tile", error))
         return false;
     clReleaseEvent(slot->done);
     slot->done = NULL;
-    pass->take(pass->context, &slot->tile, slot->values);
+    if (paced)
+        pace(run, slot);
+    if (paced && pass->framebuffer != NULL)
+        copy_colors(slot, pass->framebuffer);
+    pass->take(pass->context, &slot->area,
+               (void *const[2]){slot->values[0].data, slot->values[1].data});
     return true;
+}
+
+// Reports tiles one by one. Returns whether to continue.
+static bool report_tiles(uint64_t count, const RenderObserver *observer, RenderProgress *progress)
+{
+    bool wanted = true;
+    for (; count > 0; count--) {
+        progress->tiles_done++;
+        wanted = render_observer_continues(observer, progress) && wanted;
+    }
+    return wanted;
+}
+
+// A stopped pass ends with a whole tile.
+static bool run_launches(PassRun *run, const RenderObserver *observer, RenderProgress *progress,
+                         Error *error)
+{
+    const uint64_t tiles = tile_count(&run->renderer->settings);
+    bool wanted = true;
+    while (true) {
+        while (run->started < run->finished + SLOTS && run->cursor.number < tiles &&
+               (wanted || run->cursor.row > 0))
+            if (!start_launch(run, error))
+                return false;
+        if (run->finished == run->started)
+            return true;
+        const uint64_t ended = run->slots[run->finished % SLOTS].ended;
+        if (!finish_launch(run, error))
+            return false;
+        wanted = report_tiles(ended, observer, progress) && wanted;
+    }
 }
 
 bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderObserver *observer,
                    RenderProgress *progress, Error *error)
 {
-    Slot slots[SLOTS] = {0};
-    const uint64_t tiles = tile_count(&renderer->settings);
-    uint64_t started = pass->first, finished = pass->first;
-    bool ok = true, wanted = true;
+    const double samples = (double)pass->frame.samples * pass->frame.samples;
+    const uint64_t first = launch_first_items(&renderer->kernel->launch, samples);
+    PassRun run = {.pass = pass,
+                   .renderer = renderer,
+                   .cursor = {pass->first, 0},
+                   .pixels = is_paced(renderer) ? first : most_pixels(renderer)};
+    bool ok = true;
     for (int slot = 0; slot < SLOTS; slot++)
-        ok = ok && open_slot(&slots[slot], pass, renderer, error);
-    while (ok && finished < (wanted ? tiles : started)) {
-        for (; ok && wanted && started < tiles && started < finished + SLOTS; started++) {
-            Slot *slot = &slots[started % SLOTS];
-            slot->tile = tile_at(&renderer->settings, started);
-            ok = start_tile(slot, pass, renderer, error);
-        }
-        ok = ok && finish_tile(&slots[finished++ % SLOTS], pass, error);
-        progress->tiles_done += ok;
-        wanted = ok && render_observer_continues(observer, progress) && wanted;
-    }
+        ok = ok && open_slot(&run.slots[slot], pass, renderer, error);
+    ok = ok && run_launches(&run, observer, progress, error);
     for (int slot = 0; slot < SLOTS; slot++)
-        close_slot(&slots[slot]);
+        close_slot(&run.slots[slot]);
     return ok;
 }
 
@@ -163,7 +260,7 @@ bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderO
 
 static bool run_once(Renderer *renderer, const TilePass *pass, Error *error)
 {
-    Slot slot = {0};
+    Slot slot = {.area = tile_largest(&renderer->settings)};
     const bool ok = open_slot(&slot, pass, renderer, error) &&
                     launch(&slot, pass, renderer, &pass->frame, error) &&
                     cl_succeeded(clFinish(slot.queue), "finish the first run", error);

@@ -71,8 +71,8 @@ static bool open_renderer(Session *session, const SessionPicture *request, Rende
     result->upload_seconds = renderer->scene->seconds;
     result->build_seconds = renderer->kernel->seconds;
     result->was_compiled = renderer->kernel->was_compiled;
-    result->group[0] = renderer->kernel->group[0];
-    result->group[1] = renderer->kernel->group[1];
+    result->group[0] = renderer->kernel->launch.group[0];
+    result->group[1] = renderer->kernel->launch.group[1];
     return true;
 }
 

@@ -6,6 +6,7 @@
 #include "device/buffer.h"
 #include "render/certifier.h"
 
+// The rays of a launch. GPUs may need more.
 #define LAUNCH_RAYS 65536
 
 // The smallest vector width of wide kernels; the host may not know the actual width.
@@ -48,7 +49,10 @@ static bool launch(const RayCaster *caster, const RayCast *cast, size_t count, E
 {
     const Kernel *kernel = caster->kernel;
     const bool has_lanes = kernel->choice.nodes == NODES_WIDE && !finds_all(caster);
-    const size_t group = has_lanes ? 4 : 64, items = has_lanes ? count / FEWEST_LANES : count;
+    const uint32_t *sides = kernel->launch.group;
+    const bool is_fixed = kernel->choice.nodes == NODES_WIDE && !has_lanes;
+    const size_t group = is_fixed ? 64 : (size_t)sides[0] * sides[1];
+    const size_t items = has_lanes ? count / FEWEST_LANES : count;
     const size_t grid = (items / group + 1) * group;
     return set_arguments(caster, cast, (cl_uint)count, error) &&
            cl_succeeded(clEnqueueNDRangeKernel(kernel->device->queue, kernel->handle, 1, NULL,
@@ -70,13 +74,20 @@ static bool first_run(const Kernel *kernel, Error *error)
     return renderer_run_first(kernel, cast_nothing, error);
 }
 
+static size_t launch_rays(const RayCaster *caster)
+{
+    const uint32_t items = caster->kernel->launch.items;
+    return items > LAUNCH_RAYS ? items : LAUNCH_RAYS;
+}
+
 static bool make_buffers(RayCaster *caster, const Device *device, Error *error)
 {
-    const size_t hits = finds_all(caster) ? CROSSINGS_MAX : LAUNCH_RAYS;
-    return device_buffer(device, LAUNCH_RAYS * sizeof(RayData), &caster->rays, error) &&
+    const size_t rays = launch_rays(caster);
+    const size_t hits = finds_all(caster) ? CROSSINGS_MAX : rays;
+    return device_buffer(device, rays * sizeof(RayData), &caster->rays, error) &&
            device_buffer(device, hits * sizeof(HitData), &caster->hits, error) &&
            (!finds_all(caster) ||
-            device_buffer(device, LAUNCH_RAYS * sizeof(uint32_t), &caster->counts, error));
+            device_buffer(device, rays * sizeof(uint32_t), &caster->counts, error));
 }
 
 bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, Error *error)
@@ -109,7 +120,7 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-// Sends the rays, runs the kernel and reads the results, for at most LAUNCH_RAYS rays. Only the
+// Sends the rays, runs the kernel and reads the results, for at most launch_rays rays. Only the
 // reading waits.
 static bool cast_launch(const RayCaster *caster, const RayCast *cast, HitData *hits,
                         uint32_t *counts, Error *error)
@@ -131,7 +142,7 @@ bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits
                      Error *error)
 {
     const size_t room = finds_all(caster) ? cast->room : 1;
-    const size_t most = smaller(LAUNCH_RAYS, CROSSINGS_MAX / (room > 0 ? room : 1));
+    const size_t most = smaller(launch_rays(caster), CROSSINGS_MAX / (room > 0 ? room : 1));
     RayCast part = *cast;
     for (size_t first = 0; first < cast->count; first += most) {
         part.rays = cast->rays + first;

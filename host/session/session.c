@@ -149,10 +149,9 @@ static KernelSpec spec_of(const Session *session, const RendererUse *use, const 
     KernelSpec spec = {.entry = use->entry,
                        .choice = use->choice != NULL ? *use->choice : session->choice,
                        .traits = *traits};
-    const uint32_t side = kernel_group_side(&spec.choice);
     const bool is_own = use->choice == NULL;
-    spec.group[0] = is_own && settings->group_width > 0 ? settings->group_width : side;
-    spec.group[1] = is_own && settings->group_height > 0 ? settings->group_height : side;
+    spec.group[0] = is_own ? settings->group_width : 0;
+    spec.group[1] = is_own ? settings->group_height : 0;
     return spec;
 }
 

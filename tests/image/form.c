@@ -64,8 +64,3 @@ KernelChoice form_choice(void)
     is_known = true;
     return choice;
 }
-
-uint32_t form_group(const KernelChoice *choice)
-{
-    return choice->nodes == NODES_WIDE ? 2 : 8;
-}

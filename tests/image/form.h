@@ -18,6 +18,3 @@ extern const KernelChoice form_few[FORMS_FEW];
 
 // Returns the selected form. Ends the process if CLRT_TEST_KERNEL names no form.
 KernelChoice form_choice(void);
-
-// Returns the number of work-items along each side of a work-group, as clrt chooses it.
-uint32_t form_group(const KernelChoice *choice);

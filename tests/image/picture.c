@@ -21,8 +21,7 @@ typedef struct {
 
 PictureRequest picture_request(const char *scene_path, uint32_t view)
 {
-    const KernelChoice choice = form_choice();
-    const uint32_t group = form_group(&choice);
+    const char *units = getenv("CLRT_TEST_GPU");
     return (PictureRequest){.scene_path = scene_path,
                             .view = view,
                             .samples = 1,
@@ -31,10 +30,9 @@ PictureRequest picture_request(const char *scene_path, uint32_t view)
                             .builder = BVH_SAH,
                             .tile_width = 128,
                             .tile_height = 128,
-                            .group_width = group,
-                            .group_height = group,
                             .specialization = CLRT_SPECIALIZE_NEVER,
-                            .choice = choice};
+                            .gpu_units = units != NULL ? (uint32_t)atoi(units) : 0,
+                            .choice = form_choice()};
 }
 
 static bool load(Pipeline *pipeline, Error *error)
@@ -130,14 +128,23 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 
 static Session session;
 
-// Opens the session at the first request, and whenever the compiler's options change. Programs with
-// options and special ones are not saved, because saving takes longer than their pictures. The
-// session stays open, because some implementations of OpenCL cannot be called at exit.
+// Replaces facts about the device. clrt then treats it as a GPU with memory of its own.
+static void pretend_gpu(Device *device, uint32_t units)
+{
+    device->is_cpu = device->shares_memory = false;
+    device->compute_units = units;
+}
+
+// Opens the session at the first request, and whenever the compiler's options or the GPU change.
+// Programs with options and special ones are not saved, because saving takes longer than their
+// pictures. The session stays open, because some implementations of OpenCL cannot be called at
+// exit.
 static bool open_session(const PictureRequest *request, Error *error)
 {
+    static uint32_t units;
     const char *options = request->extra_options;
     const char *older = session.settings.extra_options;
-    if (session.is_open && options != older)
+    if (session.is_open && (options != older || units != request->gpu_units))
         session_close(&session);
     const bool is_kept = options == NULL && request->specialization != CLRT_SPECIALIZE_ALWAYS;
     session.cache = is_kept ? *shared_cache() : (Cache){0};
@@ -152,6 +159,9 @@ static bool open_session(const PictureRequest *request, Error *error)
                           .kernel_folder = getenv("CLRT_KERNEL_DIR"),
                           .extra_options = options};
     const bool ok = session.is_open || session_open(&session, error);
+    units = request->gpu_units;
+    if (units > 0)
+        pretend_gpu(&session.device, units);
     session.choice = request->choice;
     return ok;
 }

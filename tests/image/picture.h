@@ -27,7 +27,9 @@ typedef struct {
     int64_t max_level;      // negative: the scene's
     bool uses_bvh;
     BvhBuilder builder;
-    uint32_t tile_width, tile_height, group_width, group_height;
+    uint32_t tile_width, tile_height;
+    uint32_t group_width, group_height; // 0: the device's
+    uint32_t gpu_units; // draws as on a GPU with this number of compute units; 0: as on the device
     ClrtSpecialize specialization;
     KernelChoice choice;
     const char *extra_options; // for the compiler of kernels; NULL for none
@@ -40,7 +42,8 @@ typedef struct {
     void *draw_context;
 } PictureRequest;
 
-// Returns clrt's defaults, with the kernels of form_choice. The kernels are general, because the
+// Returns clrt's defaults, with the kernels of form_choice, and with the GPU's compute units that
+// the environment variable CLRT_TEST_GPU contains. The kernels are general, because the
 // choice of "auto" would depend on the cache.
 PictureRequest picture_request(const char *scene_path, uint32_t view);
 

@@ -46,7 +46,6 @@ Framebuffer rendered_with(PictureRequest request, const char *channels, Layers *
 PictureRequest rendered_in_form(PictureRequest request, const KernelChoice *form)
 {
     request.choice = *form;
-    request.group_width = request.group_height = form_group(form);
     return request;
 }
 

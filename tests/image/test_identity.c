@@ -227,6 +227,23 @@ TEST(every_size_of_tiles_and_work_groups_draws_the_same)
     rendered_expect_same(&usual, others, TILES + GROUPS);
 }
 
+// The sizes of a GPU's launches depend on its compute units and on measured times.
+TEST(every_size_of_gpu_launches_draws_the_same)
+{
+    static const uint32_t units[] = {1, 2, 132};
+    static const uint32_t tiles[][2] = {{128, 128}, {8, 8}, {7, 50}, {131, 1}, {1000, 1000}};
+    enum { UNITS = sizeof units / sizeof units[0], TILES = sizeof tiles / sizeof tiles[0] };
+    const PictureRequest usual = rendered_in_form(small_request(SCENE_COUNT - 1), &form_all[0]);
+    PictureRequest others[UNITS * TILES];
+    for (size_t i = 0; i < UNITS * TILES; i++) {
+        others[i] = usual;
+        others[i].gpu_units = units[i / TILES];
+        others[i].tile_width = tiles[i % TILES][0];
+        others[i].tile_height = tiles[i % TILES][1];
+    }
+    rendered_expect_same(&usual, others, UNITS * TILES);
+}
+
 // Writes a scene with exactly the features of the mask, and returns its path.
 static const char *write_scene(unsigned mask)
 {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Parts share the tiles of a picture evenly, wherever the costly tiles are.
+// Parts share the tiles of a picture evenly, wherever the costly tiles are. Launches draw each tile
+// once.
 #include "render/renderer.h"
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <stdlib.h>
 
@@ -96,4 +98,86 @@ TEST(no_part_is_much_slower_than_the_mean)
                 if (ratio > SLOWEST_RATIO)
                     fail_msg("%u columns, %u parts, cost %zu: %.2f", columns[i], parts, j, ratio);
             }
+}
+
+// The pixels that launches have drawn, in the framebuffer's layout.
+typedef struct {
+    unsigned char *counts;
+    uint32_t width, height;
+} Drawn;
+
+static void draw_area(const Drawn *drawn, const Tile *area)
+{
+    assert_true(area->left + area->width <= drawn->width);
+    assert_true(area->top + area->height <= drawn->height);
+    for (uint32_t row = 0; row < area->height; row++)
+        for (uint32_t column = 0; column < area->width; column++)
+            drawn->counts[(size_t)(area->top + row) * drawn->width + area->left + column]++;
+}
+
+static void expect_drawn_once(const Drawn *drawn, const Tile *tile)
+{
+    for (uint32_t row = 0; row < tile->height; row++)
+        for (uint32_t column = 0; column < tile->width; column++)
+            assert_int_equal(
+                drawn->counts[(size_t)(tile->top + row) * drawn->width + tile->left + column], 1);
+}
+
+// Draws a picture by launches of `least` to `most` pixels, and returns their number. A tile must be
+// drawn once when it ends.
+static unsigned count_launches(const RenderSettings *settings, uint32_t least, uint32_t most)
+{
+    Drawn drawn;
+    TileCursor cursor = {0, 0};
+    uint64_t state = most, ended, tiles = 0;
+    unsigned launches = 0;
+    tile_frame_size(settings, &drawn.width, &drawn.height);
+    drawn.counts = calloc((size_t)drawn.width * drawn.height + 1, 1);
+    assert_non_null(drawn.counts);
+    for (; cursor.number < tile_count(settings); launches++) {
+        const uint32_t pixels = least + random_below(&state, most - least + 1);
+        const Tile area = tile_next(settings, &cursor, pixels, &ended);
+        assert_true(area.width * area.height <= pixels || area.height == 1);
+        draw_area(&drawn, &area);
+        for (; ended > 0; ended--) {
+            const Tile tile = tile_at(settings, tiles++);
+            expect_drawn_once(&drawn, &tile);
+        }
+    }
+    assert_int_equal(tiles, tile_count(settings));
+    free(drawn.counts);
+    return launches;
+}
+
+TEST(launches_of_any_size_draw_every_tile_once)
+{
+    uint64_t random = 7;
+    for (uint32_t round = 0; round < 300; round++) {
+        const uint32_t most = 1 + random_below(&random, 60000);
+        RenderSettings settings = {.width = 1 + random_below(&random, 200),
+                                   .height = 1 + random_below(&random, 200),
+                                   .tile_width = 1 + random_below(&random, 100),
+                                   .tile_height = 1 + random_below(&random, 100),
+                                   .parts = round % 3};
+        settings.part = settings.parts > 1;
+        count_launches(&settings, 1 + random_below(&random, most), most);
+    }
+}
+
+TEST(launches_join_and_divide_tiles_by_their_size)
+{
+    static const struct {
+        uint32_t parts, pixels, launches;
+    } cases[] = {{0, 1024 * 1024, 1},    {0, 2 * 1024 * 1024, 1}, {0, 3 * 1024 * 128, 3},
+                 {0, 5 * 128 * 128, 16}, {0, 128 * 128, 64},      {0, 128 * 64, 128},
+                 {0, 128 * 60, 192},     {0, 1, 64 * 128},        {2, 1024 * 1024, 32}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const RenderSettings settings = {.width = 1024,
+                                         .height = 1024,
+                                         .tile_width = 128,
+                                         .tile_height = 128,
+                                         .parts = cases[i].parts};
+        assert_int_equal(count_launches(&settings, cases[i].pixels, cases[i].pixels),
+                         cases[i].launches);
+    }
 }

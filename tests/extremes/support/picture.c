@@ -44,11 +44,8 @@ void picture_open(OpenPicture *picture, const Studio *studio, const Scene *scene
                   const PictureSettings *settings)
 {
     Error error = {0};
-    const uint32_t group = form_group(&settings->choice);
-    const KernelSpec spec = {.entry = &draw_entry,
-                             .choice = settings->choice,
-                             .traits = traits_general(false),
-                             .group = {group, group}};
+    const KernelSpec spec = {
+        .entry = &draw_entry, .choice = settings->choice, .traits = traits_general(false)};
     *picture = (OpenPicture){.kernels.source = {.device = &studio->device,
                                                 .cache = shared_cache(),
                                                 .kernel_folder = getenv("CLRT_KERNEL_DIR"),
