@@ -227,7 +227,7 @@ typedef struct {
     uint32_t lanes; // vector width of CLRT_KERNEL_WIDE or _PACKET: 4, 8 or 16; 0: the device's
     ClrtSpecialize specialize;
     ClrtTree tree;
-    uint32_t group_width, group_height; // of work-groups, at most 1024; 0: 8 (pair) or 2 (others)
+    uint32_t group_width, group_height; // of work-groups, at most 1024; 0: the device's
 } ClrtSettings;
 
 // Opens an OpenCL device. Each kernel is compiled by the first call that needs it, which takes

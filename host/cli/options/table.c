@@ -88,7 +88,8 @@ const Option option_table[] = {
      FOR_DRAWING, "size of the picture's tiles (default: 128x128, in parts 64x64)"},
     {"tune group", "WxH", 0, AREA(renderer.group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_GENERAL | FOR_WARM,
-     "size of work-groups (default: 8x8, with wide nodes 2x2)"},
+     "size of work-groups (default: 8x8, on CPUs with wide nodes 2x2; on GPUs the kernel may need "
+     "another)"},
     {"tune specialize", "auto|always|never", 0, WORD(renderer.specialize), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
      "compile kernels for the scene if it pays (auto), always or never; auto is the default"},
