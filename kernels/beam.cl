@@ -269,13 +269,27 @@ static inline uint triangles_beside(const Beam *beam, const Ray *rays, uint own)
     return others;
 }
 
-// Sets up a beam of rays whose directions share their signs. The count and the hits must be set.
-static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *rays)
+// Notes which triangles the rays skip. Returns whether others are left that they may hit. This is
+// not so for rays that leave a floor in a scene of spheres.
+static inline bool beam_start(Beam *beam, const Tracer *tracer, const Ray *rays)
 {
     beam->tracer = tracer;
     beam->kind = rays->kind;
+    const uint own = shared_own(beam, rays);
+    beam->own_block = own == NOTHING ? NOTHING : own / WIDE;
+    if (own == NOTHING)
+        return true;
+    beam->others = triangles_beside(beam, rays, own);
+    const bool has_tree = CLRT_BVH && tracer->frame->uses_bvh;
+    return beam->others != 0 || has_tree || tracer->frame->triangle_count > WIDE;
+}
+
+// Prepares the tests against boxes.
+static inline void beam_prepare(Beam *beam, const Ray *rays)
+{
     for (uint number = 0; number < beam->count; number++) {
-        search_boxes(&beam->packets[number].rays, tracer, &rays[number], beam->hits[number].t);
+        search_boxes(&beam->packets[number].rays, beam->tracer, &rays[number],
+                     beam->hits[number].t);
         beam->live[number] = lane_bits(rays[number].active);
     }
     const float reach =
@@ -284,17 +298,17 @@ static inline void beam_prepare(Beam *beam, const Tracer *tracer, const Ray *ray
         beam->reach[number] = reach;
     beam->bounded = 0;
     beam->sheared = false;
-    const uint own = shared_own(beam, rays);
-    beam->own_block = own == NOTHING ? NOTHING : own / WIDE;
-    if (own != NOTHING)
-        beam->others = triangles_beside(beam, rays, own);
 }
 
-// Finds the nearest hits of the beam's rays, or any hit of each shadow ray. At least one lane must
-// search. If `alone` is set, searches ray by ray.
-static NOT_INLINE void search_beam(Beam *beam, bool alone)
+// Finds the nearest hits of rays whose directions share their signs, or any hit of each shadow ray.
+// The beam's count and hits must be set, and at least one lane must search. If `alone` is set,
+// searches ray by ray.
+static NOT_INLINE void search_beam(Beam *beam, const Tracer *tracer, const Ray *rays, bool alone)
 {
-    if (!CLRT_BVH || !beam->tracer->frame->uses_bvh)
+    if (!beam_start(beam, tracer, rays))
+        return;
+    beam_prepare(beam, rays);
+    if (!CLRT_BVH || !tracer->frame->uses_bvh)
         test_all_blocks(beam);
     else if (alone)
         search_apart(beam, 0, packets_searching(beam), beam->live);

@@ -205,8 +205,7 @@ static NOT_INLINE void search_group(const Tracer *tracer, const Ray *rays, const
     Beam beam;
     beam.hits = moved.hits;
     move_rays(&beam, &moved, rays, group->bits, hits);
-    beam_prepare(&beam, tracer, moved.rays);
-    search_beam(&beam, group->alone);
+    search_beam(&beam, tracer, moved.rays, group->alone);
     return_hits(&beam, &moved, group->bits, hits);
 }
 
@@ -238,8 +237,7 @@ static inline void search_full(const Tracer *tracer, const Ray *rays, Hit *hits)
     Beam beam;
     beam.count = PACKETS;
     beam.hits = hits;
-    beam_prepare(&beam, tracer, rays);
-    search_beam(&beam, false);
+    search_beam(&beam, tracer, rays, false);
 }
 
 // The octants of rays' directions: bits of the lanes that are negative on each axis.
