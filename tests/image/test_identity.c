@@ -193,6 +193,29 @@ TEST(no_primitive_is_mistaken_for_sky)
     }
 }
 
+// Rays that leave a floor skip its triangles, but not the other ones of their block.
+TEST(a_floor_and_a_ceiling_reflect_each_other)
+{
+    static double corners[][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    static uint32_t halves[][3] = {{0, 1, 2}, {0, 2, 3}};
+    char mesh[TEMPORARY_PATH], scene[TEMPORARY_PATH];
+    temporary_mesh(
+        mesh,
+        &(Mesh){.positions = corners, .triangles = halves, .vertex_count = 4, .triangle_count = 2});
+    FILE *stream = temporary_open(scene);
+    fprintf(stream,
+            "define it matte diffuse 0.8 0.7 0.6 kd 0.8 reflectivity 0.5\nmaterial it\nsides two\n"
+            "max_level 9\nlight 0.2 0.1 0.7 .8\ncamera 0.9 -1.9 0.3  0 0 0.4  60\n"
+            "mesh %s\nmesh %s translate 0 0 1\nsphere 0.1 0.2 0.3 0.2\n",
+            mesh, mesh);
+    temporary_close(stream);
+    PictureRequest request = picture_request(scene, 1);
+    request.width = request.height = 97;
+    expect_same_in_every_form_and_tree(request);
+    unlink(mesh);
+    unlink(scene);
+}
+
 TEST(every_form_draws_pictures_of_a_few_pixels)
 {
     static const uint32_t sizes[][2] = {{1, 1}, {1, 5}, {3, 2}, {9, 1}};
