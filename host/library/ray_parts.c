@@ -9,6 +9,8 @@
 // every batch.
 #include "library/ray_parts.h"
 
+#include "library/given_ray.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -21,29 +23,6 @@
 
 // Beyond this distance from the frame's origin, rays hit nothing (is_searchable in intersect.cl).
 #define FARTHEST 0x1p45
-
-typedef struct {
-    Vec3 origin, direction;
-    double near, far;
-    uint32_t own;
-} GivenRay;
-
-static Vec3 vector_at(const double *vectors, size_t stride, size_t index)
-{
-    const size_t bytes = index * (stride != 0 ? stride : 3 * sizeof(double));
-    return vec3_of_doubles((const double *)(const void *)((const char *)vectors + bytes));
-}
-
-static GivenRay given_at(const ClrtRays *rays, size_t index)
-{
-    return (GivenRay){vector_at(rays->origins, rays->origin_stride, index),
-                      rays->directions != NULL
-                          ? vector_at(rays->directions, rays->direction_stride, index)
-                          : vec3(0, 0, 1),
-                      rays->nears != NULL ? rays->nears[index] : 0,
-                      rays->fars != NULL ? rays->fars[index] : INFINITY,
-                      rays->starts != NULL ? rays->starts[index] : NOTHING};
-}
 
 typedef struct {
     Vec3 at[3];
@@ -196,10 +175,10 @@ bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *
     Entry entry = {part, &renderer->rays, frame->center, frame->scale, 1 / frame->scale, 0};
     size_t first = 0, last = part->count;
     for (size_t i = 0; i < part->count; i++) {
-        const size_t number = part->first + i;
-        const GivenRay given = given_at(rays, number);
+        const size_t number = part->first + part->sequence[i];
+        const GivenRay given = given_ray(rays, number);
         entry.entry = is_on_surface(&given) ? --last : first++;
-        part->order[entry.entry] = (uint32_t)i;
+        part->order[entry.entry] = part->sequence[i];
         if (!fill_entry(&entry, &given, number, error))
             return false;
     }
@@ -217,13 +196,6 @@ void ray_part_move(RayPart *part, const RayScene *scene)
 static Vec3 sphere_center(const SphereData *sphere)
 {
     return vec3_add(vec3_of_floats(sphere->center), vec3_of_floats(sphere->center_low));
-}
-
-static void store3(double out[3], Vec3 v)
-{
-    out[0] = v.x;
-    out[1] = v.y;
-    out[2] = v.z;
 }
 
 // Returns the weights of the second and third corner at the point where the ray's line crosses the
@@ -276,7 +248,7 @@ static void store_surface(const ClrtHits *hits, size_t ray, const HitSurface *su
     for (int i = 0; hits->weights != NULL && i < 2; i++)
         hits->weights[2 * ray + (size_t)i] = surface->weights[i];
     if (hits->normals != NULL)
-        store3(hits->normals + 3 * ray, surface->normal);
+        vec3_store_doubles(hits->normals + 3 * ray, surface->normal);
     if (hits->fronts != NULL)
         hits->fronts[ray] = surface->front;
 }

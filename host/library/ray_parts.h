@@ -11,9 +11,10 @@
 typedef struct {
     RayData rays[PART_RAYS];
     double starts[PART_RAYS], units[PART_RAYS]; // the caller's t = starts + units * the device's t
-    uint32_t order[PART_RAYS];                  // by entry: the ray's number in the part
-    size_t first, count;                        // of the batch's rays
-    size_t on_surface; // number of the last entries, whose rays start on primitives
+    uint32_t sequence[PART_RAYS]; // the order in which fill takes the rays (ray_grid_order)
+    uint32_t order[PART_RAYS];    // by entry: the ray's number in the part
+    size_t first, count;          // of the batch's rays
+    size_t on_surface;            // number of the last entries, whose rays start on primitives
 } RayPart;
 
 // Fills part->rays with the batch's rays [first, first + count). Fails if a ray starts on a

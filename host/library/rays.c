@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Implements clrt_trace, clrt_trace_all, clrt_contains and clrt_occluded. A batch of rays is traced
 // part by part, so that batches of any size need little memory.
+#include "library/ray_grid.h"
 #include "library/ray_parts.h"
 
 #include <stdlib.h>
@@ -96,11 +97,13 @@ static bool trace_parts(Batch *batch, ClrtError *error)
     const ClrtRays *rays = &batch->rays;
     const size_t most = part_rays(&batch->results);
     const uint64_t parts = (rays->count + most - 1) / most;
+    const size_t width = ray_grid_width(rays);
     for (uint64_t done = 0; done < parts; done++) {
         batch->part.first = done * most;
         batch->part.count = rays->count - batch->part.first;
         if (batch->part.count > most)
             batch->part.count = most;
+        ray_grid_order(batch->part.sequence, batch->part.count, width);
         if (!ray_part_fill(&batch->part, batch->renderer, rays, error))
             return false;
         if (!trace_part(batch, &cause))

@@ -219,16 +219,56 @@ TEST(batches_and_kernels_change_no_bit)
     assert_memory_equal(&others, &all, sizeof all);
 }
 
+static double eyes[RAYS][3], aims[RAYS][3];
+
+static void aim_in_rows(size_t width)
+{
+    for (size_t i = 0; i < RAYS; i++) {
+        eyes[i][0] = 0.1;
+        eyes[i][1] = 0.2;
+        eyes[i][2] = 3;
+        aims[i][0] = 2.0 * (double)(i % width) / (double)width - 1;
+        aims[i][1] = 2.0 * (double)(i / width) * (double)width / RAYS - 1;
+        aims[i][2] = -2;
+    }
+}
+
+static void trace_aims(size_t first, size_t count, Results *results)
+{
+    const ClrtRays rays = {
+        .size = sizeof rays, .count = count, .origins = eyes[first], .directions = aims[first]};
+    ClrtHits hits = hits_in(results, first);
+    hits.certain = NULL;
+    assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
+}
+
+// Rows are traced in blocks (ray_grid.h). Batches of so few rays are never a grid.
+TEST(rays_in_rows_have_the_hits_of_rays_in_small_batches)
+{
+    static const size_t widths[] = {16, 100, 133, 3000, 9999};
+    for (size_t i = 0; i < sizeof widths / sizeof *widths; i++) {
+        size_t found = 0;
+        memset(&all, 0, sizeof all);
+        memset(&others, 0, sizeof others);
+        aim_in_rows(widths[i]);
+        trace_aims(0, RAYS, &all);
+        for (size_t first = 0; first < RAYS; first += 20)
+            trace_aims(first, 20, &others);
+        assert_memory_equal(&others, &all, sizeof all);
+        for (size_t ray = 0; ray < RAYS; ray++)
+            found += all.primitives[ray] != CLRT_NOTHING;
+        assert_true(found > RAYS / 10 && found < RAYS);
+    }
+}
+
 TEST(rays_at_vertices_hit_and_cross_once)
 {
-    static double aims[VERTICES][3];
     static uint32_t counts[VERTICES], primitives[VERTICES];
     static uint8_t inside[VERTICES];
     const double eye[3] = {0.01, 0.02, 0.03};
     for (size_t i = 0; i < VERTICES; i++)
         for (int axis = 0; axis < 3; axis++)
             aims[i][axis] = vertices[i][axis] - eye[axis];
-    static double eyes[VERTICES][3];
     for (size_t i = 0; i < VERTICES; i++)
         memcpy(eyes[i], eye, sizeof eye);
     const ClrtRays rays = {
