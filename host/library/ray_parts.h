@@ -14,6 +14,7 @@ typedef struct {
     uint32_t sequence[PART_RAYS]; // the order in which fill takes the rays (ray_grid_order)
     uint32_t order[PART_RAYS];    // by entry: the ray's number in the part
     size_t first, count;          // of the batch's rays
+    size_t room;                  // hits of each ray
     size_t on_surface;            // number of the last entries, whose rays start on primitives
 } RayPart;
 
@@ -25,12 +26,6 @@ bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *
 // Replaces the places of triangles by those in another layout of the scene.
 void ray_part_move(RayPart *part, const RayScene *scene);
 
-// A hit of an entry, and the index of its results in the caller's arrays.
-typedef struct {
-    size_t entry, place;
-    HitData hit;
-} PartHit;
-
-// Stores a hit in the caller's arrays.
-void ray_part_store(const RayPart *part, const ClrtRenderer *renderer, const PartHit *hit,
+// Stores the hits of the entries, `room` of each, in the caller's arrays.
+void ray_part_store(const RayPart *part, const ClrtRenderer *renderer, const HitData *found,
                     const ClrtHits *hits);

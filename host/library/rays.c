@@ -47,7 +47,7 @@ static bool cast(Batch *batch, RayQuery query, const RayScene *scene, HitData *h
                     .rays = part->rays,
                     .count = split,
                     .any = batch->results.occluded != NULL,
-                    .room = (uint32_t)room_of(&batch->results)};
+                    .room = (uint32_t)part->room};
     if (!ray_caster_cast(caster, &cast, hits, batch->counts, error))
         return false;
     cast.rays += split;
@@ -68,27 +68,40 @@ static bool trace_part(Batch *batch, Error *error)
     return cast(batch, RAYS_CERTAIN, &renderer->certain_rays, batch->certain, error);
 }
 
-// Stores the results of one ray.
-static void store(const Batch *batch, size_t entry)
+// Marks the room beyond the crossings of each ray as unused.
+static void clear_unused(Batch *batch)
+{
+    const size_t room = batch->part.room;
+    for (size_t entry = 0; entry < batch->part.count; entry++)
+        for (size_t i = batch->counts[entry]; i < room; i++)
+            batch->hits[entry * room + i] = (HitData){INFINITY, NOTHING};
+}
+
+// Stores the results that a ray has only once.
+static void store_ray(const Batch *batch, size_t entry)
 {
     const RayResults *results = &batch->results;
-    const size_t room = room_of(results), ray = batch->part.first + batch->part.order[entry];
-    const uint32_t count = results->finds_all ? batch->counts[entry] : 1;
-    for (size_t i = 0; i < room; i++) {
-        const HitData none = {INFINITY, NOTHING};
-        const PartHit hit = {entry, ray * room + i,
-                             i < count ? batch->hits[entry * room + i] : none};
-        ray_part_store(&batch->part, batch->renderer, &hit, &results->hits);
-    }
+    const size_t ray = batch->part.first + batch->part.order[entry];
     if (results->occluded != NULL)
         results->occluded[ray] = batch->hits[entry].id != NOTHING;
     if (results->inside != NULL)
-        results->inside[ray] = count % 2;
+        results->inside[ray] = batch->counts[entry] % 2;
     if (results->hits.certain != NULL)
         results->hits.certain[ray] =
             batch->certain[entry].t == 0 && batch->certain[entry].id == batch->hits[entry].id;
     if (results->finds_all && results->hits.counts != NULL)
-        results->hits.counts[ray] = count;
+        results->hits.counts[ray] = batch->counts[entry];
+}
+
+static void store_part(Batch *batch)
+{
+    const RayResults *results = &batch->results;
+    if (results->finds_all)
+        clear_unused(batch);
+    ray_part_store(&batch->part, batch->renderer, batch->hits, &results->hits);
+    if (results->occluded != NULL || results->finds_all || results->hits.certain != NULL)
+        for (size_t entry = 0; entry < batch->part.count; entry++)
+            store_ray(batch, entry);
 }
 
 static bool trace_parts(Batch *batch, ClrtError *error)
@@ -108,8 +121,7 @@ static bool trace_parts(Batch *batch, ClrtError *error)
             return false;
         if (!trace_part(batch, &cause))
             return check_fail_for(error, CLRT_DEVICE, &cause);
-        for (size_t entry = 0; entry < batch->part.count; entry++)
-            store(batch, entry);
+        store_part(batch);
         if (rays->progress != NULL && !rays->progress(rays->user, done + 1, parts) &&
             done + 1 < parts)
             return check_fail(error, CLRT_STOPPED, "the rays were stopped after %llu of %llu parts",
@@ -150,6 +162,7 @@ static bool trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays
         return check_fail_for(error, CLRT_DEVICE, &cause);
     batch->renderer = renderer;
     batch->results = *results;
+    batch->part.room = room_of(results);
     batch->hits = memory_raw(part_rays(results) * room_of(results), sizeof *batch->hits, &cause);
     const bool ok =
         (batch->hits != NULL || check_fail_for(error, CLRT_DEVICE, &cause)) &&
