@@ -174,12 +174,13 @@ static const struct {
 };
 
 // Adds a finding unless its count is 0.
-__attribute__((format(printf, 3, 4))) static void add(Check *check, Finding finding,
-                                                      const char *format, ...)
+__attribute__((format(printf, 4, 5))) static void add(Check *check, const char *kind,
+                                                      ClrtFinding finding, const char *format, ...)
 {
     Error error = {0};
     if (finding.count == 0)
         return;
+    snprintf(finding.kind, sizeof finding.kind, "%s", kind);
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(finding.text, sizeof finding.text, format, arguments);
@@ -187,9 +188,9 @@ __attribute__((format(printf, 3, 4))) static void add(Check *check, Finding find
     check->is_cut |= !array_push(&check->findings, finding, &error);
 }
 
-static Finding note(const char *kind, size_t object, size_t count)
+static ClrtFinding note(size_t object, size_t count)
 {
-    return (Finding){.kind = kind, .object = object, .count = count};
+    return (ClrtFinding){.mesh = (uint32_t)object, .count = count};
 }
 
 const char *fault_name(FaultKind kind)
@@ -224,10 +225,12 @@ static void add_mesh_faults(Check *check, size_t object)
     MeshFault counts[FAULT_KINDS];
     check_count_faults(check, object, counts);
     for (FaultKind kind = 0; kind < FAULT_KINDS; kind++) {
-        const Finding finding = {faults[kind].kind,  object, faults[kind].fails,
-                                 counts[kind].count, "",     counts[kind].first};
-        add(check, finding, "%zu %s, the first %s %zu", counts[kind].count, faults[kind].text,
-            faults[kind].place, counts[kind].first);
+        const ClrtFinding finding = {.fails = faults[kind].fails,
+                                     .mesh = (uint32_t)object,
+                                     .count = counts[kind].count,
+                                     .first = counts[kind].first};
+        add(check, faults[kind].kind, finding, "%zu %s, the first %s %zu", counts[kind].count,
+            faults[kind].text, faults[kind].place, counts[kind].first);
     }
 }
 
@@ -235,16 +238,15 @@ static void add_shape(Check *check, size_t object)
 {
     const MeshObject *mesh = &check->scene->objects.data[object];
     const MeshCensus *census = &check->census.meshes[object];
-    add(check, note("empty_mesh", object, mesh->mesh.triangle_count == 0),
+    add(check, "empty_mesh", note(object, mesh->mesh.triangle_count == 0),
         "the mesh has no triangles");
-    add(check, note("inside_out", object, census->closedness.is_inside_out && !mesh->two_sided),
+    add(check, "inside_out", note(object, census->closedness.is_inside_out && !mesh->two_sided),
         "its fronts face inwards, so only its far side is visible from outside");
-    add(check, note("unused_vertices", object, census->unused_vertices),
+    add(check, "unused_vertices", note(object, census->unused_vertices),
         "%zu vertices that no triangle uses", census->unused_vertices);
     const bool is_placed = check->scale_fault.text[0] == '\0';
-    add(check,
-        note("out_of_view", object,
-             is_placed && is_out_of_view(check->scene, &check->normalization, object)),
+    add(check, "out_of_view",
+        note(object, is_placed && is_out_of_view(check->scene, &check->normalization, object)),
         "it is outside every camera's view, so only reflections and shadows can show it");
 }
 
@@ -256,22 +258,22 @@ static void add_advice(Check *check, size_t object, double scene_size)
     const double ratio = features->extent > 0 ? scene_size / features->extent : 0;
     if (features->holds_floats && features->written_edge.steps < FEW_STEPS &&
         features->offset > MUCH * features->extent)
-        add(check, note("advice_recenter", object, 1),
+        add(check, "advice_recenter", note(object, 1),
             "recenter it before writing the file: its coordinates are floats, and at %.3g from the "
             "origin its shortest edge is only %.3g steps of float",
             features->offset, features->written_edge.steps);
     else if (features->edge.steps < FEW_STEPS && ratio > MUCH)
-        add(check, note("advice_scale", object, 1),
+        add(check, "advice_scale", note(object, 1),
             "the scale is too mixed: the scene is %.3g times as large as this mesh, whose "
             "shortest edge is only %.3g steps of float; render them separately",
             ratio, features->edge.steps);
     else if (features->edge.steps < FEW_STEPS)
-        add(check, note("advice_thin", object, 1),
+        add(check, "advice_thin", note(object, 1),
             "its shortest edge, at triangle %zu, is only %.3g steps of float: merge vertices "
             "this close",
             features->edge.triangle, features->edge.steps);
     else if (features->height.steps < 1)
-        add(check, note("advice_thin", object, 1),
+        add(check, "advice_thin", note(object, 1),
             "the height of triangle %zu is %.3g steps of float: rounding can make it a line",
             features->height.triangle, features->height.steps);
 }
@@ -289,13 +291,15 @@ static void add_enclosed_eyes(Check *check)
     const Scene *scene = check->scene;
     const EnclosedEyes eyes = enclosed_eyes_find(scene, &check->census);
     const char *path = check_mesh_path(check, eyes.object);
-    const Finding finding = note("eye_inside", FINDING_SCENE, eyes.count);
+    const ClrtFinding finding = note(NOTHING, eyes.count);
     if (eyes.sphere > 0)
-        add(check, finding, "%zu cameras are inside an object, the first is view %zu in sphere %zu",
-            eyes.count, eyes.view, eyes.sphere);
+        add(check, "eye_inside", finding,
+            "%zu cameras are inside an object, the first is view %zu in sphere %zu", eyes.count,
+            eyes.view, eyes.sphere);
     else if (eyes.count > 0)
-        add(check, finding, "%zu cameras are inside an object, the first is view %zu in %s",
-            eyes.count, eyes.view, path != NULL ? path : "a mesh");
+        add(check, "eye_inside", finding,
+            "%zu cameras are inside an object, the first is view %zu in %s", eyes.count, eyes.view,
+            path != NULL ? path : "a mesh");
 }
 
 static void add_scene(Check *check)
@@ -315,17 +319,18 @@ static void add_scene(Check *check)
          false},
     };
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
-        const Finding finding = {
-            counts[i].kind, FINDING_SCENE, counts[i].fails, counts[i].count, "", 0};
-        add(check, finding, "%zu %s", counts[i].count, counts[i].text);
+        const ClrtFinding finding = {
+            .fails = counts[i].fails, .mesh = NOTHING, .count = counts[i].count};
+        add(check, counts[i].kind, finding, "%zu %s", counts[i].count, counts[i].text);
     }
     add_enclosed_eyes(check);
     const MissingPart missing = scene_missing(check->scene);
+    const ClrtFinding lack = {.fails = missing.is_fault, .mesh = NOTHING, .count = 1};
     if (missing.kind != NULL)
-        add(check, (Finding){missing.kind, FINDING_SCENE, missing.is_fault, 1, "", 0}, "%s",
-            missing.text);
-    const Finding fault = {"scale", FINDING_SCENE, true, check->scale_fault.text[0] != '\0', "", 0};
-    add(check, fault, "the scene cannot be drawn: %s", check->scale_fault.text);
+        add(check, missing.kind, lack, "%s", missing.text);
+    const ClrtFinding fault = {
+        .fails = true, .mesh = NOTHING, .count = check->scale_fault.text[0] != '\0'};
+    add(check, "scale", fault, "the scene cannot be drawn: %s", check->scale_fault.text);
 }
 
 bool check_find(Check *check, Error *error)

@@ -5,29 +5,18 @@
 #include "check/census.h"
 #include "check/leaks.h"
 
-#define FINDING_SCENE SIZE_MAX // the object index of findings about the whole scene
-
-typedef struct {
-    const char *kind; // identifier in JSON
-    size_t object;
-    bool fails;
-    size_t count; // of occurrences; 1 for advice
-    char text[320];
-    size_t first; // the first vertex or triangle of a fault in a mesh
-} Finding;
-
 // The measurements and findings of a check.
 typedef struct {
     const char *scene_path;
     const Scene *scene; // borrowed
     Normalization normalization;
     Census census;
-    const char *device;      // its name; NULL if no rays were traced
-    LeakCount *leaks;        // by object; NULL if no rays were traced; owned
-    Error scale_fault;       // the reason why the scene cannot be drawn; empty if it can
-    Error device_fault;      // the reason why no rays could be traced; empty otherwise
-    ARRAY(Finding) findings; // in the order of the objects, then those of the scene
-    bool is_cut;             // memory ran out, so findings are missing
+    const char *device;          // its name; NULL if no rays were traced
+    LeakCount *leaks;            // by object; NULL if no rays were traced; owned
+    Error scale_fault;           // the reason why the scene cannot be drawn; empty if it can
+    Error device_fault;          // the reason why no rays could be traced; empty otherwise
+    ARRAY(ClrtFinding) findings; // in the order of the objects, then those of the scene
+    bool is_cut;                 // memory ran out, so findings are missing
     double seconds;
 } Check;
 

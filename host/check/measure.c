@@ -50,7 +50,7 @@ bool check_trace(Check *check, Session *session, Error *error)
 
 void check_free(Check *check)
 {
-    free(check->findings.data);
+    free(check->findings.memory);
     free(check->leaks);
     census_free(&check->census);
     *check = (Check){0};

@@ -74,12 +74,12 @@ static json_t *findings_json(const Check *check)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < check->findings.count; i++) {
-        const Finding *finding = &check->findings.data[i];
-        const bool is_of_mesh = finding->object != FINDING_SCENE;
+        const ClrtFinding *finding = &check->findings.data[i];
+        const bool is_of_mesh = finding->mesh != NOTHING;
         json_array_append_new(
-            list, JSON(FIELD("kind", finding->kind), FIELD("fails", finding->fails),
-                       FIELD("mesh", is_of_mesh ? json_count(finding->object) : json_null()),
-                       FIELD("count", finding->count), FIELD("text", finding->text)));
+            list, JSON(FIELD("kind", (const char *)finding->kind), FIELD("fails", finding->fails),
+                       FIELD("mesh", is_of_mesh ? json_count(finding->mesh) : json_null()),
+                       FIELD("count", finding->count), FIELD("text", (const char *)finding->text)));
     }
     return list;
 }
@@ -109,12 +109,13 @@ bool check_report_write_json(const Check *check, const char *path, Error *error)
     return json_file_write(report_json(check), path, error);
 }
 
-// Writes this object's findings, which start at index *next, and advances *next past them.
-static void write_findings(const Check *check, size_t object, size_t *next, FILE *stream)
+// Writes the findings of a mesh or, for NOTHING, of the scene. They start at index *next, and *next
+// advances past them.
+static void write_findings(const Check *check, uint32_t mesh, size_t *next, FILE *stream)
 {
     for (; *next < check->findings.count; ++*next) {
-        const Finding *finding = &check->findings.data[*next];
-        if (finding->object != object)
+        const ClrtFinding *finding = &check->findings.data[*next];
+        if (finding->mesh != mesh)
             return;
         fprintf(stream, "  %s: %s\n", finding->fails ? "FAULT" : "note", finding->text);
     }
@@ -155,12 +156,12 @@ void check_report_write_text(const Check *check, FILE *stream)
     json_t *json = report_json(check);
     for (size_t object = 0; object < scene->objects.count; object++) {
         write_mesh(check, json_array_get(json_object_get(json, "meshes"), object), object, stream);
-        write_findings(check, object, &next, stream);
+        write_findings(check, (uint32_t)object, &next, stream);
     }
     fprintf(stream, "%s: %zu meshes, %zu triangles, %zu spheres, %zu lights\n", check->scene_path,
             scene->objects.count, scene_triangle_count(scene), scene->spheres.count,
             scene->lights.count);
-    write_findings(check, FINDING_SCENE, &next, stream);
+    write_findings(check, NOTHING, &next, stream);
     json_decref(json);
     if (check->leaks != NULL)
         fprintf(stream, "  rays were traced on %s\n", check->device);

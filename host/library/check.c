@@ -48,34 +48,19 @@ static ClrtCheckedMesh mesh_of(const Check *check, size_t object)
     return made;
 }
 
-static ClrtFinding finding_of(const Finding *finding)
+// Moves the results into *made, which starts empty.
+static bool keep(ClrtCheck *made, Check *check, Error *cause)
 {
-    ClrtFinding made = {.fails = finding->fails,
-                        .mesh =
-                            finding->object != FINDING_SCENE ? (uint32_t)finding->object : NOTHING,
-                        .count = finding->count,
-                        .first = finding->first};
-    snprintf(made.kind, sizeof made.kind, "%s", finding->kind);
-    snprintf(made.text, sizeof made.text, "%s", finding->text);
-    return made;
-}
-
-// Copies the results into *made, which starts empty.
-static bool keep(ClrtCheck *made, const Check *check, Error *cause)
-{
-    const size_t meshes = check->scene->objects.count, findings = check->findings.count;
+    const size_t meshes = check->scene->objects.count;
     made->info = (ClrtCheckInfo){.fine = check_count_failing(check) == 0,
                                  .mesh_count = (uint32_t)meshes,
-                                 .finding_count = (uint32_t)findings};
+                                 .finding_count = (uint32_t)check->findings.count};
+    made->findings = check->findings.data;
+    check->findings.memory = NULL;
     made->meshes = memory_raw(meshes, sizeof *made->meshes, cause);
-    made->findings = memory_raw(findings, sizeof *made->findings, cause);
-    if (made->meshes == NULL || made->findings == NULL)
-        return false;
-    for (size_t i = 0; i < meshes; i++)
+    for (size_t i = 0; made->meshes != NULL && i < meshes; i++)
         made->meshes[i] = mesh_of(check, i);
-    for (size_t i = 0; i < findings; i++)
-        made->findings[i] = finding_of(&check->findings.data[i]);
-    return true;
+    return made->meshes != NULL;
 }
 
 ClrtCheck *clrt_check(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error)
