@@ -257,25 +257,29 @@ void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS])
     memcpy(arrays, all, sizeof all);
 }
 
+static bool make_stages(CompileStages *stages, const CompileSource *source, Error *error)
+{
+    const BvhSettings settings = {source->builder, flat_leaves(source->layout)};
+    return triangles_make(&stages->triangles, source->scene, source->normalization, source->pool,
+                          error) &&
+           (!source->has_tree ||
+            bvh_build(&stages->bvh, &stages->triangles, &settings, source->pool, error));
+}
+
 bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
                    Error *error)
 {
-    CompileStages own = {0}, *kept = stages != NULL ? stages : &own;
-    const BvhSettings settings = {source->builder, flat_leaves(source->layout)};
+    static const Bvh none;
+    const CompileStages *used = source->given != NULL ? source->given : stages;
     const FlatSource flat_source = {.scene = source->scene,
-                                    .triangles = &kept->triangles,
-                                    .bvh = &kept->bvh,
+                                    .triangles = &used->triangles,
+                                    .bvh = source->has_tree ? &used->bvh : &none,
                                     .normalization = source->normalization,
                                     .layout = source->layout,
                                     .pool = source->pool};
-    *kept = (CompileStages){0};
-    const bool ok = triangles_make(&kept->triangles, source->scene, source->normalization,
-                                   source->pool, error) &&
-                    (!source->has_tree ||
-                     bvh_build(&kept->bvh, &kept->triangles, &settings, source->pool, error)) &&
-                    flat_make(flat, &flat_source, error);
-    compile_stages_free(&own);
-    return ok;
+    *stages = (CompileStages){0};
+    return (source->given != NULL || make_stages(stages, source, error)) &&
+           flat_make(flat, &flat_source, error);
 }
 
 void compile_stages_free(CompileStages *stages)

@@ -24,9 +24,16 @@ typedef struct {
 // triangles, looks, normals and colors.
 void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS]);
 
+// The intermediate results of scene_compile.
+typedef struct {
+    Triangles triangles;
+    Bvh bvh;
+} CompileStages;
+
 // The input of scene_compile, which runs all stages: triangles, tree and flattening.
 typedef struct {
     const Scene *scene;
+    const CompileStages *given; // of this scene, with a tree; NULL: scene_compile makes them
     const Normalization *normalization; // of the scene
     NodeLayout layout;
     BvhBuilder builder;
@@ -34,13 +41,8 @@ typedef struct {
     ThreadPool *pool; // NULL for the caller's thread only
 } CompileSource;
 
-// The intermediate results of scene_compile.
-typedef struct {
-    Triangles triangles;
-    Bvh bvh;
-} CompileStages;
-
-// Fills *flat, which must be {0}, and *stages unless stages is NULL. The caller always frees both.
+// Fills *flat, which must be {0}, and *stages, which stays empty if stages are given. The caller
+// always frees both.
 bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
                    Error *error);
 void compile_stages_free(CompileStages *stages);

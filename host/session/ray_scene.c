@@ -19,16 +19,10 @@ static bool compile(RayScene *ray_scene, const Session *session, const Scene *sc
                     NodeLayout layout, Error *error)
 {
     CompileStages stages = {0};
-    const CompileSource source = {
-        .scene = scene,
-        .normalization = &session->scene.normalization,
-        .layout = layout,
-        .builder = session_builder(&session->settings.wanted),
-        .has_tree =
-            session->settings.wanted.tree != CLRT_TREE_NONE && session_wants_tree(session, layout),
-        .pool = thread_pool_open(threads_allowed(session->settings.wanted.threads))};
-    const bool ok = scene_compile(&ray_scene->flat, &stages, &source, error);
-    thread_pool_close(source.pool);
+    const bool has_tree =
+        session->settings.wanted.tree != CLRT_TREE_NONE && session_wants_tree(session, layout);
+    CompileSource source = {.scene = scene, .layout = layout, .has_tree = has_tree};
+    const bool ok = session_compile(session, &source, &ray_scene->flat, &stages, error);
     ray_scene->triangles = stages.triangles;
     stages.triangles = (Triangles){0};
     compile_stages_free(&stages);

@@ -86,6 +86,11 @@ void session_scene_free(SessionScene *scene);
 // Returns whether the session's scene is traced faster in this layout with a tree.
 bool session_wants_tree(const Session *session, NodeLayout layout);
 
+// Calls scene_compile with the session's normalization, builder of trees and threads, which it sets
+// in *source.
+bool session_compile(const Session *session, CompileSource *source, FlatScene *flat,
+                     CompileStages *stages, Error *error);
+
 // Returns the scene in this layout, or NULL on failure. The first call compiles it. The form has no
 // tree if has_tree is false or session_wants_tree returns false.
 SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Error *error);

@@ -28,36 +28,26 @@ bool session_wants_tree(const Session *session, NodeLayout layout)
            triangles > TREELESS_TRIANGLES;
 }
 
-static bool compile(const Session *session, SceneForm *form, CompileStages *stages,
-                    const CompileSource *source, Error *error)
+bool session_compile(const Session *session, CompileSource *source, FlatScene *flat,
+                     CompileStages *stages, Error *error)
 {
-    const SessionScene *scene = &session->scene;
-    const CompileStages *given = scene->stages;
-    const Bvh none = {0};
-    if (given == NULL)
-        return scene_compile(&form->flat, stages, source, error);
-    const FlatSource flat = {.scene = scene->scene,
-                             .triangles = &given->triangles,
-                             .bvh = source->has_tree ? &given->bvh : &none,
-                             .normalization = &scene->normalization,
-                             .layout = source->layout,
-                             .pool = source->pool};
-    return flat_make(&form->flat, &flat, error);
+    source->normalization = &session->scene.normalization;
+    source->builder = session_builder(&session->settings.wanted);
+    source->pool = thread_pool_open(threads_allowed(session->settings.wanted.threads));
+    const bool ok = scene_compile(flat, stages, source, error);
+    thread_pool_close(source->pool);
+    return ok;
 }
 
 static bool make_form(Session *session, SceneForm *form, NodeLayout layout, bool has_tree,
                       Error *error)
 {
     CompileStages stages = {0};
-    const CompileSource source = {
-        .scene = session->scene.scene,
-        .normalization = &session->scene.normalization,
-        .layout = layout,
-        .builder = session_builder(&session->settings.wanted),
-        .has_tree = has_tree,
-        .pool = thread_pool_open(threads_allowed(session->settings.wanted.threads))};
-    const bool ok = compile(session, form, &stages, &source, error);
-    thread_pool_close(source.pool);
+    CompileSource source = {.scene = session->scene.scene,
+                            .given = session->scene.stages,
+                            .layout = layout,
+                            .has_tree = has_tree};
+    const bool ok = session_compile(session, &source, &form->flat, &stages, error);
     form->tree = stages.bvh;
     form->tree.nodes = NULL;
     form->tree.order = NULL;
