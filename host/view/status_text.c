@@ -1,36 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Writes the window's texts. A text depends only on the arguments, so callers can compare texts to
+// Writes the window's texts. A text depends only on the figures, so callers can compare texts to
 // detect changes.
 #include "view/status_text.h"
 
 #include "scene/scn_write.h"
 
 #include <inttypes.h>
-#include <stdarg.h>
-#include <stdlib.h>
-
-// A text that grows at its end and is truncated if it gets too long.
-typedef struct {
-    char *text;
-    size_t size, length;
-} Buffer;
-
-static Buffer buffer_of(char *text, size_t size)
-{
-    text[0] = '\0';
-    return (Buffer){text, size, 0};
-}
-
-__attribute__((format(printf, 2, 3))) static void add(Buffer *buffer, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    const int length =
-        vsnprintf(buffer->text + buffer->length, buffer->size - buffer->length, format, arguments);
-    va_end(arguments);
-    const size_t room = buffer->size - 1 - buffer->length;
-    buffer->length += length > 0 && (size_t)length < room ? (size_t)length : length > 0 ? room : 0;
-}
 
 static const char *view_name(const State *state)
 {
@@ -42,104 +17,124 @@ static const char *on_or_off(bool on)
     return on ? "on" : "off";
 }
 
-static void add_boxes(Buffer *buffer, const State *state, const Figures *figures)
+static void add_boxes(const Figures *figures, FILE *stream)
 {
+    const State *state = figures->state;
     if (!state->boxes)
         return;
     if (state->box_depth == 0)
-        add(buffer, ", boxes of leaves: %u", figures->box_count);
+        fprintf(stream, ", boxes of leaves: %u", figures->box_count);
     else
-        add(buffer, ", boxes at level %u: %u", state->box_depth, figures->box_count);
+        fprintf(stream, ", boxes at level %u: %u", state->box_depth, figures->box_count);
 }
 
-static void add_state(Buffer *buffer, const State *state, const Figures *figures)
+static void add_state(const Figures *figures, FILE *stream)
 {
-    add(buffer, "%s, view %u%s", view_name(state), state->view, state->moved ? " moved" : "");
+    const State *state = figures->state;
+    fprintf(stream, "%s, view %u%s", view_name(state), state->view, state->moved ? " moved" : "");
     if (state->smooth)
-        add(buffer, ", AA %ux%u", figures->samples, figures->samples);
+        fprintf(stream, ", AA %ux%u", figures->samples, figures->samples);
     else
-        add(buffer, ", AA off");
-    add(buffer, ", BVH %s", on_or_off(state->uses_bvh));
-    add_boxes(buffer, state, figures);
+        fprintf(stream, ", AA off");
+    fprintf(stream, ", BVH %s", on_or_off(state->uses_bvh));
+    add_boxes(figures, stream);
     if (state->normals)
-        add(buffer, ", normals");
+        fprintf(stream, ", normals");
     if (state->turning)
-        add(buffer, ", turning");
+        fprintf(stream, ", turning");
     if (state->full_screen)
-        add(buffer, ", full screen");
+        fprintf(stream, ", full screen");
     if (figures->up != NULL)
-        add(buffer, ", up %s", figures->up);
+        fprintf(stream, ", up %s", figures->up);
     if (state->exposure != 0)
-        add(buffer, ", exposure %+.1f", state->exposure / 2.0);
+        fprintf(stream, ", exposure %+.1f", state->exposure / 2.0);
 }
 
-static void add_orbit(Buffer *buffer, const Orbit *orbit)
+static void add_orbit(const Orbit *orbit, FILE *stream)
 {
-    add(buffer, "azimuth %.2f, rotation %.2f, distance %.3g", orbit->azimuth, orbit->rotation,
-        orbit->distance);
+    fprintf(stream, "azimuth %.2f, rotation %.2f, distance %.3g", orbit->azimuth, orbit->rotation,
+            orbit->distance);
 }
 
-void status_text_state(char *text, size_t size, const State *state, const Figures *figures)
+void status_text_state(const Figures *figures, FILE *stream)
 {
-    Buffer buffer = buffer_of(text, size);
-    add_state(&buffer, state, figures);
-    add(&buffer, ", help %s, text %s, ", on_or_off(state->help), on_or_off(state->text));
-    add_orbit(&buffer, &state->orbit);
-    add(&buffer, ", %ux%u", figures->width, figures->height);
+    const State *state = figures->state;
+    add_state(figures, stream);
+    fprintf(stream, ", help %s, text %s, ", on_or_off(state->help), on_or_off(state->text));
+    add_orbit(&state->orbit, stream);
+    fprintf(stream, ", %ux%u", figures->request->width, figures->request->height);
 }
 
-static void add_message(Buffer *buffer, const char *message, const char *end)
+static void add_message(const char *message, const char *end, FILE *stream)
 {
     if (message[0] != '\0')
-        add(buffer, "%s%s", message, end);
+        fprintf(stream, "%s%s", message, end);
 }
 
-void status_text_line(char *text, size_t size, const State *state, const Figures *figures)
+static void add_counts(const WorkerStatus *status, FILE *stream)
 {
-    Buffer buffer = buffer_of(text, size);
-    add_message(&buffer, figures->busy, ", ");
-    add_message(&buffer, figures->notice, ", ");
-    add_message(&buffer, figures->hint, ", ");
-    add_message(&buffer, figures->missing, ", ");
-    add_state(&buffer, state, figures);
-    if (figures->frame_seconds > 0)
-        add(&buffer, ", %.1f ms", 1e3 * figures->frame_seconds);
-    if (state->traced && figures->divisor > 1)
-        add(&buffer, " at 1/%u", figures->divisor);
-    if (state->traced && figures->has_counts)
-        add(&buffer, ", %" PRIu64 " rays, %.2f triangle tests per ray", figures->rays,
-            figures->tests_per_ray);
-    add(&buffer, ", ");
-    add_orbit(&buffer, &state->orbit);
+    const uint64_t *tallies = status->tallies;
+    const uint64_t rays =
+        tallies[TALLY_CAMERA_RAYS] + tallies[TALLY_SHADOW_RAYS] + tallies[TALLY_REFLECTED_RAYS];
+    if (status->failure.text[0] == '\0')
+        fprintf(stream, ", %" PRIu64 " rays, %.2f triangle tests per ray", rays,
+                rays > 0 ? (double)tallies[TALLY_TRIANGLE_TESTS] / (double)rays : 0);
 }
 
-void status_text_panel(char *text, size_t size, const State *state, const Figures *figures)
+void status_text_line(const Figures *figures, FILE *stream)
 {
-    Buffer buffer = buffer_of(text, size);
+    const State *state = figures->state;
+    add_message(figures->status->busy, ", ", stream);
+    add_message(figures->notice, ", ", stream);
+    add_message(figures->hint, ", ", stream);
+    add_message(figures->missing, ", ", stream);
+    add_state(figures, stream);
+    if (figures->status->frame_seconds > 0)
+        fprintf(stream, ", %.1f ms", 1e3 * figures->status->frame_seconds);
+    if (state->traced && figures->status->reached.divisor > 1)
+        fprintf(stream, " at 1/%u", figures->status->reached.divisor);
+    if (state->traced && figures->status->reached.is_counted)
+        add_counts(figures->status, stream);
+    fprintf(stream, ", ");
+    add_orbit(&state->orbit, stream);
+}
+
+void status_text_panel(const Figures *figures, FILE *stream)
+{
+    const State *state = figures->state;
     if (state->text)
-        add_message(&buffer, figures->failure, "\n");
-    add_message(&buffer, figures->explanation, "");
+        add_message(figures->failure, "\n", stream);
+    add_message(figures->explanation, "", stream);
     if (state->help)
-        add(&buffer, "%s", status_text_help());
+        fputs(status_text_help(), stream);
 }
 
-void status_text_title(char *text, size_t size, const State *state, const Figures *figures)
+void status_text_title(const Figures *figures, FILE *stream)
 {
-    Buffer buffer = buffer_of(text, size);
-    add(&buffer, "%s - %s - clrt", figures->scene_name, view_name(state));
-    if (figures->busy[0] != '\0')
-        add(&buffer, " - %s", figures->busy);
-    else if (state->traced && !figures->is_finished)
-        add(&buffer, " - %.0f %%", 100 * figures->progress);
+    const State *state = figures->state;
+    fprintf(stream, "%s - %s - clrt", figures->scene_name, view_name(state));
+    if (figures->status->busy[0] != '\0')
+        fprintf(stream, " - %s", figures->status->busy);
+    else if (state->traced && !worker_is_finished(figures->status, figures->request))
+        fprintf(stream, " - %.0f %%", 100 * figures->status->progress);
 }
 
 void status_text_camera(const State *state, FILE *stream)
 {
-    char text[256];
-    Buffer buffer = buffer_of(text, sizeof text);
-    add_orbit(&buffer, &state->orbit);
-    fprintf(stream, "%s\n", text);
+    add_orbit(&state->orbit, stream);
+    fputs("\n", stream);
     scn_write_camera(&state->camera, vec3(0, 0, 1), stream);
+}
+
+void status_text_store(StatusText *write, const Figures *figures, char *text, size_t size)
+{
+    FILE *stream = fmemopen(text, size, "w");
+    text[0] = '\0';
+    if (stream == NULL)
+        return;
+    write(figures, stream);
+    fclose(stream);
+    text[size - 1] = '\0';
 }
 
 const char *status_text_help(void)

@@ -115,31 +115,21 @@ static bool is_explained(const Viewer *viewer)
 static Figures figures_of(const Viewer *viewer)
 {
     const WorkerStatus *status = &viewer->status;
-    const uint64_t *tallies = status->tallies;
     const char *slash = strrchr(viewer->settings.scene_path, '/');
     const char *missing = scene_missing(&viewer->model->scene).text;
     const UpAxis up = viewer->model->scene.mesh_up;
-    Figures figures = {.scene_name = slash == NULL ? viewer->settings.scene_path : slash + 1,
+    Figures figures = {.state = &viewer->state,
+                       .request = &viewer->request,
+                       .status = status,
+                       .scene_name = slash == NULL ? viewer->settings.scene_path : slash + 1,
                        .up = up == UP_AUTO ? NULL : up_axis_names[up],
-                       .width = viewer->request.width,
-                       .height = viewer->request.height,
                        .samples = viewer->settings.samples,
-                       .divisor = status->reached.divisor,
-                       .is_finished = worker_is_finished(status, &viewer->request),
-                       .progress = status->progress,
-                       .frame_seconds = status->frame_seconds,
-                       .has_counts = status->reached.is_counted && status->failure.text[0] == '\0',
-                       .rays = tallies[TALLY_CAMERA_RAYS] + tallies[TALLY_SHADOW_RAYS] +
-                               tallies[TALLY_REFLECTED_RAYS],
                        .box_count = viewer->views.boxes.count,
-                       .busy = status->busy,
                        .notice = viewer->notice,
                        .missing = missing == NULL ? "" : missing,
                        .hint = viewer->hint_end > 0 ? "h for help" : "",
                        .explanation = is_explained(viewer) ? status->explanation : "",
                        .failure = status->scene_failure.text};
-    if (figures.rays > 0)
-        figures.tests_per_ray = (double)tallies[TALLY_TRIANGLE_TESTS] / (double)figures.rays;
     if (figures.failure[0] == '\0')
         figures.failure = status->failure.text;
     if (figures.failure[0] == '\0')
@@ -179,8 +169,8 @@ static void draw_text(Viewer *viewer, const Figures *figures)
                                  .height = viewer->request.height,
                                  .density = window_density(&viewer->window)};
     if (viewer->state.text)
-        status_text_line(line, sizeof line, &viewer->state, figures);
-    status_text_panel(panel, sizeof panel, &viewer->state, figures);
+        status_text_store(status_text_line, figures, line, sizeof line);
+    status_text_store(status_text_panel, figures, panel, sizeof panel);
     text_view_draw(&viewer->views.text, &overlay);
 }
 
@@ -195,7 +185,7 @@ static bool is_news(char shown[STATE_SIZE], const char text[STATE_SIZE])
 static void update_title(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE] = "";
-    status_text_title(text, sizeof text, &viewer->state, figures);
+    status_text_store(status_text_title, figures, text, sizeof text);
     if (is_news(viewer->title, text))
         glfwSetWindowTitle(viewer->window.handle, text);
 }
@@ -206,7 +196,7 @@ static void print_news(Viewer *viewer, const Figures *figures)
 {
     char text[STATE_SIZE] = "";
     if (viewer->settings.verbose && !viewer->state.turning && viewer_is_settled(viewer)) {
-        status_text_state(text, sizeof text, &viewer->state, figures);
+        status_text_store(status_text_state, figures, text, sizeof text);
         if (is_news(viewer->printed_state, text))
             fprintf(stderr, "%s\n", text);
     }
@@ -261,7 +251,7 @@ static bool save(Viewer *viewer, const Framebuffer *shown)
     char state[STATE_SIZE];
     const Figures figures = figures_of(viewer);
     const SaveText text = {viewer->settings.scene_path, state, viewer->notice};
-    status_text_state(state, sizeof state, &viewer->state, &figures);
+    status_text_store(status_text_state, &figures, state, sizeof state);
     pthread_mutex_lock(&viewer->canvas.mutex);
     const Layer *layer = viewer->state.traced ? canvas_whole(&viewer->canvas) : NULL;
     const bool ok =

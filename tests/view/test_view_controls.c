@@ -274,15 +274,16 @@ TEST(the_title_shows_view_and_progress)
 {
     char text[256];
     FREED_BY(release) Fixture fixture = opened("");
-    Figures figures = {.scene_name = "a.scn", .busy = ""};
-    status_text_title(text, sizeof text, &fixture.state, &figures);
+    const WorkerRequest request = {.is_traced = true};
+    WorkerStatus status = {.busy = "", .progress = 0.375};
+    const Figures figures = {&fixture.state, &request, &status, .scene_name = "a.scn"};
+    status_text_store(status_text_title, &figures, text, sizeof text);
     assert_string_equal(text, "a.scn - OpenGL - clrt");
     press(&fixture, "r");
-    figures.progress = 0.375;
-    status_text_title(text, sizeof text, &fixture.state, &figures);
+    status_text_store(status_text_title, &figures, text, sizeof text);
     assert_string_equal(text, "a.scn - ray traced - clrt - 38 %");
-    figures.is_finished = true;
-    status_text_title(text, sizeof text, &fixture.state, &figures);
+    status.reached.divisor = 1;
+    status_text_store(status_text_title, &figures, text, sizeof text);
     assert_string_equal(text, "a.scn - ray traced - clrt");
 }
 
@@ -290,30 +291,31 @@ TEST(the_line_starts_with_messages_and_the_panel_shows_failures_and_help)
 {
     char text[STATUS_TEXT_SIZE];
     FREED_BY(release) Fixture fixture = opened("");
-    Figures figures = {.samples = 2,
-                       .divisor = 2,
-                       .frame_seconds = 0.0123,
-                       .has_counts = true,
-                       .rays = 1000,
-                       .tests_per_ray = 2.5,
-                       .busy = "",
+    const WorkerStatus status = {
+        .busy = "",
+        .reached = {.divisor = 2, .is_counted = true},
+        .frame_seconds = 0.0123,
+        .tallies = {[TALLY_CAMERA_RAYS] = 1000, [TALLY_TRIANGLE_TESTS] = 2500}};
+    Figures figures = {.state = &fixture.state,
+                       .status = &status,
+                       .samples = 2,
                        .notice = "saved",
                        .missing = "no lights",
                        .hint = "h for help",
                        .failure = "a.scn:1: bad",
                        .explanation = "pixel 1,2\n"};
     press(&fixture, "ra");
-    status_text_line(text, sizeof text, &fixture.state, &figures);
+    status_text_store(status_text_line, &figures, text, sizeof text);
     assert_string_equal(text, "saved, h for help, no lights, ray traced, view 1, AA 2x2, BVH on, "
                               "12.3 ms at 1/2, 1000 rays, 2.50 triangle tests per ray, "
                               "azimuth -40.00, rotation 25.00, distance 6.5");
     char small[16];
-    status_text_line(small, sizeof small, &fixture.state, &figures);
+    status_text_store(status_text_line, &figures, small, sizeof small);
     assert_string_equal(small, "saved, h for he"); // long text is truncated
-    status_text_panel(text, sizeof text, &fixture.state, &figures);
+    status_text_store(status_text_panel, &figures, text, sizeof text);
     assert_string_equal(text, "a.scn:1: bad\npixel 1,2\n");
     press(&fixture, "th");
-    status_text_panel(text, sizeof text, &fixture.state, &figures);
+    status_text_store(status_text_panel, &figures, text, sizeof text);
     assert_memory_equal(text, "pixel 1,2\n", 10);
     assert_string_equal(text + 10, status_text_help());
 }
