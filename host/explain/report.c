@@ -94,8 +94,7 @@ static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
 // the material's ks.
 static json_t *factors_json(const Scene *scene, const Material *material, Vec3 diffuse)
 {
-    static const char *const shaders[] = {"silhouette", "matte", "blinn_phong"};
-    return JSON(FIELD("shader", shaders[material->shader]), FIELD("ambient", scene->ambient),
+    return JSON(FIELD("shader", shader_names[material->shader]), FIELD("ambient", scene->ambient),
                 FIELD("diffuse_color", color_json(diffuse)), FIELD("kd", (double)material->kd),
                 FIELD("specular_color", color_json(vec3_of_floats(material->specular))),
                 FIELD("ks", (double)material->ks), FIELD("shininess", (double)material->shininess));

@@ -5,14 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-uint32_t drawing_components(size_t row)
-{
-    uint32_t components = 0;
-    while (components < AOV_COMPONENTS && aov_table[row].channels[components] != NULL)
-        components++;
-    return components;
-}
-
 uint32_t clrt_channel_count(void)
 {
     return (uint32_t)aov_count - 1; // the last one needs a reference
@@ -24,8 +16,7 @@ bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError *error)
         return check_fail(error, CLRT_ARGUMENT, "channel %u does not exist: there are %u", number,
                           clrt_channel_count());
     const Aov *aov = &aov_table[number];
-    ClrtChannelInfo filled = {.components = drawing_components(number),
-                              .is_integer = aov->is_integer};
+    ClrtChannelInfo filled = {.components = aov_channel_count(aov), .is_integer = aov->is_integer};
     snprintf(filled.name, sizeof filled.name, "%s", aov->name);
     snprintf(filled.help, sizeof filled.help, "%s", aov->help);
     return fill_struct(error, "the info", info, &filled, sizeof filled);

@@ -32,6 +32,3 @@ bool drawing_take_scene(Drawing *drawing, ClrtError *error);
 
 // The observer of all passes. It calls the caller's progress function.
 bool drawing_continues(void *context, const RenderProgress *progress);
-
-// Returns the number of components of the channel in this row of aov_table.
-uint32_t drawing_components(size_t row);

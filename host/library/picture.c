@@ -39,7 +39,7 @@ static bool certify(Drawing *drawing, ClrtError *error)
 static uint32_t copy_channel(const Drawing *drawing, const Layers *layers, size_t row,
                              uint32_t first)
 {
-    const uint32_t components = drawing_components(row);
+    const uint32_t components = aov_channel_count(&aov_table[row]);
     const size_t pixels = (size_t)layers->width * layers->height;
     for (uint32_t i = 0; i < drawing->wanted.channel_count; i++) {
         const ClrtChannel *channel = &drawing->wanted.channels[i];

@@ -118,7 +118,7 @@ bool aov_needs(AovSet set, AovNeed need)
     return needs;
 }
 
-static uint32_t channel_count(const Aov *aov)
+uint32_t aov_channel_count(const Aov *aov)
 {
     uint32_t count = 0;
     while (count < AOV_COMPONENTS && aov->channels[count] != NULL)
@@ -129,7 +129,7 @@ static uint32_t channel_count(const Aov *aov)
 void aov_name_layers(AovSet set, Layers *layers)
 {
     for (size_t i = 0; i < aov_count; i++)
-        for (uint32_t channel = 0; aov_has(set, i) && channel < channel_count(&aov_table[i]);
+        for (uint32_t channel = 0; aov_has(set, i) && channel < aov_channel_count(&aov_table[i]);
              channel++)
             layers->list[layers->count++] =
                 (LayerType){aov_table[i].channels[channel], aov_table[i].is_integer};
@@ -166,8 +166,8 @@ void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScen
 {
     uint32_t all[AOV_VALUES], *next = all;
     take_all(all, pixel, scene);
-    for (size_t i = 0; i < aov_count; next += channel_count(&aov_table[i++]))
-        for (uint32_t channel = 0; aov_has(set, i) && channel < channel_count(&aov_table[i]);
+    for (size_t i = 0; i < aov_count; next += aov_channel_count(&aov_table[i++]))
+        for (uint32_t channel = 0; aov_has(set, i) && channel < aov_channel_count(&aov_table[i]);
              channel++)
             *values++ = next[channel];
 }
@@ -181,6 +181,6 @@ void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KIN
         if (aov_table[i].need == AOV_NEEDS_TESTS)
             kind = TALLY_TRIANGLE_TESTS;
         if (aov_has(set, i))
-            values += channel_count(&aov_table[i]);
+            values += aov_channel_count(&aov_table[i]);
     }
 }

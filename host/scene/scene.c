@@ -13,6 +13,10 @@
 // same bits on every device.
 #define LARGEST_INTEGER_EXPONENT 1024
 
+const char *const shader_names[] = {[SHADER_SILHOUETTE] = "silhouette",
+                                    [SHADER_MATTE] = "matte",
+                                    [SHADER_BLINN_PHONG] = "blinn_phong"};
+
 Material material_of_shader(Shader shader)
 {
     Material material = {.diffuse = {1, 1, 1}, .kd = 1, .shader = shader, .exponent = UINT32_MAX};

@@ -108,6 +108,9 @@ void scene_free(Scene *scene);
 // Returns the reason why the viewpoint is invalid, or NULL if it is valid.
 const char *viewpoint_fault(const Viewpoint *viewpoint);
 
+// The names of shaders in scene text, by Shader.
+extern const char *const shader_names[];
+
 // Returns the material of a define statement without properties.
 Material material_of_shader(Shader shader);
 

@@ -68,10 +68,6 @@ bool mesh_join(Mesh *mesh, const Scene *scene, Error *error)
     return true;
 }
 
-static const char *const shaders[] = {[SHADER_SILHOUETTE] = "silhouette",
-                                      [SHADER_MATTE] = "matte",
-                                      [SHADER_BLINN_PHONG] = "blinn_phong"};
-
 typedef struct {
     const Scene *scene;
     FILE *stream;
@@ -227,7 +223,7 @@ static void write_defines(const Writer *writer)
     FILE *stream = writer->stream;
     for (size_t i = COURSE_MATERIALS; i < writer->scene->materials.count; i++) {
         const Material *material = &writer->scene->materials.data[i];
-        fprintf(stream, "define \"%s\" %s", name_of(writer, i), shaders[material->shader]);
+        fprintf(stream, "define \"%s\" %s", name_of(writer, i), shader_names[material->shader]);
         write_color(stream, "diffuse", material->diffuse);
         write_factor(stream, "kd", material->kd);
         if (material->shader == SHADER_BLINN_PHONG) {

@@ -66,10 +66,9 @@ static bool read_property(Tokens *tokens, Token property, Material *material)
 
 static bool read_shader(Tokens *tokens, Shader *shader)
 {
-    static const char *const names[] = {"silhouette", "matte", "blinn_phong"};
     const Token token = tokens_next(tokens);
     for (int kind = SHADER_SILHOUETTE; kind <= SHADER_BLINN_PHONG; kind++) {
-        if (token_is(token, names[kind])) {
+        if (token_is(token, shader_names[kind])) {
             *shader = (Shader)kind;
             return true;
         }
