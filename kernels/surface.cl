@@ -89,17 +89,36 @@ typedef struct {
     Edges edges;
 } View;
 
-static inline View view_of(const Corners *corners, Real3 origin, Real3 direction)
+static inline View view_along(const Corners *corners, Real3 origin, Real3 direction,
+                              const ShearAxes *axes)
 {
     View view;
-    const ShearAxes axes = shear_axes(direction);
-    view.shear = shear_along(direction, &axes);
-    const Corners relative = {corner_seen(corners->a, origin, &axes),
-                              corner_seen(corners->b, origin, &axes),
-                              corner_seen(corners->c, origin, &axes)};
+    view.shear = shear_along(direction, axes);
+    const Corners relative = {corner_seen(corners->a, origin, axes),
+                              corner_seen(corners->b, origin, axes),
+                              corner_seen(corners->c, origin, axes)};
     const Corners sheared = corners_sheared(&relative, &view.shear);
     view.edges = edges_of(&sheared);
     return view;
+}
+
+// The same for rays that share their axes. A constant z leaves no selection of components.
+static inline View view_along_one(const Corners *corners, Real3 origin, Real3 direction, uint z)
+{
+    const ShearAxes axes = {(UInt)((z + 1) % 3), (UInt)((z + 2) % 3), (UInt)(z)};
+    return view_along(corners, origin, direction, &axes);
+}
+
+static inline View view_of(const Corners *corners, Real3 origin, Real3 direction)
+{
+    const ShearAxes axes = shear_axes(direction);
+    if (CLRT_LANES > 1 && !any_lane(axes.z != (UInt)(0)))
+        return view_along_one(corners, origin, direction, 0);
+    if (CLRT_LANES > 1 && !any_lane(axes.z != (UInt)(1)))
+        return view_along_one(corners, origin, direction, 1);
+    if (CLRT_LANES > 1 && !any_lane(axes.z != (UInt)(2)))
+        return view_along_one(corners, origin, direction, 2);
+    return view_along(corners, origin, direction, &axes);
 }
 
 // Records the distance of the point from the edges. A weight is the distance from an edge as a
