@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Computes the rays of a pinhole camera (host/scene/camera.h). The integers x and y are exact in
-// Real, and two fma compute each component, so every device computes the same rays.
+// Computes the rays of a perspective or orthographic camera (CameraData in shared.h). The integers
+// x and y are exact in Real, and two fma compute each component, so every device computes the same
+// rays.
 #ifndef CLRT_CAMERA_CL
 #define CLRT_CAMERA_CL
 #include "ray.cl"
@@ -14,10 +15,17 @@ static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask
     const Real3 right = load_private3(frame->camera.right_step);
     const Real3 down = load_private3(frame->camera.down_step);
     const Real3 forward = load_private3(frame->camera.forward);
-    const Real3 direction = {fma(across, right.x, fma(along, down.x, forward.x)),
-                             fma(across, right.y, fma(along, down.y, forward.y)),
-                             fma(across, right.z, fma(along, down.z, forward.z))};
-    return (Ray){eye, direction, NOTHING, NOTHING, RAY_CAMERA, active};
+    const bool orthographic = frame->camera.orthographic != 0;
+    const Real3 middle = orthographic ? eye : forward;
+    const Real3 moved = {fma(across, right.x, fma(along, down.x, middle.x)),
+                         fma(across, right.y, fma(along, down.y, middle.y)),
+                         fma(across, right.z, fma(along, down.z, middle.z))};
+    return (Ray){orthographic ? moved : eye,
+                 orthographic ? forward : moved,
+                 NOTHING,
+                 NOTHING,
+                 RAY_CAMERA,
+                 active};
 }
 
 // Returns the ray through the center of a sub-pixel. sample_x and sample_y count sub-pixels of the

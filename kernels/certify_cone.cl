@@ -5,15 +5,16 @@
 //
 // The bounds are computed in fp64, for a tracer in fp32 (u = 2^-24) or in fp64 (u = 2^-53).
 // OWN_ROUNDOFF covers the rounding of the bounds themselves. docs/numerics.md derives the bounds as
-// B1 to B16. They require two things:
+// B1 to B18. They require two things:
 //  - The tracer's device rounds float operations correctly.
 //  - No rounding error of a product in fp32's edge functions underflows (B3). This holds if each
 //    sheared coordinate of a corner is 0 or at least 2^-51 in magnitude, in normalized coordinates.
 //    The kernel does not check this. Otherwise, only triangles seen edge-on may differ (B10).
 //
-// A camera ray is fma(x, right, fma(y, down, forward)). For fp32, camera_rounding repeats the
-// rounding. For fp64, the two roundings are below u (|inner| + |outer|) per component. A shadow ray
-// ends within u of its length from the light.
+// A camera ray's direction is fma(x, right, fma(y, down, forward)), or its origin is if the camera
+// is orthographic (B18). For fp32, camera_rounding repeats the rounding. For fp64, the two
+// roundings are below u (|inner| + |outer|) per component. A shadow ray ends within u of its length
+// from the light.
 #ifndef CLRT_CERTIFY_CONE_CL
 #define CLRT_CERTIFY_CONE_CL
 
@@ -112,14 +113,21 @@ static inline Real blur_at(const RayCone *ray, Real3 seen)
            16.0f * OWN_ROUNDOFF * (depth + aside);
 }
 
-// Bounds the difference between `direction` and the direction that fp32 computes.
-static inline Real camera_rounding(const CameraData *camera, Real3 direction, float x, float y)
+// Returns the vector to which the camera adds steps: to a ray's origin or to its direction.
+static inline const float *camera_middle(const CameraData *camera)
 {
-    const float *right = camera->right_step, *down = camera->down_step, *forward = camera->forward;
-    const Real3 rounded = real3_of(fma(x, right[0], fma(y, down[0], forward[0])),
-                                   fma(x, right[1], fma(y, down[1], forward[1])),
-                                   fma(x, right[2], fma(y, down[2], forward[2])));
-    return length_of(difference(rounded, direction));
+    return camera->orthographic != 0 ? camera->eye : camera->forward;
+}
+
+// Returns the difference between `moved` and the vector that fp32 computes.
+static inline Real camera_rounding(const CameraData *camera, Real3 moved, float x, float y)
+{
+    const float *right = camera->right_step, *down = camera->down_step;
+    const float *middle = camera_middle(camera);
+    const Real3 rounded = real3_of(fma(x, right[0], fma(y, down[0], middle[0])),
+                                   fma(x, right[1], fma(y, down[1], middle[1])),
+                                   fma(x, right[2], fma(y, down[2], middle[2])));
+    return length_of(difference(rounded, moved));
 }
 
 // Returns the cone of a camera ray. `sample` contains the arguments sample_x and sample_y of
@@ -129,22 +137,26 @@ static inline RayCone camera_cone(const FrameData *frame, uint2 sample, Real u)
     const Ray ray = camera_ray(frame, sample.x, sample.y, true);
     const int x = convert_int(2 * sample.x + 1) - (int)(frame->width * frame->samples);
     const int y = convert_int(2 * sample.y + 1) - (int)(frame->height * frame->samples);
-    const Real3 forward = load_private3(frame->camera.forward);
-    const Real3 down = load_private3(frame->camera.down_step);
-    const Real3 inner = sum3(forward, scaled3((Real)y, down));
-    const Real own = 2.0f * OWN_ROUNDOFF * (length_of(inner) + length_of(ray.direction));
+    const CameraData *camera = &frame->camera;
+    const bool orthographic = camera->orthographic != 0;
+    const Real3 moved = orthographic ? ray.origin : ray.direction;
+    const Real3 down = load_private3(camera->down_step);
+    const Real3 inner = sum3(load_private3(camera_middle(camera)), scaled3((Real)y, down));
+    const Real own = 2.0f * OWN_ROUNDOFF * (length_of(inner) + length_of(moved));
     const Real rounding =
-        own + (u > OWN_ROUNDOFF ? camera_rounding(&frame->camera, ray.direction, (float)x, (float)y)
-                                : 0.0f);
-    RayCone cone = {
-        .origin = ray.origin,
-        .spread = spread_of(1.01f * rounding / length_of(ray.direction) + 8.0f * OWN_ROUNDOFF),
-        .length = INFINITY,
-        .u = u,
-        .own = NOTHING,
-        .own_index = NOTHING,
-        .kind = RAY_CAMERA,
-        .start = {ray.origin, unit_vector(ray.direction), 0.0f, 0.0f}};
+        1.01f *
+        (own + (u > OWN_ROUNDOFF ? camera_rounding(camera, moved, (float)x, (float)y) : 0.0f));
+    const Real around = orthographic ? rounding : 0.0f;
+    const Real turn = orthographic ? 0.0f : rounding;
+    RayCone cone = {.origin = ray.origin,
+                    .around = around,
+                    .spread = spread_of(turn / length_of(ray.direction) + 8.0f * OWN_ROUNDOFF),
+                    .length = INFINITY,
+                    .u = u,
+                    .own = NOTHING,
+                    .own_index = NOTHING,
+                    .kind = RAY_CAMERA,
+                    .start = {ray.origin, unit_vector(ray.direction), 0.0f, around}};
     set_axis(&cone, unit_vector(ray.direction));
     return cone;
 }

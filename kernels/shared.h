@@ -166,10 +166,13 @@ typedef struct {
 } TriangleLook;
 CLRT_SAME_SIZE(TriangleLook, 8)
 
-// A camera ray's direction is forward + x * right_step + y * down_step. For sample i of n across
-// the picture, x is 2 * i + 1 - n. y is analogous. Up to n = 2^24, these integers are exact floats.
+// The rays of a perspective camera start at the eye, and their directions are
+// forward + x * right_step + y * down_step. The rays of an orthographic camera have the direction
+// forward, and start at eye + x * right_step + y * down_step. For sample i of n across the picture,
+// x is 2 * i + 1 - n. y is analogous. Up to n = 2^24, these integers are exact floats.
 typedef struct {
-    float eye[4];
+    float eye[3];
+    uint orthographic; // 1 or 0
     float forward[4];
     float right_step[4];
     float down_step[4];

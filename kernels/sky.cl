@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the blocks of pixels in which no camera ray hits anything, by two separating planes: sides
-// of the box around all primitives, and sides of the pyramid of the block's rays.
+// of the box around all primitives, and sides of the pyramid of the block's rays. The rays of an
+// orthographic camera fill a prism instead.
 //
 // Invariant: a block that may hit something is never sky (docs/numerics.md, B17).
 
@@ -35,14 +36,17 @@ static inline bool leave_box(const FrameData *frame, const RayRange *range)
     return max(up, down) > SKY_SLACK * size;
 }
 
-// Returns whether the box is outside one of the four planes through the eye and a side of the
-// block.
+// Returns whether the box is outside one of the four planes through the rays at a side of the
+// block. In perspective, the planes contain the eye and turn with their place in the picture. In
+// orthographic pictures, they move.
 static inline bool pass_box(const FrameData *frame, const RayRange *range)
 {
     const float *right = frame->camera.right_step, *down = frame->camera.down_step;
     const float *forward = frame->camera.forward;
     const float4 places = (float4)(range->left, -range->right, range->top, -range->bottom);
-    float4 height = 0.0f, size = 0.0f;
+    const float4 turn = frame->camera.orthographic != 0 ? 0.0f : places;
+    const float4 move = places - turn;
+    float4 height = 0.0f, size = 0.0f, moved = 0.0f;
     float reach = 0.0f;
     for (uint axis = 0; axis < 3; axis++) {
         const uint i = (axis + 1) % 3, j = (axis + 2) % 3;
@@ -52,17 +56,19 @@ static inline bool pass_box(const FrameData *frame, const RayRange *range)
         const float low = frame->low[axis] - frame->camera.eye[axis];
         const float high = frame->high[axis] - frame->camera.eye[axis];
         // The inward normals of the left, right, upper and lower plane.
-        const float4 normal = (float4)(across, -across, -along, along) + places * ahead;
-        height += max(low * normal, high * normal);
+        const float4 normal = (float4)(across, -across, -along, along) + turn * ahead;
+        const float4 shift = move * ahead * forward[axis];
+        height += max(low * normal, high * normal) + shift;
+        moved += fabs(shift);
         size += fabs(normal);
         reach = max(reach, max(fabs(low), fabs(high)));
     }
-    return any(height < -SKY_SLACK * reach * size);
+    return any(height < -SKY_SLACK * (reach * size + moved));
 }
 
 // Returns whether no ray of a block hits anything (docs/numerics.md, B17).
 static inline bool is_sky(const FrameData *frame, uint left, uint top)
 {
     const RayRange range = block_range(frame, left, top);
-    return leave_box(frame, &range) || pass_box(frame, &range);
+    return (frame->camera.orthographic == 0 && leave_box(frame, &range)) || pass_box(frame, &range);
 }

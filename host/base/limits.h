@@ -10,6 +10,8 @@
 #define INTENSITY_MOST  1e30
 #define FOV_LEAST       1e-6 // degrees
 #define FOV_MOST        179.9999
+#define HEIGHT_LEAST    1e-30 // of an orthographic picture
+#define HEIGHT_MOST     1e30
 #define FACTOR_MOST     1000 // kd and ks
 #define SHININESS_MOST  1e9
 #define CREASE_MOST     180 // degrees

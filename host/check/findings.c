@@ -112,8 +112,8 @@ static bool is_outside(const CameraData *camera, const Vec3 corners[8], const Sc
         const double depth = vec3_dot(point, vec3_of_floats(camera->forward));
         const double x = across(point, camera->right_step, scene->width);
         const double y = across(point, camera->down_step, scene->height);
-        const bool outside[5] = {depth<0, x> MARGIN * depth, -x > MARGIN * depth,
-                                 y > MARGIN * depth, -y > MARGIN * depth};
+        const double edge = MARGIN * camera_reduction(camera, depth);
+        const bool outside[5] = {depth<0, x> edge, -x > edge, y > edge, -y > edge};
         for (int plane = 0; plane < 5; plane++)
             all[plane] = all[plane] && outside[plane];
     }

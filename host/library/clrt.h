@@ -141,6 +141,9 @@ typedef struct {
     double up[3];         // 0 0 0 selects 0 0 1
     double fov_degrees;   // vertical, in [1e-6, 179.9999]
     double width_degrees; // least horizontal angle of narrow pictures, in [0, 179.9999]
+    // If height is above 0, the camera is orthographic and ignores both angles.
+    double height; // of the picture, in scene units, at least 1e-30
+    double width;  // least width of narrow pictures, in scene units; 0 for no minimum
 } ClrtCamera;
 
 // Appends a view to the scene.

@@ -75,6 +75,16 @@ bool clrt_scene_add_colored_light(ClrtScene *scene, const double position[3], do
     return scene_handle_changed(scene, ok, &cause, error);
 }
 
+// Fails unless the angles of a perspective camera, or the sides of an orthographic one, are valid.
+static bool check_extent(const ClrtCamera *camera, ClrtError *error)
+{
+    if (camera->height != 0)
+        return check_number(error, "the height", camera->height, HEIGHT_LEAST, HEIGHT_MOST) &&
+               check_number(error, "the width", camera->width, 0, HEIGHT_MOST);
+    return check_number(error, "the field of view", camera->fov_degrees, FOV_LEAST, FOV_MOST) &&
+           check_number(error, "the horizontal field of view", camera->width_degrees, 0, FOV_MOST);
+}
+
 bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, ClrtError *error)
 {
     ClrtCamera given;
@@ -82,14 +92,15 @@ bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, Cl
         !check_vector(error, "the eye", given.eye, COORDINATE_MOST) ||
         !check_vector(error, "the point looked at", given.look_at, COORDINATE_MOST) ||
         !check_vector(error, "the camera's 'up'", given.up, COORDINATE_MOST) ||
-        !check_number(error, "the field of view", given.fov_degrees, FOV_LEAST, FOV_MOST) ||
-        !check_number(error, "the horizontal field of view", given.width_degrees, 0, FOV_MOST))
+        !check_extent(&given, error))
         return false;
     *viewpoint = (Viewpoint){.eye = vec3_of_doubles(given.eye),
                              .look_at = vec3_of_doubles(given.look_at),
                              .up = vec3_of_doubles(given.up),
                              .fov_degrees = given.fov_degrees,
-                             .width_degrees = given.width_degrees};
+                             .width_degrees = given.width_degrees,
+                             .height = given.height,
+                             .width = given.width};
     if (!(vec3_extent(viewpoint->up) > 0))
         viewpoint->up = vec3(0, 0, 1);
     const char *fault = viewpoint_fault(viewpoint);
@@ -122,7 +133,9 @@ bool clrt_scene_get_camera(const ClrtScene *scene, uint32_t view, ClrtCamera *ca
         return false;
     const Viewpoint *viewpoint = &scene->scene.viewpoints.data[view - 1];
     ClrtCamera filled = {.fov_degrees = viewpoint->fov_degrees,
-                         .width_degrees = viewpoint->width_degrees};
+                         .width_degrees = viewpoint->width_degrees,
+                         .height = viewpoint->height,
+                         .width = viewpoint->width};
     vec3_store_doubles(filled.eye, viewpoint->eye);
     vec3_store_doubles(filled.look_at, viewpoint->look_at);
     vec3_store_doubles(filled.up, viewpoint->up);

@@ -121,7 +121,8 @@ CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t
 
 // The following functions clip triangles in homogeneous coordinates (x * depth, y * depth, depth).
 // The clipping planes are one at the eye and four around the picture. After the division by depth,
-// all coordinates are therefore bounded.
+// all coordinates are therefore bounded. For an orthographic camera, 1 replaces the depth, and
+// triangles behind the eye are not clipped.
 
 #define PLANES 5
 #define MARGIN (2 * REFINE_GRID)
@@ -148,8 +149,9 @@ static Vec3 point_of(const Projection *projection, size_t vertex)
 {
     const double *position = projection->object->mesh.positions[vertex];
     const Vec3 point = normalize_point(projection->normalization, vec3_of_doubles(position));
-    const Vec3 seen = vec3_sub(point, projection->eye);
-    const double depth = vec3_dot(seen, projection->forward);
+    const CameraData *camera = &projection->camera;
+    const Vec3 seen = vec3_sub(point, vec3_of_floats(camera->eye));
+    const double depth = camera_reduction(camera, vec3_dot(seen, vec3_of_floats(camera->forward)));
     return (Vec3){vec3_dot(seen, projection->right) + projection->width / 2 * depth,
                   vec3_dot(seen, projection->down) + projection->height / 2 * depth, depth};
 }
@@ -176,10 +178,9 @@ Projection projection_of(const FrameData *frame, const Normalization *normalizat
     const Vec3 down = vec3_of_floats(frame->camera.down_step);
     const double square = vec3_dot(right, right);
     return (Projection){.normalization = normalization,
-                        .eye = vec3_of_floats(frame->camera.eye),
+                        .camera = frame->camera,
                         .right = vec3_scale(right, 0.5 / square),
                         .down = vec3_scale(down, 0.5 / square),
-                        .forward = vec3_of_floats(frame->camera.forward),
                         .width = (double)frame->width * REFINE_GRID,
                         .height = (double)frame->height * REFINE_GRID};
 }

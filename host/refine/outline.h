@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/thread_pool.h"
-#include "scene/normalize.h"
+#include "scene/camera.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -105,9 +105,10 @@ typedef struct {
 typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
-    Vec3 eye, right, down, forward; // right and down give coordinates in cells at depth 1
-    double width, height;           // of the picture, in cells of the last level
-    ProjectedPoint *points;         // of the mesh's vertices
+    CameraData camera;
+    Vec3 right, down;       // give coordinates in cells at depth 1
+    double width, height;   // of the picture, in cells of the last level
+    ProjectedPoint *points; // of the mesh's vertices
 } Projection;
 
 // Returns a projection without a mesh. The frame's camera must be made for REFINE_GRID samples.

@@ -4,6 +4,7 @@
 
 #include "refine/thin_cells.h"
 #include "refine/thin_triangles.h"
+#include "scene/camera.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,10 +30,12 @@ static bool project(const FrameData *frame, const SphereData *sphere, SphereOutl
     const double step = sqrt(vec3_dot(right, right));
     if (depth <= sphere->radius)
         return false;
-    const double x = vec3_dot(seen, right) / (depth * step * step);
-    const double y = vec3_dot(seen, down) / (depth * step * step);
-    const double radius = sphere->radius / (depth * step) / 2;
-    const double outer = radius * sqrt(1 + (x * x + y * y) * step * step) * 1.001;
+    const double reduction = camera_reduction(camera, depth);
+    const double x = vec3_dot(seen, right) / (reduction * step * step);
+    const double y = vec3_dot(seen, down) / (reduction * step * step);
+    const double radius = sphere->radius / (reduction * step) / 2;
+    const double tangent = camera->orthographic != 0 ? 0 : sqrt(x * x + y * y) * step;
+    const double outer = radius * sqrt(1 + tangent * tangent) * 1.001;
     const double middle[2] = {(x + (double)frame->width * REFINE_GRID) / 2,
                               (y + (double)frame->height * REFINE_GRID) / 2};
     for (int axis = 0; axis < 2; axis++) {

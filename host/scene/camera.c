@@ -14,19 +14,28 @@ static double tangent_of_half(double degrees)
     return sine_of_degrees(degrees / 2) / cosine_of_degrees(degrees / 2);
 }
 
+// Returns half the image plane's height, in normalized units for orthographic cameras.
+static double half_height_of(const Viewpoint *viewpoint, double scale, uint32_t width,
+                             uint32_t height)
+{
+    if (viewpoint->height > 0)
+        return fmax(viewpoint->height, viewpoint->width * height / width) / 2 * scale;
+    return fmax(tangent_of_half(viewpoint->fov_degrees),
+                tangent_of_half(viewpoint->width_degrees) * height / width);
+}
+
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
                        uint32_t width, uint32_t height, uint32_t samples)
 {
     const Vec3 forward = vec3_normalize(vec3_sub(viewpoint->look_at, viewpoint->eye));
     const Vec3 right = vec3_normalize(vec3_cross(forward, vec3_normalize(viewpoint->up)));
     const Vec3 down = vec3_cross(forward, right);
-    const double half_height = fmax(tangent_of_half(viewpoint->fov_degrees),
-                                    tangent_of_half(viewpoint->width_degrees) * height / width);
+    const double half_height = half_height_of(viewpoint, normalization->scale, width, height);
     // The kernels count samples in half steps from the picture's center. Pixels are square, so both
     // axes have the same step.
     const double half_step = half_height / ((double)height * samples);
-    CameraData camera;
-    store(camera.eye, normalize_point(normalization, viewpoint->eye));
+    CameraData camera = {.orthographic = viewpoint->height > 0};
+    vec3_store(camera.eye, normalize_point(normalization, viewpoint->eye));
     store(camera.forward, forward);
     store(camera.right_step, vec3_scale(right, half_step));
     store(camera.down_step, vec3_scale(down, half_step));
@@ -35,10 +44,11 @@ CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normaliz
 
 void camera_shift(CameraData *camera, double right, double down)
 {
+    float *middle = camera->orthographic != 0 ? camera->eye : camera->forward;
     for (int axis = 0; axis < 3; axis++) {
         const double step =
             right * (double)camera->right_step[axis] + down * (double)camera->down_step[axis];
-        camera->forward[axis] = (float)((double)camera->forward[axis] + 2 * step);
+        middle[axis] = (float)((double)middle[axis] + 2 * step);
     }
 }
 

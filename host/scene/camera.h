@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Viewpoint -> CameraData: the origin of a picture's rays and the steps between their directions,
-// in normalized coordinates. The file also turns viewpoints as on a turntable.
+// Viewpoint -> CameraData: a picture's rays, in normalized coordinates. The file also turns
+// viewpoints as on a turntable.
 #pragma once
 
 #include "scene/normalize.h"
 #include "scene/scene.h"
 
-// Returns the course's pinhole camera. Its image plane has distance 1 and height 2 tan(fov / 2). In
-// a narrow picture, the plane is larger, so that it spans width_degrees. Pixels are square. samples
-// is the number of sub-pixels per pixel and axis.
+// Returns the course's pinhole camera, or an orthographic one. The pinhole camera's image plane has
+// distance 1 and height 2 tan(fov / 2). In a narrow picture, the plane is larger, so that it spans
+// the viewpoint's least width. Pixels are square. samples is the number of sub-pixels per pixel and
+// axis.
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
                        uint32_t width, uint32_t height, uint32_t samples);
+
+// Returns the factor by which the camera shrinks sizes at this depth. At depth 1, it is 1.
+static inline double camera_reduction(const CameraData *camera, double depth)
+{
+    return camera->orthographic != 0 ? 1 : depth;
+}
 
 // Moves all samples to the right and down, in units of the distance between neighboring samples.
 void camera_shift(CameraData *camera, double right, double down);

@@ -3,7 +3,8 @@
 // far away, too large or too small for float.
 #include "scene/normalize.h"
 
-#define LARGEST_RATIO 0x1p40
+#define LARGEST_RATIO   0x1p40
+#define LARGEST_PICTURE 0x1p20 // so that pictures of any aspect stay below LARGEST_RATIO
 
 static BoundingBox box_of(const Scene *scene)
 {
@@ -57,6 +58,13 @@ static bool is_near(const Normalization *normalization, Vec3 point)
     return vec3_extent(normalize_point(normalization, point)) <= LARGEST_RATIO;
 }
 
+static bool viewpoint_fits(const Normalization *normalization, const Viewpoint *viewpoint)
+{
+    const double height = viewpoint->height * normalization->scale;
+    const double width = viewpoint->width * normalization->scale;
+    return height == 0 || (height >= 1 / LARGEST_RATIO && fmax(height, width) <= LARGEST_PICTURE);
+}
+
 static bool sphere_fits(const Normalization *normalization, const Sphere *sphere)
 {
     const double radius = sphere->radius * normalization->scale;
@@ -73,6 +81,12 @@ bool normalization_check(const Normalization *normalization, const Scene *scene,
     for (size_t i = 0; i < scene->viewpoints.count; i++)
         if (!is_near(normalization, scene->viewpoints.data[i].eye))
             return error_set(error, "camera %zu is more than 5e11 times the scene's size away",
+                             i + 1);
+    for (size_t i = 0; i < scene->viewpoints.count; i++)
+        if (!viewpoint_fits(normalization, &scene->viewpoints.data[i]))
+            return error_set(error,
+                             "the height of orthographic camera %zu is not within 1e-12 and 1e6 "
+                             "times the scene's size",
                              i + 1);
     for (size_t i = 0; i < scene->spheres.count; i++)
         if (!sphere_fits(normalization, &scene->spheres.data[i]))

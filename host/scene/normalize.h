@@ -34,6 +34,6 @@ Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 
 // Fails if a normalized coordinate of a light, eye or sphere center is outside [-2^40, 2^40], or if
-// a normalized radius is outside [2^-40, 2^40]. Outside these ranges, the kernels' floats could
-// overflow or underflow.
+// a normalized radius is outside [2^-40, 2^40]. The normalized height of an orthographic camera
+// must be in [2^-40, 2^20]. Outside these ranges, the kernels' floats could overflow or underflow.
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);

@@ -48,11 +48,14 @@ typedef struct {
     bool two_sided;
 } MeshObject;
 
-// A camera. up and look_at - eye must be neither zero nor parallel.
+// A camera. up and look_at - eye must be neither zero nor parallel. An orthographic camera has a
+// height above 0, and its angles are not used. Its rays start on the plane through the eye.
 typedef struct {
     Vec3 eye, look_at, up;
     double fov_degrees;   // vertical, between 0 and 180
     double width_degrees; // narrow pictures show at least this horizontal angle; 0 for no minimum
+    double height;        // of an orthographic picture, in scene units; 0 for a perspective camera
+    double width;         // narrow orthographic pictures show at least this width; 0 for no minimum
 } Viewpoint;
 
 typedef struct {

@@ -76,20 +76,40 @@ static bool read_ply_file(Parser *parser)
     return read_mesh_file(parser, true);
 }
 
+// Reads a size of the picture, and the optional least width of narrow pictures.
+static bool read_picture_sides(Tokens *tokens, double low, double high, double sides[2])
+{
+    return tokens_number_within(tokens, &sides[0], low, high) &&
+           (!tokens_have_more(tokens) || tokens_number_within(tokens, &sides[1], low, high));
+}
+
+// Skips the next token and returns true if it is this word.
+static bool skip_word(Tokens *tokens, const char *word)
+{
+    Tokens ahead = *tokens;
+    const bool found = token_is(tokens_next(&ahead), word);
+    if (found)
+        *tokens = ahead;
+    return found;
+}
+
 static bool read_camera(Parser *parser)
 {
-    double numbers[6], fov, width = 0;
-    const Token start = parser->tokens.last;
-    if (!tokens_numbers(&parser->tokens, 6, numbers) ||
-        !tokens_number_within(&parser->tokens, &fov, FOV_LEAST, FOV_MOST) ||
-        (tokens_have_more(&parser->tokens) &&
-         !tokens_number_within(&parser->tokens, &width, FOV_LEAST, FOV_MOST)))
+    double numbers[6], angles[2] = {0}, lengths[2] = {0};
+    Tokens *tokens = &parser->tokens;
+    const Token start = tokens->last;
+    if (!tokens_numbers(tokens, 6, numbers) ||
+        !(skip_word(tokens, "orthographic")
+              ? read_picture_sides(tokens, HEIGHT_LEAST, HEIGHT_MOST, lengths)
+              : read_picture_sides(tokens, FOV_LEAST, FOV_MOST, angles)))
         return false;
     const Viewpoint viewpoint = {.eye = vec3_of_doubles(numbers),
                                  .look_at = vec3_of_doubles(numbers + 3),
                                  .up = parser->up,
-                                 .fov_degrees = fov,
-                                 .width_degrees = width};
+                                 .fov_degrees = angles[0],
+                                 .width_degrees = angles[1],
+                                 .height = lengths[0],
+                                 .width = lengths[1]};
     const char *fault = viewpoint_fault(&viewpoint);
     if (fault != NULL)
         return tokens_fail(&parser->tokens, start, "%s", fault);
@@ -171,7 +191,8 @@ static const struct {
 } statements[] = {
     {"ambient", "ambient INTENSITY", read_ambient},
     {"background", "background R G B", read_background},
-    {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES [WIDTH_DEGREES]", read_camera},
+    {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES|orthographic HEIGHT [WIDTH]",
+     read_camera},
     {"define", "define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...", read_define},
     {"light", "light X Y Z INTENSITY [R G B]", read_light},
     {"material", "material NUMBER|NAME|own [NUMBER|NAME]", read_material},

@@ -146,9 +146,13 @@ void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream)
     fputs("camera", stream);
     write_vector(stream, camera->eye);
     write_vector(stream, camera->look_at);
-    write_number(stream, camera->fov_degrees);
-    if (camera->width_degrees > 0)
-        write_number(stream, camera->width_degrees);
+    const bool orthographic = camera->height > 0;
+    const double width = orthographic ? camera->width : camera->width_degrees;
+    if (orthographic)
+        fputs(" orthographic", stream);
+    write_number(stream, orthographic ? camera->height : camera->fov_degrees);
+    if (width > 0)
+        write_number(stream, width);
     fputc('\n', stream);
 }
 

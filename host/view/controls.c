@@ -12,6 +12,7 @@
 #define NEAREST            0.5
 #define FARTHEST           100.0
 #define COURSE_DISTANCE    6.5
+#define COURSE_FOV         45.0
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
 // Computes perpendicular axes, of which the last is up. If up is z, the others are x and y, from
@@ -26,13 +27,28 @@ static void make_axes(Vec3 axes[3], Vec3 up)
     axes[2] = z;
 }
 
+// Returns the height of a perspective picture at distance 1.
+static double unit_height(const Orbit *orbit)
+{
+    const double half = orbit->fov_degrees / 2;
+    return 2 * sine_of_degrees(half) / cosine_of_degrees(half);
+}
+
+// Returns the distance at which a perspective picture shows the pivot at its current size.
+static double shown_distance(const Orbit *orbit)
+{
+    return orbit->height > 0 ? orbit->height / unit_height(orbit) : orbit->distance;
+}
+
 Orbit orbit_of(const Viewpoint *viewpoint, bool is_course)
 {
     Orbit orbit = {.pivot = is_course ? vec3(0, 0, 0) : viewpoint->look_at,
                    .look_at = viewpoint->look_at,
                    .up = viewpoint->up,
-                   .fov_degrees = viewpoint->fov_degrees,
-                   .width_degrees = viewpoint->width_degrees};
+                   .fov_degrees = viewpoint->fov_degrees > 0 ? viewpoint->fov_degrees : COURSE_FOV,
+                   .width_degrees = viewpoint->width_degrees,
+                   .height = viewpoint->height,
+                   .width = viewpoint->width};
     make_axes(orbit.axes, viewpoint->up);
     const Vec3 arm = vec3_sub(viewpoint->eye, orbit.pivot);
     const double x = vec3_dot(arm, orbit.axes[0]), y = vec3_dot(arm, orbit.axes[1]);
@@ -40,7 +56,7 @@ Orbit orbit_of(const Viewpoint *viewpoint, bool is_course)
     orbit.distance = sqrt(x * x + y * y + z * z);
     orbit.azimuth = -atan2(z, sqrt(x * x + y * y)) * DEGREES_PER_RADIAN;
     orbit.rotation = atan2(y, x) * DEGREES_PER_RADIAN;
-    orbit.unit = is_course ? 1 : orbit.distance / COURSE_DISTANCE;
+    orbit.unit = is_course ? 1 : shown_distance(&orbit) / COURSE_DISTANCE;
     return orbit;
 }
 
@@ -56,7 +72,9 @@ Viewpoint orbit_viewpoint(const Orbit *orbit)
                        .look_at = orbit->look_at,
                        .up = orbit->up,
                        .fov_degrees = orbit->fov_degrees,
-                       .width_degrees = orbit->width_degrees};
+                       .width_degrees = orbit->width_degrees,
+                       .height = orbit->height,
+                       .width = orbit->width};
 }
 
 static double limited(double value, double low, double high)
@@ -72,14 +90,34 @@ static void orbit_turn(Orbit *orbit, double right, double down)
         limited(orbit->azimuth - DEGREES_PER_PIXEL * down, -AZIMUTH_LIMIT, AZIMUTH_LIMIT);
 }
 
-static void set_distance(Orbit *orbit, double distance)
+// Shows the pivot as large as from this distance. An orthographic camera stays in its place.
+static void set_shown_distance(Orbit *orbit, double distance)
 {
-    orbit->distance = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);
+    const double shown = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);
+    const double factor = shown / shown_distance(orbit);
+    if (orbit->height > 0) {
+        orbit->height *= factor;
+        orbit->width *= factor;
+    } else {
+        orbit->distance = shown;
+    }
+}
+
+// Switches between perspective and orthographic pictures. The pivot keeps its size.
+static void orbit_switch_perspective(Orbit *orbit)
+{
+    const double distance = shown_distance(orbit), height = distance * unit_height(orbit);
+    const double half = orbit->width_degrees / 2;
+    const double width = 2 * distance * sine_of_degrees(half) / cosine_of_degrees(half);
+    const bool becomes_orthographic = orbit->height == 0;
+    orbit->distance = distance;
+    orbit->height = becomes_orthographic ? height : 0;
+    orbit->width = becomes_orthographic ? width : 0;
 }
 
 static void orbit_zoom(Orbit *orbit, double down)
 {
-    set_distance(orbit, orbit->distance + LENGTH_PER_PIXEL * orbit->unit * down);
+    set_shown_distance(orbit, shown_distance(orbit) + LENGTH_PER_PIXEL * orbit->unit * down);
 }
 
 // Moves camera and pivot sideways by a mouse drag. In a window of the course's height, the pivot
@@ -89,9 +127,7 @@ static void orbit_pan(Orbit *orbit, double right, double down)
     const Viewpoint view = orbit_viewpoint(orbit);
     const Vec3 ahead = vec3_normalize(vec3_sub(view.look_at, view.eye));
     const Vec3 across = vec3_normalize(vec3_cross(ahead, view.up));
-    const double half = orbit->fov_degrees / 2;
-    const double height =
-        2 * orbit->distance * sine_of_degrees(half) / cosine_of_degrees(half) / COURSE_HEIGHT;
+    const double height = shown_distance(orbit) * unit_height(orbit) / COURSE_HEIGHT;
     const Vec3 step = vec3_add(vec3_scale(across, -height * right),
                                vec3_scale(vec3_cross(across, ahead), height * down));
     orbit->pivot = vec3_add(orbit->pivot, step);
@@ -101,7 +137,7 @@ static void orbit_pan(Orbit *orbit, double right, double down)
 // Zooms by notches of the mouse wheel. Positive notches, away from the user, zoom in.
 static void orbit_wheel(Orbit *orbit, double notches)
 {
-    set_distance(orbit, orbit->distance * pow(WHEEL_FACTOR, notches));
+    set_shown_distance(orbit, shown_distance(orbit) * pow(WHEEL_FACTOR, notches));
 }
 
 #define ARROW_PIXELS      20
@@ -197,6 +233,10 @@ static void apply_key(State *state, const StateScene *scene, int key)
         change_depth(state, scene, key == ']' ? 1 : -1);
     if (key == '+' || key == '=' || key == '-')
         change_exposure(state, key == '-' ? -1 : 1);
+    if (key == 'p') {
+        orbit_switch_perspective(&state->orbit);
+        move(state);
+    }
     if (key >= '1' && key <= '9')
         choose_view(state, scene, (uint32_t)(key - '0'));
     apply_arrow(state, key);

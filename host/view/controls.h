@@ -16,7 +16,8 @@ typedef struct {
     double rotation; // degrees around up
     double distance; // from the eye to the pivot
     double unit;     // length unit of steps and limits; 1 for the course's cameras
-    double fov_degrees, width_degrees;
+    double fov_degrees, width_degrees; // of perspective
+    double height, width;              // as in Viewpoint
 } Orbit;
 
 // Returns the orbit of a camera. The course's cameras orbit the origin. Other cameras orbit their

@@ -32,6 +32,8 @@ static void add_state(const Figures *figures, FILE *stream)
 {
     const State *state = figures->state;
     fprintf(stream, "%s, view %u%s", view_name(state), state->view, state->moved ? " moved" : "");
+    if (state->camera.height > 0)
+        fprintf(stream, ", orthographic, height %.3g", state->camera.height);
     if (state->smooth)
         fprintf(stream, ", AA %ux%u", figures->samples, figures->samples);
     else
@@ -148,6 +150,7 @@ const char *status_text_help(void)
            "a  anti-alias the resting picture or not\n"
            "+ -  exposure\n"
            "o  turn continuously\n"
+           "p  perspective or orthographic\n"
            "u  another up axis of a mesh without a scene\n"
            "n  normals\n"
            "] [  boxes of the tree, a level deeper or back\n"

@@ -124,6 +124,8 @@ static bool draw(Views *views, const Frame *frame, uint32_t factor, Error *error
     clear(frame);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_DEPTH_CLAMP);
+    if (lens.farthest > 0)
+        glEnable(GL_CLIP_DISTANCE0);
     glDepthFunc(GL_LEQUAL);
     if (!state->traced || state->boxes || state->normals || !has_picture(frame->canvas))
         draw_scene(views, frame, &lens);
@@ -132,6 +134,7 @@ static bool draw(Views *views, const Frame *frame, uint32_t factor, Error *error
         ray_view_draw(&views->rays, frame->canvas, width, height);
     glEnable(GL_DEPTH_TEST);
     const bool ok = draw_lines(views, frame, &lens, error);
+    glDisable(GL_CLIP_DISTANCE0);
     glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_DEPTH_TEST);
     return ok;

@@ -417,10 +417,13 @@ static Path camera_path(const RealView *view, uint32_t column, uint32_t row)
     const Vector forward = of_floats(view->camera->forward);
     const Vector right = of_floats(view->camera->right_step);
     const Vector down = of_floats(view->camera->down_step);
+    const Vector eye = of_floats(view->camera->eye);
+    const bool parallel = view->camera->orthographic != 0;
+    const Vector moved = stepped(stepped(parallel ? eye : forward, y, down), x, right);
     return (Path){.view = view,
                   .tolerance = TOLERANCE,
-                  .origin = of_floats(view->camera->eye),
-                  .direction = stepped(stepped(forward, y, down), x, right),
+                  .origin = parallel ? moved : eye,
+                  .direction = parallel ? forward : moved,
                   .own = NOTHING};
 }
 

@@ -36,6 +36,9 @@ SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine 
           # The cameras look away from the mesh, and past it: the picture is 2 wide at a distance of 1.
           "behind": "size 40 20\ncamera 5 0.5 0.5 9 0.5 0.5 90\ncamera 0.5 -3 0.5 9 -3 0.5 90\n"
                     "camera 5.1 -1 0 5.1 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
+          # The picture is 2 wide at any distance.
+          "parallel": "size 40 20\ncamera 2.6 -9 0 2.6 9 0 orthographic 1\nmesh closed.ply\nlight 9 9 9 1\n",
+          "touched": "size 40 20\ncamera 1.9 -9 0 1.9 9 0 orthographic 1\nmesh closed.ply\nlight 9 9 9 1\n",
           "edge": "size 40 20\ncamera 3.9 -1 0 3.9 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
           "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n"}
 # Each file with its exit status, and the places and keywords of its report.
@@ -47,6 +50,8 @@ FINDINGS = [
     ("beside.scn", 0, ["\nfine\n"]),
     ("behind.scn", 0, ["closed.ply: 4 triangles", "note: it is outside every camera's view", "\nno faults, 1 note\n"]),
     ("edge.scn", 0, ["\nfine\n"]),
+    ("parallel.scn", 0, ["note: it is outside every camera's view", "\nno faults, 1 note\n"]),
+    ("touched.scn", 0, ["\nfine\n"]),
     ("turned.ply", 0, ["note: 3 edges whose triangles face opposite sides", "triangle 0"]),
     ("equal.ply", 1, ["FAULT: 2 triangles with two equal corners", "first triangle 2", "\n1 of 1 findings are faults\n"]),
     ("line.ply", 1, ["FAULT: 1 triangles without area", "first triangle 2"]),

@@ -16,6 +16,7 @@ static const char *const scenes[] = {
     CLRT_SOURCE_FOLDER "/scenes/simple.scn",
     CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn",
     CLRT_SOURCE_FOLDER "/tests/image/painted.scn",
+    CLRT_SOURCE_FOLDER "/tests/image/orthographic.scn",
 };
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 
@@ -159,7 +160,7 @@ TEST(floors_of_many_triangles_reflect_all_that_stands_on_them)
 }
 
 // Writes a cube, and in some views a sphere. The eye is inside, near or far from both.
-static void write_view(char path[TEMPORARY_PATH], uint64_t *state, bool has_sphere)
+static void write_view(char path[TEMPORARY_PATH], uint64_t *state, int view)
 {
     const double reach = exp(random_between(state, -2, 12));
     const double x = random_between(state, -1, 1), y = random_between(state, -1, 1);
@@ -168,10 +169,10 @@ static void write_view(char path[TEMPORARY_PATH], uint64_t *state, bool has_sphe
     FILE *stream = temporary_open(path);
     fprintf(stream,
             "define it silhouette diffuse 1 0 0\nmaterial it\nsides two\nply_file %s\n"
-            "camera %g %g %g  %g %g %g  %g\n",
+            "camera %g %g %g  %g %g %g  %s %g\n",
             CLRT_SOURCE_FOLDER "/scenes/cube.ply", reach * x, reach * y, reach * z, z, x, y,
-            degrees);
-    if (has_sphere)
+            view % 4 == 3 ? "orthographic" : "", view % 4 == 3 ? degrees / 5 : degrees);
+    if (view % 3 == 0)
         fprintf(stream, "sphere 3 %g 2 1\n", random_between(state, -4, 4));
     temporary_close(stream);
 }
@@ -180,9 +181,9 @@ static void write_view(char path[TEMPORARY_PATH], uint64_t *state, bool has_sphe
 TEST(no_primitive_is_mistaken_for_sky)
 {
     uint64_t random = 17;
-    for (int view = 0; view < 24; view++) {
+    for (int view = 0; view < 32; view++) {
         char scene[TEMPORARY_PATH];
-        write_view(scene, &random, view % 3 == 0);
+        write_view(scene, &random, view);
         PictureRequest pair = rendered_in_form(picture_request(scene, 1), &form_all[0]);
         pair.width = 97;
         pair.height = 61;

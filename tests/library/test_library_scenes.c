@@ -195,6 +195,12 @@ TEST(impossible_cameras_are_refused)
         bad.fov_degrees = angles[i];
         REFUSES(clrt_scene_add_camera(scene, &bad, &error), "the field of view is");
     }
+    const double heights[] = {-1, 1e-31, 1e31, (double)NAN};
+    for (int i = 0; i < 4; i++) {
+        bad = good;
+        bad.height = heights[i];
+        REFUSES(clrt_scene_add_camera(scene, &bad, &error), "the height is");
+    }
     for (size_t i = 0; i < BAD_NUMBERS; i++) {
         ClrtCamera cameras[3] = {good, good, good};
         cameras[0].eye[0] = cameras[1].look_at[1] = cameras[2].up[2] = bad_numbers[i];

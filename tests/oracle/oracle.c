@@ -25,8 +25,11 @@ void oracle_free(Oracle *oracle)
 OracleView oracle_view(const Oracle *oracle, const Viewpoint *viewpoint, uint32_t width,
                        uint32_t height, uint32_t max_level)
 {
+    const bool is_parallel = viewpoint->height > 0;
     const double radians = viewpoint->fov_degrees * (acos(-1) / 180);
-    const double pixel = 2 * tan(radians / 2) / height;
+    const double least = viewpoint->width * height / width;
+    const double side = is_parallel ? fmax(viewpoint->height, least) : 2 * tan(radians / 2);
+    const double pixel = side / height;
     const Vec3 forward = vec3_normalize(vec3_sub(viewpoint->look_at, viewpoint->eye));
     const Vec3 right = vec3_normalize(vec3_cross(forward, vec3_normalize(viewpoint->up)));
     return (OracleView){.oracle = oracle,
@@ -34,6 +37,7 @@ OracleView oracle_view(const Oracle *oracle, const Viewpoint *viewpoint, uint32_
                         .forward = forward,
                         .right = vec3_scale(right, pixel),
                         .down = vec3_scale(vec3_cross(forward, right), pixel),
+                        .is_parallel = is_parallel,
                         .width = width,
                         .height = height,
                         .max_level = max_level};
@@ -192,6 +196,9 @@ static OracleRay ray_through(const OracleView *view, double x, double y)
 {
     const Vec3 across = vec3_add(vec3_scale(view->right, x - view->width / 2.0),
                                  vec3_scale(view->down, y - view->height / 2.0));
+    if (view->is_parallel)
+        return (OracleRay){vec3_add(view->eye, across), vec3_normalize(view->forward), 0, INFINITY,
+                           NOTHING};
     const Vec3 direction = vec3_normalize(vec3_add(view->forward, across));
     return (OracleRay){view->eye, direction, 0, INFINITY, NOTHING};
 }
@@ -211,11 +218,10 @@ static uint32_t lights_reaching(const Oracle *oracle, const OracleSurface *surfa
     return count;
 }
 
-OraclePath oracle_follow(const OracleView *view, Vec3 direction)
+static OraclePath follow(const OracleView *view, OracleRay ray)
 {
     const Oracle *oracle = view->oracle;
     OraclePath path = {.depth = INFINITY};
-    OracleRay ray = {view->eye, direction, 0, INFINITY, NOTHING};
     const double slope = vec3_dot(ray.direction, view->forward);
     for (uint32_t level = 0; level < view->max_level; level++) {
         path.bounces = level;
@@ -236,9 +242,14 @@ OraclePath oracle_follow(const OracleView *view, Vec3 direction)
     return path;
 }
 
+OraclePath oracle_follow(const OracleView *view, Vec3 direction)
+{
+    return follow(view, (OracleRay){view->eye, direction, 0, INFINITY, NOTHING});
+}
+
 OraclePath oracle_path(const OracleView *view, double x, double y)
 {
-    return oracle_follow(view, ray_through(view, x, y).direction);
+    return follow(view, ray_through(view, x, y));
 }
 
 typedef struct {

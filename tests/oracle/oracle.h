@@ -19,10 +19,11 @@ bool oracle_make(Oracle *oracle, const Scene *scene, Error *error);
 void oracle_free(Oracle *oracle);
 
 // The camera and size of a picture. right and down are one pixel long on the image plane at
-// distance 1.
+// distance 1. If is_parallel is set, all rays have the direction forward.
 typedef struct {
     const Oracle *oracle;
     Vec3 eye, forward, right, down;
+    bool is_parallel;
     uint32_t width, height; // in pixels
     uint32_t max_level;     // rays of this level return the background
 } OracleView;

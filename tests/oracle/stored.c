@@ -111,7 +111,7 @@ bool stored_round(Scene *scene, const Normalization *normalization, Error *error
     return true;
 }
 
-static Vec3 vector_of(const float components[4])
+static Vec3 vector_of(const float components[3])
 {
     return vec3((double)components[0], (double)components[1], (double)components[2]);
 }
@@ -124,6 +124,7 @@ OracleView stored_view(const Oracle *oracle, const CameraData *camera, uint32_t 
                         .forward = vector_of(camera->forward),
                         .right = vec3_scale(vector_of(camera->right_step), 2),
                         .down = vec3_scale(vector_of(camera->down_step), 2),
+                        .is_parallel = camera->orthographic != 0,
                         .width = width,
                         .height = height,
                         .max_level = oracle->scene->max_level};

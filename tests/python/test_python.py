@@ -54,6 +54,16 @@ class Pictures(unittest.TestCase):
         self.assertEqual(picture.dtype, np.float32)
         self.assertEqual(clrt.hash(picture), printed)
 
+    def test_cameras_may_be_orthographic(self):
+        scene = clrt.Scene()
+        scene.sphere((0, 0, 0), 1, scene.material("silhouette", diffuse=(0, 0, 0)))
+        scene.camera((9, 0, 0), height=4)
+        covered = (scene.render(64, 64) == 0).all(axis=2).mean()
+        self.assertAlmostEqual(covered, np.pi / 16, delta=0.01)
+        self.assertEqual(scene.cameras[0].height, 4)
+        self.assertEqual(clrt.hash(scene.render(32, 32, camera=clrt.Camera((9, 0, 0), height=4))),
+                         clrt.hash(scene.render(32, 32)))
+
     def test_meshes_have_colors_of_vertices(self):
         def draw(colors):
             scene = clrt.Scene()

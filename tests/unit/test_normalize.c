@@ -136,7 +136,7 @@ TEST(materials_that_nothing_uses_do_not_count)
     assert_true(truncation_bound(&scene, 2) == 0.0625);
 }
 
-static const Viewpoint ahead = {{4, 0, 0}, {0, 0, 0}, {0, 0, 1}, 90, 0};
+static const Viewpoint ahead = {.eye = {4, 0, 0}, .up = {0, 0, 1}, .fov_degrees = 90};
 static const Normalization unmoved = {{0, 0, 0}, 1};
 
 TEST(right_and_down_span_the_image_plane)
@@ -158,13 +158,48 @@ TEST(samples_divide_the_step)
 // A width of 90 degrees needs a half height of 2 if the picture is twice as high as wide.
 TEST(only_a_picture_narrower_than_the_width_widens)
 {
-    Viewpoint wide = {{4, 0, 0}, {0, 0, 0}, {0, 0, 1}, 45, 90};
+    Viewpoint wide = {.eye = {4, 0, 0}, .up = {0, 0, 1}, .fov_degrees = 45, .width_degrees = 90};
     const CameraData narrow = camera_make(&wide, &unmoved, 100, 200, 1);
     assert_true(narrow.down_step[2] == -0.01f && narrow.right_step[1] == 0.01f);
     const CameraData broad = camera_make(&wide, &unmoved, 1000, 100, 1);
     wide.width_degrees = 0;
     const CameraData plain = camera_make(&wide, &unmoved, 100, 100, 1);
     assert_memory_equal(&broad, &plain, sizeof plain);
+}
+
+// A half height of 3 has 300 half steps. Normalization scales it.
+TEST(orthographic_pictures_have_their_height_in_scene_units)
+{
+    Viewpoint flat = {.eye = {4, 0, 0}, .up = {0, 0, 1}, .height = 6};
+    const CameraData camera = camera_make(&flat, &unmoved, 100, 300, 1);
+    assert_int_equal(camera.orthographic, 1);
+    assert_true(camera.down_step[2] == -0.01f && camera.right_step[1] == 0.01f);
+    const CameraData half = camera_make(&flat, &(Normalization){{0, 0, 0}, 0.5}, 100, 300, 1);
+    assert_true(half.down_step[2] == -0.005f && half.forward[0] == -1);
+    flat.width = 4;
+    assert_true(camera_make(&flat, &unmoved, 100, 300, 1).down_step[2] == -0.02f);
+    assert_true(camera_make(&flat, &unmoved, 300, 300, 1).down_step[2] == -0.01f);
+}
+
+TEST(an_orthographic_shift_moves_the_start_of_rays)
+{
+    const Viewpoint flat = {.eye = {4, 0, 0}, .up = {0, 0, 1}, .height = 2};
+    CameraData camera = camera_make(&flat, &unmoved, 100, 100, 1);
+    camera_shift(&camera, 1, -0.5);
+    assert_true(camera.forward[0] == -1 && camera.forward[1] == 0 && camera.forward[2] == 0);
+    assert_true(camera.eye[0] == 4 && camera.eye[1] == 0.02f && camera.eye[2] == 0.01f);
+}
+
+TEST(orthographic_heights_are_limited_by_the_scenes_size)
+{
+    FREED_BY(scene_free) Scene scene = parsed("sphere 0 0 0 1\ncamera 4 0 0 0 0 0 orthographic 2");
+    const double heights[] = {1e-11, 1e6, 1e-13, 3e6};
+    for (int i = 0; i < 4; i++) {
+        Error error = {0};
+        const Normalization normalization = normalization_of(&scene);
+        scene.viewpoints.data[0].height = heights[i];
+        assert_int_equal(normalization_check(&normalization, &scene, &error), i < 2);
+    }
 }
 
 TEST(the_eye_moves_with_the_frame_and_directions_do_not)

@@ -169,7 +169,8 @@ TEST(different_scenes_have_different_hashes)
 #define SPHERE    STATEMENT "'sphere X Y Z RADIUS'"
 #define DEFINE    STATEMENT "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'"
 #define NORMALS   STATEMENT "'normals flat|smooth [DEGREES]'"
-#define CAMERA    STATEMENT "'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES [WIDTH_DEGREES]'"
+#define CAMERA                                                                                     \
+    STATEMENT "'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES|orthographic HEIGHT [WIDTH]'"
 
 TEST(faults_name_line_column_and_the_statement)
 {
@@ -313,6 +314,20 @@ TEST(a_camera_may_have_a_width)
     assert_true(scene.viewpoints.data[1].width_degrees == 60);
     expect_error("camera 1 2 3 4 5 6 30 180",
                  "1:23: expected a number between 1e-06 and 180: found '180'" CAMERA);
+}
+
+TEST(an_orthographic_camera_has_a_height_and_may_have_a_width)
+{
+    FREED_BY(scene_free)
+    Scene scene = parsed("camera 1 2 3 4 5 6 orthographic 7\ncamera 1 2 3 4 5 6 orthographic 7 8");
+    assert_true(scene.viewpoints.data[0].height == 7 && scene.viewpoints.data[0].width == 0);
+    assert_true(scene.viewpoints.data[1].height == 7 && scene.viewpoints.data[1].width == 8);
+    expect_error("camera 1 2 3 4 5 6 orthographic",
+                 "1:32: expected a number: found the end of the line" CAMERA);
+    expect_error("camera 1 2 3 4 5 6 orthographic 0",
+                 "1:33: expected a number between 1e-30 and 1e+30: found '0'" CAMERA);
+    expect_error("camera 1 2 3 4 5 6 7 orthographic",
+                 "1:22: expected a number: found 'orthographic'" CAMERA);
 }
 
 TEST(a_scene_distinguishes_the_courses_cameras_from_its_own)

@@ -23,6 +23,8 @@ typedef struct {
     Scene scene;
     Normalization normalization;
     FrameData frame;
+    double height; // of an orthographic picture; 0 for perspective
+    SphereData sphere;
     ThinParts parts;
 } World;
 
@@ -50,18 +52,21 @@ static void add_triangle(World *world, Vec3 a, Vec3 b, Vec3 c)
 
 static void search(World *world, uint32_t threads)
 {
-    const Viewpoint viewpoint = {
-        {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2 * atan(SIDE / 2 / FOCUS) * 180 / PI, 0};
+    const Viewpoint viewpoint = {.look_at = {0, 1, 0},
+                                 .up = {0, 0, 1},
+                                 .fov_degrees = 2 * atan(SIDE / 2 / FOCUS) * 180 / PI,
+                                 .height = world->height};
     world->object.mesh.positions = world->positions;
     world->object.mesh.triangles = world->triangles;
     world->scene.objects.data = &world->object;
     world->scene.objects.count = 1;
     world->normalization = normalization_of(&world->scene);
-    world->frame = (FrameData){.width = SIDE, .height = SIDE, .max_level = 1};
+    world->frame = (FrameData){
+        .width = SIDE, .height = SIDE, .max_level = 1, .sphere_count = world->sphere.radius > 0};
     world->frame.camera = camera_make(&viewpoint, &world->normalization, SIDE, SIDE, REFINE_GRID);
     ThreadPool *pool = thread_pool_open(threads);
-    const ThinSource source = {&world->frame, &world->scene, &world->normalization,
-                               NULL,          pool,          REFINE_LEVELS};
+    const ThinSource source = {&world->frame,  &world->scene, &world->normalization,
+                               &world->sphere, pool,          REFINE_LEVELS};
     Error error;
     assert_true(thin_parts_make(&world->parts, &source, &error));
     thread_pool_close(pool);
@@ -118,6 +123,32 @@ TEST(a_small_triangle_is_cut_where_it_appears_down_to_its_size)
     assert_true(is_cut(&world, 40 * 9 + 2, 70 * 9 + 7, 2));
     assert_int_equal(count_cuts(&world, 0), 1);
     assert_int_equal(count_cuts(&world, 1), 2);
+}
+
+// The place in an orthographic picture does not depend on the depth.
+TEST(small_parts_of_orthographic_pictures_are_cut_where_they_appear)
+{
+    FREED_BY(close_world) World world = world_of(1);
+    world.height = SIDE;
+    add_triangle(&world, vec3(40.1 - SIDE / 2, 5, SIDE / 2 - 70.9),
+                 vec3(40.4 - SIDE / 2, 60, SIDE / 2 - 70.8),
+                 vec3(40.3 - SIDE / 2, 700, SIDE / 2 - 70.7));
+    search(&world, 1);
+    assert_true(is_cut(&world, 40, 70, 0));
+    assert_int_equal(count_cuts(&world, 0), 1);
+    assert_int_equal(count_cuts(&world, 1), 2);
+}
+
+TEST(small_spheres_of_orthographic_pictures_are_cut_where_they_appear)
+{
+    FREED_BY(close_world) World world = world_of(1);
+    world.height = 1;
+    world.sphere =
+        (SphereData){.center = {(40.5f - SIDE / 2) / SIDE, 0.9f, (SIDE / 2 - 70.5f) / SIDE},
+                     .radius = 0.1f / SIDE};
+    search(&world, 1);
+    assert_true(is_cut(&world, 40, 70, 0));
+    assert_int_equal(count_cuts(&world, 0), 1);
 }
 
 TEST(a_triangle_is_cut_from_either_side_only_if_it_has_two)

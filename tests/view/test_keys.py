@@ -104,6 +104,17 @@ def o_turns_the_camera_by_itself(window, mode):
 
 
 @in_both_views
+def p_switches_perspective(window, mode):
+    before = window.read()
+    window.press("p", mode, "view 1 moved, orthographic")
+    flat = window.read()
+    apart = sum(one != other for one, other in zip(flat[1::4], before[1::4]))
+    assert 500 < apart < 200000, f"{apart} pixels changed"
+    window.press("p", mode, "view 1 moved, AA")
+    window.press("1", mode, "view 1,")
+
+
+@in_both_views
 def the_mouse_turns_and_zooms(window, mode):
     window.drag(1, 40, -20)
     window.wait(mode, "moved", "azimuth -35.00, rotation 15.00, distance 6.5")

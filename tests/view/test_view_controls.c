@@ -113,6 +113,48 @@ static void see(const Viewpoint *camera, Vec3 point, double place[2])
     place[1] = vec3_dot(arm, vec3_cross(ahead, across)) / pixel;
 }
 
+// Returns the height that a camera shows at its look-at point.
+static double shown_height(const Viewpoint *camera)
+{
+    const Vec3 arm = vec3_sub(camera->look_at, camera->eye);
+    return camera->height > 0
+               ? camera->height
+               : 2 * sqrt(vec3_dot(arm, arm)) * tan(camera->fov_degrees / 360 * M_PI);
+}
+
+TEST(p_switches_perspective_and_keeps_the_size_of_the_target)
+{
+    static const char *const cameras[] = {"camera 5 4 3  1 0 2  30 40",
+                                          "camera 50 40 30  1 0 2  orthographic 3"};
+    for (int i = 0; i < 2; i++) {
+        FREED_BY(release) Fixture fixture = opened(cameras[i]);
+        const Viewpoint before = fixture.state.camera;
+        press(&fixture, "p");
+        assert_true(fixture.state.moved);
+        assert_int_equal(fixture.state.camera.height > 0, i == 0);
+        assert_true(near(shown_height(&fixture.state.camera), shown_height(&before)));
+        happen(&fixture, EVENT_WHEEL, 0, 2);
+        assert_true(near(shown_height(&fixture.state.camera), 0.81 * shown_height(&before)));
+        press(&fixture, "p");
+        assert_int_equal(fixture.state.camera.height > 0, i == 1);
+        assert_true(near(shown_height(&fixture.state.camera), 0.81 * shown_height(&before)));
+        press(&fixture, "1");
+        assert_memory_equal(&fixture.state.camera, &before, sizeof before);
+    }
+}
+
+TEST(an_orthographic_camera_zooms_in_its_place)
+{
+    FREED_BY(release) Fixture fixture = opened("camera 5 4 3  1 0 2  orthographic 4 6");
+    const Viewpoint before = fixture.state.camera;
+    happen(&fixture, EVENT_WHEEL, 0, -1);
+    assert_true(same_place(fixture.state.camera.eye, before.eye));
+    assert_true(near(fixture.state.camera.height, 4 / 0.9));
+    assert_true(near(fixture.state.camera.width, 6 / 0.9));
+    happen(&fixture, EVENT_TURN, 30, 10);
+    assert_true(near(fixture.state.camera.height, 4 / 0.9));
+}
+
 TEST(the_target_follows_a_drag_sideways)
 {
     double place[2];

@@ -18,16 +18,20 @@ _MATERIALS = ("silhouette", "matte", "blinn_phong", "mirror")
 
 @dataclasses.dataclass
 class Camera:
-    """A camera at `eye`. `fov` is its vertical field of view in degrees."""
+    """A camera at `eye`. `fov` is its vertical field of view in degrees.
+
+    If `height` is above 0, the camera is orthographic. Its pictures have this height in scene units.
+    """
 
     eye: Vector
     look_at: Vector = (0, 0, 0)
     up: Vector = (0, 0, 1)
     fov: float = 45.0
+    height: float = 0.0
 
     def _struct(self):
         return struct("ClrtCamera", eye=self.eye, look_at=self.look_at, up=self.up,
-                      fov_degrees=self.fov)
+                      fov_degrees=self.fov, height=self.height)
 
 
 class Scene:
@@ -83,9 +87,9 @@ class Scene:
              vector(color, "color"))
 
     def camera(self, eye: Vector, look_at: Vector = (0, 0, 0), up: Vector = (0, 0, 1),
-               fov: float = 45.0) -> None:
-        """Appends a view. Its number is len(scene.cameras)."""
-        call("scene_add_camera", self._handle, Camera(eye, look_at, up, fov)._struct())
+               fov: float = 45.0, height: float = 0.0) -> None:
+        """Appends a view. Its number is len(scene.cameras). A height makes it orthographic."""
+        call("scene_add_camera", self._handle, Camera(eye, look_at, up, fov, height)._struct())
 
     def background(self, color: Vector) -> None:
         """Sets the color of rays that hit nothing."""
@@ -105,7 +109,8 @@ class Scene:
         """The scene's views, as a list of Camera. View n is element n - 1."""
         views = [described("ClrtCamera", "scene_get_camera", self._handle, i + 1)
                  for i in range(self.info["view_count"])]
-        return [Camera(view["eye"], view["look_at"], view["up"], view["fov_degrees"])
+        return [Camera(view["eye"], view["look_at"], view["up"], view["fov_degrees"],
+                       view["height"])
                 for view in views]
 
     def render(self, width: int = 0, height: int = 0, **settings: Any) -> Picture:

@@ -141,6 +141,10 @@ void cube_fill_edges(const Drawing *drawing)
 // is 1 to 2 long. Nearer points all have depth 0, so the one drawn last is visible.
 #define NEAREST 0.01f
 
+// Orthographic pictures have distinct depths up to this distance beyond the frame's origin. It is
+// more than the distance of the farthest triangle.
+#define BEYOND 2
+
 // Stores the direction of step with a length that makes its dot product with points on the
 // picture's edge at distance 1 equal to 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
@@ -158,6 +162,8 @@ Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uin
                  .width = (float)width,
                  .height = (float)height,
                  .nearest = NEAREST};
+    if (viewpoint->height > 0)
+        lens.farthest = (float)(sqrt(vec3_dot(lens.eye, lens.eye)) + BEYOND);
     store_clip(lens.clip_x, lens.camera.right_step, width);
     store_clip(lens.clip_y, lens.camera.down_step, -(double)height);
     return lens;
@@ -172,6 +178,7 @@ void lens_apply(const Lens *lens, GLuint program)
     shader_set_vector(program, "right_step", lens->camera.right_step);
     shader_set_vector(program, "down_step", lens->camera.down_step);
     shader_set_number(program, "nearest", (double)lens->nearest);
+    shader_set_number(program, "farthest", (double)lens->farthest);
     glUniform2f(glGetUniformLocation(program, "size"), lens->width, lens->height);
 }
 

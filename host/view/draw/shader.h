@@ -87,6 +87,7 @@ typedef struct {
     float clip_x[3], clip_y[3];
     float width, height; // of the picture, in pixels
     float nearest;       // smaller distances all have depth 0
+    float farthest;      // greater distances all have depth 1; 0 for perspective
 } Lens;
 
 Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uint32_t width,

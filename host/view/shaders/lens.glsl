@@ -1,15 +1,34 @@
 // SPDX-License-Identifier: MIT
-// Projects points like the camera of the rays, without a far plane. Depth is 1 - nearest /
-// distance.
+// Projects points like the camera of the rays. Perspective pictures have no far plane. Their depth
+// is 1 - nearest / distance. The depth of orthographic pictures is distance / farthest.
 uniform vec3 eye, forward;
 uniform vec3 clip_x, clip_y;          // across the picture, from -1 to 1 at distance 1
 uniform vec3 right_step, down_step;   // half a pixel at distance 1
 uniform vec2 size;                    // of the picture in pixels
 uniform float nearest;
+uniform float farthest;               // 0 for a perspective picture
 
-// Projects a point given relative to the eye.
+// Returns the depth of a point given relative to the eye.
+float depth_of(vec3 offset)
+{
+    float distance = dot(offset, forward);
+    return farthest > 0.0 ? distance / farthest : 1.0 - nearest / distance;
+}
+
+// Returns the unnormalized direction from a point toward the viewer.
+vec3 toward_eye(vec3 place)
+{
+    return farthest > 0.0 ? -forward : eye - place;
+}
+
+#ifdef VERTEX
+// Projects a point given relative to the eye, and clips what is behind the eye.
 vec4 projected(vec3 offset)
 {
     float distance = dot(offset, forward);
-    return vec4(dot(offset, clip_x), dot(offset, clip_y), distance - 2.0 * nearest, distance);
+    gl_ClipDistance[0] = distance;
+    vec2 place = vec2(dot(offset, clip_x), dot(offset, clip_y));
+    return farthest > 0.0 ? vec4(place, 2.0 * distance / farthest - 1.0, 1.0)
+                          : vec4(place, distance - 2.0 * nearest, distance);
 }
+#endif

@@ -21,19 +21,19 @@ void main()
 flat in vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
 out vec4 color;
 
-// Returns the distance to the nearest hit in front of the eye, or a negative number if there is
-// none. The root of smaller magnitude is computed from the other root and the eye's height above
-// the sphere. This avoids cancellation for large spheres.
-float meeting(vec3 direction)
+// Returns the distance to the nearest hit in front of a ray's start, or a negative number if there
+// is none. The start is relative to the eye. The root of smaller magnitude is computed from the
+// other root and the eye's height above the sphere. This avoids cancellation for large spheres.
+float meeting(vec3 start, vec3 direction)
 {
-    vec3 center = sphere_shown.xyz;
+    vec3 center = sphere_shown.xyz - start;
     float radius = sphere_shown.w, height = look_shown.y;
     float middle = dot(center, direction);
     vec3 beside = center - middle * direction;
     float square = radius * radius - dot(beside, beside);
     if (square < 0.0)
         return -1.0;
-    float product = height * (height + 2.0 * radius);
+    float product = height * (height + 2.0 * radius) - dot(start, sphere_shown.xyz + center);
     float larger = middle > 0.0 ? middle + sqrt(square) : middle - sqrt(square);
     float smaller = product / larger;
     float first = min(larger, smaller), second = max(larger, smaller);
@@ -43,14 +43,17 @@ float meeting(vec3 direction)
 void main()
 {
     vec2 steps = vec2(2.0 * gl_FragCoord.x - size.x, size.y - 2.0 * gl_FragCoord.y);
-    vec3 direction = normalize(forward + steps.x * right_step + steps.y * down_step);
-    float distance = meeting(direction);
+    vec3 shift = steps.x * right_step + steps.y * down_step;
+    bool is_orthographic = farthest > 0.0;
+    vec3 start = is_orthographic ? shift : vec3(0.0);
+    vec3 direction = is_orthographic ? forward : normalize(forward + shift);
+    float distance = meeting(start, direction);
     if (distance < 0.0)
         discard;
-    vec3 offset = distance * direction;
+    vec3 offset = start + distance * direction;
     vec3 normal = (offset - sphere_shown.xyz) / sphere_shown.w;
-    gl_FragDepth = 1.0 - nearest / dot(offset, forward);
-    vec3 face = look_shown.y < 0.0 ? -normal : normal;
+    gl_FragDepth = depth_of(offset);
+    vec3 face = dot(normal, direction) > 0.0 ? -normal : normal;
     color = seen(Surface(eye + offset, normal, face, -direction, diffuse_shown, specular_shown,
                          look_shown));
 }

@@ -21,7 +21,7 @@ uniform vec4 diffuse, specular, look;
 
 void main()
 {
-    vec3 toward_viewer = normalize(eye - place);
+    vec3 toward_viewer = normalize(toward_eye(place));
     vec3 face = cross(dFdx(place), dFdy(place));
     if (dot(face, toward_viewer) < 0.0)
         face = -face;
