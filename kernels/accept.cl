@@ -67,19 +67,22 @@ static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask 
     return known && (stops || (cross && is_ahead(search->tracer, ray, index)));
 }
 
-// Records the triangle as the hit of the candidates that it precedes, and returns these lanes.
+// Records the triangle as the hit of the candidates that it precedes. Returns the lanes whose hits
+// changed. If the triangle and the best hit are tied, the best hit's t can change alone.
 static inline Mask accept_triangle(const Search *search, Mask candidates, Hit *triangle, Hit *best)
 {
     const Mask close = candidates && is_close(search, triangle->t, best);
-    Mask precedes = candidates && hit_precedes(triangle->t, triangle->id, best);
+    Mask precedes = candidates && hit_precedes(triangle->t, triangle->id, best), changed = 0;
     if (any_lane(close)) {
+        const Real before = best->t;
         const Mask nearer = triangle_is_nearer(search, triangle, best, close);
         precedes = close ? nearer : precedes;
+        changed = best->t != before;
     }
     best->t = precedes ? triangle->t : best->t;
     best->id = precedes ? triangle->id : best->id;
     best->index = precedes ? triangle->index : best->index;
-    return precedes;
+    return precedes || changed;
 }
 
 // A triangle's id, its flags and its position.
