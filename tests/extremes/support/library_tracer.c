@@ -17,9 +17,11 @@ static void require_library(bool ok, const ClrtError *error)
         fail_msg("%s", error->text);
 }
 
-static void close_renderer(void)
+// Saves new kernels, so it must not run at the end of the process, when LLVM may be gone.
+TEAR_DOWN(close_renderer)
 {
     clrt_renderer_free(renderer);
+    return 0;
 }
 
 static void open_renderer(void)
@@ -41,7 +43,6 @@ static void open_renderer(void)
     unsetenv("POCL_CACHE_DIR");
     renderer = clrt_renderer_create(&settings, &error);
     require_library(renderer != NULL, &error);
-    atexit(close_renderer);
 }
 
 void library_tracer_open(LibraryTracer *tracer, const Stage *stage, const RayBatch *batch)
