@@ -72,8 +72,11 @@ typedef float Scalar;
 
 // These attributes decide about inlining. With the compiler's own decisions, pictures take up to a
 // sixth longer on CPUs. On GPUs, a call that passes a path's state by pointer would move the state
-// from registers into memory.
-#if CLRT_GPU && !CLRT_WIDE_NODES
+// from registers into memory. In fp64, the state does not fit into registers. Inlined as a whole,
+// the kernel of certainty also takes NVIDIA's compiler (580.159) three times as long, and it then
+// decides some pixels wrongly.
+#if CLRT_GPU && !CLRT_WIDE_NODES && !CLRT_FP64
+#undef inline // NVIDIA's compiler and PoCL define it
 #define inline inline __attribute__((always_inline))
 #define ALWAYS_INLINE inline
 #define NOT_INLINE    inline

@@ -268,6 +268,17 @@ TEST(every_size_of_gpu_launches_draws_the_same)
     rendered_expect_same(&usual, others, UNITS * TILES);
 }
 
+TEST(kernels_for_gpus_compile_without_warnings)
+{
+    for (size_t i = 0; i < FORMS; i += FORMS_FP32) {
+        PictureRequest usual = rendered_in_form(small_request(SCENE_COUNT - 1), &form_all[i]);
+        PictureRequest strict = usual;
+        strict.gpu_units = 1;
+        strict.extra_options = "-Werror";
+        rendered_expect_same(&usual, &strict, 1);
+    }
+}
+
 // Writes a scene with exactly the features of the mask, and returns its path.
 static const char *write_scene(unsigned mask)
 {
