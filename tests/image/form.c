@@ -54,6 +54,12 @@ static KernelChoice usual_choice(void)
     return choice;
 }
 
+KernelChoice form_on_device(const KernelChoice *form, const Device *device)
+{
+    const bool is_gpu = (device->type & CL_DEVICE_TYPE_GPU) != 0;
+    return is_gpu && form->family == FAMILY_PACKET ? form_all[0] : *form;
+}
+
 KernelChoice form_choice(void)
 {
     static bool is_known;

@@ -16,5 +16,9 @@ extern const KernelChoice form_all[FORMS];
 #define FORMS_FEW 4
 extern const KernelChoice form_few[FORMS_FEW];
 
+// Returns the form, but single rays instead of packets on GPUs. Packets are for CPUs: NVIDIA's
+// compiler takes minutes for them, and several processes at once lack the memory.
+KernelChoice form_on_device(const KernelChoice *form, const Device *device);
+
 // Returns the selected form. Ends the process if CLRT_TEST_KERNEL names no form.
 KernelChoice form_choice(void);

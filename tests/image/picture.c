@@ -162,7 +162,7 @@ static bool open_session(const PictureRequest *request, Error *error)
     units = request->gpu_units;
     if (units > 0)
         pretend_gpu(&session.device, units);
-    session.choice = request->choice;
+    session.choice = form_on_device(&request->choice, &session.device);
     return ok;
 }
 
