@@ -3,10 +3,7 @@
 // array has a few bytes.
 #include "device/buffer.h"
 
-#include "base/array.h"
 #include "device/device.h"
-
-#include <stdlib.h>
 
 bool upload_array(const Device *device, const FlatArray *array, cl_mem *buffer, Error *error)
 {
@@ -28,39 +25,6 @@ bool device_buffer(const Device *device, size_t size, cl_mem *buffer, Error *err
     cl_int status;
     *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, size, NULL, &status);
     return cl_succeeded(status, "allocate a buffer", error);
-}
-
-// Not on CPUs: PoCL 6.0 has aborted with mapped buffers.
-bool host_memory_make(HostMemory *memory, const Device *device, size_t size, Error *error)
-{
-    cl_int status;
-    *memory = (HostMemory){0};
-    if (device->is_cpu) {
-        memory->data = memory_raw(size, 1, error);
-        return memory->data != NULL;
-    }
-    memory->queue = device->queue;
-    memory->buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
-                                    size, NULL, &status);
-    if (!cl_succeeded(status, "allocate a buffer", error))
-        return false;
-    memory->data = clEnqueueMapBuffer(device->queue, memory->buffer, CL_TRUE,
-                                      CL_MAP_READ | CL_MAP_WRITE, 0, size, 0, NULL, NULL, &status);
-    if (status != CL_SUCCESS)
-        device_release(&memory->buffer);
-    return cl_succeeded(status, "map a buffer", error);
-}
-
-void host_memory_free(HostMemory *memory)
-{
-    if (memory->buffer != NULL) {
-        clEnqueueUnmapMemObject(memory->queue, memory->buffer, memory->data, 0, NULL, NULL);
-        clFinish(memory->queue);
-    } else {
-        free(memory->data);
-    }
-    device_release(&memory->buffer);
-    *memory = (HostMemory){0};
 }
 
 bool device_read(const Device *device, cl_mem buffer, void *target, size_t size, Error *error)

@@ -12,21 +12,6 @@ bool upload_array(const Device *device, const FlatArray *array, cl_mem *buffer, 
 // Makes an uninitialized buffer of `size` bytes.
 bool device_buffer(const Device *device, size_t size, cl_mem *buffer, Error *error);
 
-// Memory into which a device copies results. For devices that are not CPUs, the OpenCL
-// implementation allocates it, because only such memory is copied at full speed and without making
-// the host wait.
-typedef struct {
-    void *data;
-    cl_mem buffer;          // NULL on CPUs
-    cl_command_queue queue; // borrowed; unmaps the buffer
-} HostMemory;
-
-// Allocates `size` uninitialized bytes. After a failure, host_memory_free has nothing to free.
-bool host_memory_make(HostMemory *memory, const Device *device, size_t size, Error *error);
-
-// No copy into the memory may be in flight.
-void host_memory_free(HostMemory *memory);
-
 // Waits for the device's queue and copies `size` bytes of a buffer.
 bool device_read(const Device *device, cl_mem buffer, void *target, size_t size, Error *error);
 

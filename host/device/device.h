@@ -2,11 +2,8 @@
 // Chooses an OpenCL device, and opens a context and a queue on it.
 #pragma once
 
-#define CL_TARGET_OPENCL_VERSION 120
+#include "device/host_memory.h"
 
-#include "base/error.h"
-
-#include <CL/cl.h>
 #include <pthread.h>
 #include <stdint.h>
 
@@ -14,6 +11,7 @@ typedef struct {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
+    HostPool *pool;                   // for HostMemory
     unsigned platform_number, number; // PLATFORM:DEVICE
     cl_device_type type;
     char platform[256];          // name of the OpenCL platform
@@ -63,9 +61,3 @@ bool device_thread_start(pthread_t *thread, void *(*work)(void *context), void *
 // Returns the number of threads for the host's own work. This is count or, if count is 0, the
 // number of processors that the process may use.
 uint32_t threads_allowed(uint32_t count);
-
-// Returns true for CL_SUCCESS. Otherwise records "cannot ATTEMPT: CL_..." and returns false.
-bool cl_succeeded(cl_int status, const char *attempt, Error *error);
-
-// Returns a name like "CL_OUT_OF_RESOURCES", or a phrase for an unknown code.
-const char *cl_error_name(cl_int status);

@@ -21,7 +21,7 @@
 
 // A launch in flight.
 typedef struct {
-    cl_command_queue queue; // one per slot, so that launches overlap
+    cl_command_queue queue; // one per slot, so that launches overlap; NULL before the first launch
     cl_mem outputs[2];
     HostMemory values[2]; // copies of the outputs; empty for an output that is read in place
     cl_event done;
@@ -66,6 +66,8 @@ static uint64_t most_pixels(const Renderer *renderer)
 static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
     const Device *device = renderer->kernel->device;
+    HostPool *pool =
+        device->is_cpu ? NULL : device->pool; // PoCL 6.0 has aborted with mapped buffers
     const size_t count = most_pixels(renderer);
     cl_int status;
     slot->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
@@ -73,7 +75,7 @@ static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer
     for (int i = 0; ok && i < pass->outputs; i++) {
         const size_t size = pass->sizes[i] > 0 ? count * pass->sizes[i] : 64;
         ok = (is_read_in_place(pass, renderer, i) ||
-              host_memory_make(&slot->values[i], device, size, error)) &&
+              host_memory_make(&slot->values[i], pool, size, error)) &&
              device_buffer(device, size, &slot->outputs[i], error);
     }
     return ok;
@@ -161,6 +163,8 @@ static bool start_launch(PassRun *run, Error *error)
     slot->area = tile_next(settings, &run->cursor, run->pixels, &slot->ended);
     slot->start = clock_seconds();
     tile_aim(&frame, settings, &slot->area);
+    if (slot->queue == NULL && !open_slot(slot, run->pass, run->renderer, error))
+        return false;
     if (!launch(slot, run->pass, run->renderer, &frame, error))
         return false;
     return is_paced(run->renderer) ? cl_succeeded(clFlush(slot->queue), "start the kernel", error)
@@ -246,10 +250,7 @@ bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderO
                    .renderer = renderer,
                    .cursor = {pass->first, 0},
                    .pixels = is_paced(renderer) ? first : most_pixels(renderer)};
-    bool ok = true;
-    for (int slot = 0; slot < SLOTS; slot++)
-        ok = ok && open_slot(&run.slots[slot], pass, renderer, error);
-    ok = ok && run_launches(&run, observer, progress, error);
+    const bool ok = run_launches(&run, observer, progress, error);
     for (int slot = 0; slot < SLOTS; slot++)
         close_slot(&run.slots[slot]);
     return ok;
