@@ -19,6 +19,13 @@ static const struct {
 
 #define TYPE_COUNT (sizeof types / sizeof *types)
 
+static bool has_extension(cl_device_id id, const char *name)
+{
+    char names[8192] = "";
+    clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, sizeof names - 1, names, NULL);
+    return strstr(names, name) != NULL;
+}
+
 static void describe(Device *device)
 {
     cl_device_fp_config config = 0, double_config = 0;
@@ -48,6 +55,7 @@ static void describe(Device *device)
     device->has_fma = (config & CL_FP_FMA) != 0;
     device->correct_division = (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
     device->has_fp64 = double_config != 0;
+    device->limits_registers = has_extension(device->id, "cl_nv_compiler_options");
 }
 
 static void add_devices(DeviceList *list, cl_platform_id platform, unsigned number)

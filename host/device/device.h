@@ -26,6 +26,7 @@ typedef struct {
     bool has_denormals;    // keeps floats below 2^-126, which other devices set to zero
     bool has_fma;          // in hardware; other devices calculate fma in software
     bool has_fp64;         // supports double precision
+    bool limits_registers; // its compiler takes -cl-nv-maxrregcount
 } Device;
 
 // Opens the first device that matches spec. Valid forms are "PLATFORM:DEVICE" with numbers from
