@@ -44,7 +44,8 @@ static NOT_INLINE PathLanes describe_path(const Tracer *tracer, Ray ray)
     PathLanes data = {.depth = INFINITY, .primitive = NOTHING, .material = NOTHING};
     Paths paths;
     paths_start_one(&paths, ray);
-    while (paths_step(tracer, &paths)) {
+    for (bool any = paths_begin(tracer, &paths); any; any = paths_continue(tracer, &paths)) {
+        paths_step(tracer, &paths);
         if (paths.level > 1)
             data.bounces += paths.rays->active ? (UInt)(1) : (UInt)(0);
         else if (any_lane(paths.paths->met))

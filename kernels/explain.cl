@@ -146,7 +146,8 @@ static inline Real3 trace_noting(const Tracer *tracer, Ray ray, const Notes *not
     const Path *path = paths.paths;
     Real3 shaded[PACKETS];
     paths_start_one(&paths, ray);
-    while (paths_step(tracer, &paths)) {
+    for (bool any = paths_begin(tracer, &paths); any; any = paths_continue(tracer, &paths)) {
+        paths_step(tracer, &paths);
         const Notes level = level_notes(notes, tracer->frame, paths.level - 1);
         note_ray(&level, tracer, &paths);
         if (!any_lane(path->met))
