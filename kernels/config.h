@@ -41,7 +41,7 @@
 #define CLRT_RAYS 0 // the program traces arrays of rays (rays.cl)
 #endif
 #ifndef CLRT_GPU
-#define CLRT_GPU 0 // the device is not a CPU: single rays keep their state in registers
+#define CLRT_GPU 0 // fp32 on a device that is not a CPU: single rays keep their state in registers
 #endif
 #ifndef CLRT_FP64
 #define CLRT_FP64 0 // Real is double: one ray per work-item, binary nodes

@@ -17,9 +17,12 @@
 #pragma OPENCL FP_CONTRACT OFF
 
 // Clang warns that vectors wider than the processor's registers are passed in memory. Only
-// functions of this program call each other, so the calling convention does not matter.
-#ifdef __clang__
+// functions of this program call each other, so the calling convention does not matter. NVIDIA's
+// compiler is an older clang without this warning.
+#ifdef __has_warning
+#if __has_warning("-Wpsabi")
 #pragma clang diagnostic ignored "-Wpsabi"
+#endif
 #endif
 
 // Scalar is float, or double with --precision fp64. Both compile the same source for the same
@@ -72,10 +75,8 @@ typedef float Scalar;
 
 // These attributes decide about inlining. With the compiler's own decisions, pictures take up to a
 // sixth longer on CPUs. On GPUs, a call that passes a path's state by pointer would move the state
-// from registers into memory. In fp64, the state does not fit into registers. Inlined as a whole,
-// the kernel of certainty also takes NVIDIA's compiler (580.159) three times as long, and it then
-// decides some pixels wrongly.
-#if CLRT_GPU && !CLRT_WIDE_NODES && !CLRT_FP64
+// from registers into memory.
+#if CLRT_GPU && !CLRT_WIDE_NODES
 #undef inline // NVIDIA's compiler and PoCL define it
 #define inline inline __attribute__((always_inline))
 #define ALWAYS_INLINE inline

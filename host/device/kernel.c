@@ -34,6 +34,14 @@ static uint32_t group_info(const Kernel *kernel, cl_kernel_work_group_info name)
     return (uint32_t)value;
 }
 
+static bool check_group(const Kernel *kernel, Error *error)
+{
+    const uint32_t limit = group_info(kernel, CL_KERNEL_WORK_GROUP_SIZE);
+    return limit == 0 || (uint64_t)kernel->group[0] * kernel->group[1] <= limit ||
+           error_set(error, "work-groups of %u x %u are too large: %s allows %u work-items",
+                     kernel->group[0], kernel->group[1], kernel->device->name, limit);
+}
+
 static LaunchShape shape_of(const Kernel *kernel)
 {
     const LaunchFacts facts = {
@@ -53,7 +61,7 @@ static bool start(void *context, Error *error)
     Kernel *kernel = context;
     cl_int status;
     kernel->handle = clCreateKernel(kernel->program->handle, kernel->entry->name, &status);
-    if (!cl_succeeded(status, "create a kernel", error))
+    if (!cl_succeeded(status, "create a kernel", error) || !check_group(kernel, error))
         return false;
     kernel->launch = shape_of(kernel);
     return kernel->entry->first_run(kernel, error);

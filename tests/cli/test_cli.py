@@ -62,6 +62,7 @@ REFUSALS = [
     (2, "unknown option '--expect-hash', perhaps --hash=EXPECTED", [*FILE, "--expect-hash", 32 * "0"]),
     (2, "unknown option '--nodes', perhaps --tune kernel=FORM", [*FILE, "--nodes", "wide"]),
     (2, "unknown option '--work-group=8x8', perhaps --tune group=WxH", [*FILE, "--work-group=8x8"]),
+    (4, "work-groups of 100 x 100 are too large", [*FILE, "--tune", "group=100x100"]),
     (3, f"none.scn: {NO_FILE}", ["none.scn", "-o", "a.pfm"]),
     (3, f"none.scn: {NO_FILE}", ["warm", "none.scn"]),
     (3, f"{ROOT}: cannot be read: it is not a file", [str(ROOT), "-o", "a.pfm"]),

@@ -16,7 +16,7 @@ PTXAS_PACKAGE = "nvidia-cuda-nvcc-cu12==12.9.86"
 BITCODE = pathlib.Path("/usr/lib/clc")
 STACK = 64 * (4 + 4)  # bytes of PairStack, with floats
 PAIR = "-DCLRT_GPU=1"
-FP64 = "-DCLRT_GPU=1 -DCLRT_FP64=1"
+FP64 = "-DCLRT_FP64=1"
 CREATURE = "-DCLRT_GPU=1 -DCLRT_SPHERES=0 -DCLRT_COLORS=0"
 # Kernel, the file appended to render.cl, options.
 PROGRAMS = (*(("render_tile", "tile.cl", options) for options in (PAIR, CREATURE, FP64)),

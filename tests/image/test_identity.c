@@ -234,7 +234,7 @@ TEST(every_form_draws_pictures_of_a_few_pixels)
 TEST(every_size_of_tiles_and_work_groups_draws_the_same)
 {
     static const uint32_t tiles[][2] = {{8, 8}, {7, 5}, {131, 1}, {1000, 33}, {64, 1000}, {2, 3}};
-    static const uint32_t groups[][2] = {{1, 1}, {3, 5}, {32, 32}, {1, 64}};
+    static const uint32_t groups[][2] = {{1, 1}, {3, 5}, {16, 16}, {1, 64}};
     enum { TILES = sizeof tiles / sizeof tiles[0], GROUPS = sizeof groups / sizeof groups[0] };
     const PictureRequest usual = small_request(SCENE_COUNT - 1);
     PictureRequest others[TILES + GROUPS];
