@@ -106,7 +106,7 @@ class Registers(unittest.TestCase):
 
 if __name__ == "__main__":
     missing = [name for name, found in (("clang-19", shutil.which("clang-19")),
-                                        ("libclc-19-dev", (BITCODE / "nvptx64--nvidiacl.bc").exists())) if not found]
+                                        ("libclc-19", (BITCODE / "nvptx64--nvidiacl.bc").exists())) if not found]
     if missing:
         skip("missing (tools/setup gpu): " + ", ".join(missing))
     CACHE.mkdir(parents=True, exist_ok=True)
