@@ -6,7 +6,7 @@
 #include "device/launch.h"
 #include "device/program.h"
 
-struct Kernel {
+typedef struct {
     const Device *device;
     const KernelEntry *entry;
     KernelChoice choice;
@@ -17,7 +17,7 @@ struct Kernel {
     cl_kernel handle;
     double seconds;    // time spent on making the kernel
     bool was_compiled; // by an earlier process, according to the cache
-};
+} Kernel;
 
 typedef struct {
     ProgramSource source; // device, cache, kernel folder and extra options of all kernels
@@ -38,6 +38,21 @@ const Kernel *kernel_set_get(KernelSet *set, const KernelSpec *spec, Error *erro
 
 // Returns whether the set or the cache has the program of the kernel for spec.
 bool kernel_set_has(const KernelSet *set, const KernelSpec *spec);
+
+#define KERNEL_ARGUMENTS 6
+
+// A run of a kernel.
+typedef struct {
+    cl_command_queue queue;
+    const FrameData *frame;
+    const cl_mem *scene;                     // FLAT_ARRAYS buffers
+    const void *arguments[KERNEL_ARGUMENTS]; // a cl_mem or cl_uint for each of entry->arguments
+    size_t items[2];                         // work-items, rounded up to whole work-groups
+    cl_event *done;                          // NULL if not needed
+} KernelRun;
+
+// Sets the kernel's arguments and enqueues it. The error message names the kernel.
+bool kernel_run(const Kernel *kernel, const KernelRun *run, Error *error);
 
 // Saves new programs to the cache.
 void kernel_set_save(KernelSet *set);

@@ -11,14 +11,15 @@
 extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
-// A kernel function, defined by the file that launches it.
-typedef struct Kernel Kernel;
+// A kernel function, defined by the file that launches it. A new kernel first runs with an empty
+// frame, with 0 for each number and with buffers of 64 bytes, all of whose bits are 1.
 typedef struct {
     const char *name;
-    const char *source;  // compiled after kernel_source, as in other entries; NULL without any
-    const char *options; // compiler options; NULL without any
-    // Runs a new kernel without work, because some drivers finish compiling in the first run.
-    bool (*first_run)(const Kernel *kernel, Error *error);
+    const char *source;    // compiled after kernel_source, as in other entries; NULL without any
+    const char *options;   // compiler options; NULL without any
+    const char *arguments; // after those of the scene: 'b' for a buffer, 'n' for a number
+    cl_uint dimensions;    // of the work-items
+    uint32_t group;        // work-items of a work-group; 0 for those of Kernel::launch
 } KernelEntry;
 
 typedef struct {

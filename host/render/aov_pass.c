@@ -8,13 +8,8 @@
 // kernels/aov.cl, embedded at build time.
 extern const char aov_source[];
 
-static bool first_run(const Kernel *kernel, Error *error)
-{
-    return tile_pass_run_first(kernel, 1, error);
-}
-
-const KernelEntry paths_entry = {"trace_paths", aov_source, NULL, first_run};
-const KernelEntry tests_entry = {"count_tests", aov_source, NULL, first_run};
+const KernelEntry paths_entry = {"trace_paths", aov_source, NULL, "b", .dimensions = 2};
+const KernelEntry tests_entry = {"count_tests", aov_source, NULL, "b", .dimensions = 2};
 
 static uint32_t samples_of(const AovPass *pass, uint32_t x, uint32_t y)
 {
@@ -64,7 +59,6 @@ static bool draw_paths(PassTarget *target, const RenderObserver *observer, Rende
 {
     const AovPass *pass = target->pass;
     TilePass paths = {.frame = renderer_frame(&pass->paths, &pass->center),
-                      .outputs = 1,
                       .sizes = {sizeof(PathData)},
                       .take = take_paths,
                       .context = target};
@@ -79,7 +73,6 @@ static bool draw_tests(PassTarget *target, const RenderObserver *observer, Rende
     Renderer renderer = pass->paths;
     renderer.kernel = pass->tests;
     const TilePass tests = {.frame = renderer_frame(&renderer, &pass->camera),
-                            .outputs = 1,
                             .sizes = {sizeof(uint32_t[TALLY_KINDS])},
                             .take = take_tests,
                             .context = target};

@@ -21,12 +21,7 @@ bool certifier_check_device(const Device *device, Error *error)
                      device->name);
 }
 
-static bool first_run(const Kernel *kernel, Error *error)
-{
-    return tile_pass_run_first(kernel, 2, error);
-}
-
-const KernelEntry certify_entry = {"certify_tile", certify_source, NULL, first_run};
+const KernelEntry certify_entry = {"certify_tile", certify_source, NULL, "bb", .dimensions = 2};
 
 bool certainty_map_make(CertaintyMap *map, uint32_t width, uint32_t height, Error *error)
 {
@@ -66,7 +61,6 @@ bool certifier_certify(const Renderer *renderer, const CameraData *camera,
     CertifiedPicture target = *picture;
     RenderProgress progress = {.tiles = tile_count(&renderer->settings)};
     const TilePass pass = {.frame = renderer_frame(renderer, camera),
-                           .outputs = 2,
                            .sizes = {sizeof(float[3]), sizeof(CertaintyMark)},
                            .take = take_tile,
                            .context = &target};

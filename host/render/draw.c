@@ -7,13 +7,7 @@
 // kernels/tile.cl, embedded at build time.
 extern const char tile_source[];
 
-static bool draw_first_run(const Kernel *kernel, Error *error)
-{
-    return tile_pass_run_first(kernel, 2, error);
-}
-
-const KernelEntry draw_entry = {
-    .name = "render_tile", .source = tile_source, .first_run = draw_first_run};
+const KernelEntry draw_entry = {"render_tile", tile_source, NULL, "bb", .dimensions = 2};
 
 // Adds the tile's counts to the picture's.
 static void take_tallies(void *context, const Tile *tile, void *const values[2])
@@ -44,7 +38,6 @@ bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObs
         return false;
     const bool counts = renderer->kernel->traits.statistics;
     const TilePass pass = {.frame = renderer_frame(renderer, camera),
-                           .outputs = 2,
                            .sizes = {sizeof(float[3]), counts ? sizeof(uint[TALLY_KINDS]) : 0},
                            .first = renderer->settings.ready_tiles,
                            .framebuffer = framebuffer,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Uploads a FlatScene into device buffers, and sets them as the arguments of kernels. A device that
-// shares the host's memory reads the FlatScene in place.
+// Uploads a FlatScene into device buffers. A device that shares the host's memory reads the
+// FlatScene in place.
 #include "render/renderer.h"
 
 #include "base/clock.h"
@@ -57,31 +57,4 @@ FrameData renderer_frame(const Renderer *renderer, const CameraData *camera)
     frame.samples = settings->samples;
     frame.max_level = settings->max_level;
     return frame;
-}
-
-bool renderer_set_scene(const Renderer *renderer, const FrameData *frame, Error *error)
-{
-    cl_kernel kernel = renderer->kernel->handle;
-    cl_int status = clSetKernelArg(kernel, 0, sizeof *frame, frame);
-    for (cl_uint place = 0; place < FLAT_ARRAYS && status == CL_SUCCESS; place++)
-        status = clSetKernelArg(kernel, place + 1, sizeof(cl_mem), &renderer->scene->arrays[place]);
-    return cl_succeeded(status, "set the kernel's arguments", error);
-}
-
-bool renderer_run_first(const Kernel *kernel, bool run(Renderer *renderer, Error *error),
-                        Error *error)
-{
-    cl_mem nothing;
-    SceneBuffers scene = {.device = kernel->device};
-    Renderer renderer = {
-        .kernel = kernel,
-        .scene = &scene,
-        .settings = {.width = 1, .height = 1, .samples = 1, .tile_width = 1, .tile_height = 1}};
-    if (!device_buffer(kernel->device, 64, &nothing, error))
-        return false;
-    for (int place = 0; place < FLAT_ARRAYS; place++)
-        scene.arrays[place] = nothing;
-    const bool ok = run(&renderer, error);
-    device_release(&nothing);
-    return ok;
 }

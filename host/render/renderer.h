@@ -53,11 +53,3 @@ typedef struct {
 
 // Returns the kernel's parameters for a picture. Callers set the tile (tile_aim).
 FrameData renderer_frame(const Renderer *renderer, const CameraData *camera);
-
-// Sets the first arguments of the renderer's kernel: the frame and the scene's arrays.
-bool renderer_set_scene(const Renderer *renderer, const FrameData *frame, Error *error);
-
-// Calls run with a renderer of this kernel for an empty scene and a picture of one pixel. For
-// functions of KernelEntry::first_run.
-bool renderer_run_first(const Kernel *kernel, bool run(Renderer *renderer, Error *error),
-                        Error *error);

@@ -20,6 +20,7 @@ typedef struct {
 
 typedef struct {
     Renderer *renderer;
+    const FrameData *frame;
     const SampleList *list;
     uint32_t item_requests; // per work-item
     cl_mem requests, results, tallies;
@@ -122,42 +123,24 @@ static void close_buffers(Sampling *sampling)
     free(sampling->host_tallies);
 }
 
-static bool set_arguments(const Sampling *sampling, const FrameData *frame, Error *error)
-{
-    const Renderer *renderer = sampling->renderer;
-    cl_kernel kernel = renderer->kernel->handle;
-    if (!renderer_set_scene(renderer, frame, error))
-        return false;
-    cl_int status = clSetKernelArg(kernel, FLAT_ARRAYS + 1, sizeof(cl_mem), &sampling->requests);
-    status |= clSetKernelArg(kernel, FLAT_ARRAYS + 4, sizeof(cl_mem), &sampling->results);
-    status |= clSetKernelArg(kernel, FLAT_ARRAYS + 5, sizeof(cl_mem), &sampling->tallies);
-    return cl_succeeded(status, "set the kernel's arguments", error);
-}
-
-static const char *sampling_attempt(const Renderer *renderer)
-{
-    return is_ladder(renderer) ? "run the kernel trace_pixels" : "run the kernel trace_samples";
-}
-
 static bool start_launch(Sampling *sampling, SampleLaunch *launch, Error *error)
 {
     const Renderer *renderer = sampling->renderer;
     const uint32_t most = launch_items(sampling) * sampling->item_requests;
     const cl_uint first = sampling->started, left = sampling->list->count - first;
     const cl_uint count = left < most ? left : most, end = first + count;
-    const uint32_t *sides = renderer->kernel->launch.group;
-    const size_t group = (size_t)sides[0] * sides[1], requests = sampling->item_requests;
-    const size_t grid = ((count + requests - 1) / requests + group - 1) / group * group;
+    const size_t requests = sampling->item_requests;
+    const KernelRun run = {
+        .queue = renderer->kernel->device->queue,
+        .frame = sampling->frame,
+        .scene = renderer->scene->arrays,
+        .arguments = {&sampling->requests, &first, &end, &sampling->results, &sampling->tallies},
+        .items = {(count + requests - 1) / requests, 1},
+        .done = &launch->done};
     *launch = (SampleLaunch){.requests = count, .start = clock_seconds()};
     sampling->started = end;
-    cl_int status = clSetKernelArg(renderer->kernel->handle, FLAT_ARRAYS + 2, sizeof first, &first);
-    status |= clSetKernelArg(renderer->kernel->handle, FLAT_ARRAYS + 3, sizeof end, &end);
-    if (status == CL_SUCCESS)
-        status = clEnqueueNDRangeKernel(renderer->kernel->device->queue, renderer->kernel->handle,
-                                        1, NULL, &grid, &group, 0, NULL, &launch->done);
-    if (status == CL_SUCCESS)
-        status = clFlush(renderer->kernel->device->queue);
-    return cl_succeeded(status, sampling_attempt(renderer), error);
+    return kernel_run(renderer->kernel, &run, error) &&
+           cl_succeeded(clFlush(run.queue), "start the kernel", error);
 }
 
 // Chooses the size of the next launches. A launch begins when the one before it ends.
@@ -237,45 +220,19 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
 {
     if (list->count == 0)
         return true;
-    Sampling sampling = {renderer, list, .item_requests = item_requests(renderer, list)};
+    Sampling sampling = {renderer, frame, list, .item_requests = item_requests(renderer, list)};
     if (renderer->launch_samples <= 0)
         renderer->launch_samples = launch_first_items(&renderer->kernel->launch, 1);
-    bool ok = open_buffers(&sampling, error) && set_arguments(&sampling, frame, error) &&
-              run_launches(&sampling, observer, error) && read_tallies(&sampling, error) &&
+    bool ok = open_buffers(&sampling, error) && run_launches(&sampling, observer, error) &&
+              read_tallies(&sampling, error) &&
               read_back(&sampling, sampling.results, list->count * result_size(renderer), error);
     close_buffers(&sampling);
     return ok;
 }
 
-static bool skip_sample(Renderer *renderer, Error *error)
-{
-    static const SamplePlace nowhere = {NOTHING, 0};
-    SampleData sample;
-    const SampleList list = {&nowhere, &sample, 1};
-    return sampler_trace(renderer, &(FrameData){0}, &list, NULL, error);
-}
-
-static bool skip_pixel(Renderer *renderer, Error *error)
-{
-    static const PixelRequest outside = {.x = NOTHING, .samples = 1};
-    PixelSums sums;
-    const SampleList list = {&outside, &sums, 1};
-    return sampler_trace(renderer, &(FrameData){0}, &list, NULL, error);
-}
-
-static bool sample_first_run(const Kernel *kernel, Error *error)
-{
-    return renderer_run_first(kernel, skip_sample, error);
-}
-
-static bool ladder_first_run(const Kernel *kernel, Error *error)
-{
-    return renderer_run_first(kernel, skip_pixel, error);
-}
-
 // kernels/samples.cl and kernels/ladder.cl, embedded at build time.
 extern const char samples_source[], ladder_source[];
 
-const KernelEntry sample_entry = {"trace_samples", samples_source, "-DCLRT_SIGNATURES=1",
-                                  sample_first_run};
-const KernelEntry ladder_entry = {"trace_pixels", ladder_source, NULL, ladder_first_run};
+const KernelEntry sample_entry = {"trace_samples", samples_source, "-DCLRT_SIGNATURES=1", "bnnbb",
+                                  .dimensions = 1};
+const KernelEntry ladder_entry = {"trace_pixels", ladder_source, NULL, "bnnbb", .dimensions = 1};

@@ -72,7 +72,7 @@ static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer
     cl_int status;
     slot->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
     bool ok = cl_succeeded(status, "create an OpenCL queue", error);
-    for (int i = 0; ok && i < pass->outputs; i++) {
+    for (int i = 0; ok && i < 2; i++) {
         const size_t size = pass->sizes[i] > 0 ? count * pass->sizes[i] : 64;
         ok = (is_read_in_place(pass, renderer, i) ||
               host_memory_make(&slot->values[i], pool, size, error)) &&
@@ -97,31 +97,17 @@ static void close_slot(Slot *slot)
     *slot = (Slot){0};
 }
 
-static size_t grid_side(const Kernel *kernel, uint32_t side, uint32_t group)
+static bool launch(const Slot *slot, const Renderer *renderer, const FrameData *frame, Error *error)
 {
-    const uint32_t pixels = kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE : 1;
-    const size_t items = ((size_t)side + pixels - 1) / pixels;
-    return (items + group - 1) / group * group;
-}
-
-static bool launch(const Slot *slot, const TilePass *pass, const Renderer *renderer,
-                   const FrameData *frame, Error *error)
-{
-    const Kernel *kernel = renderer->kernel;
     const Tile size = is_paced(renderer) ? slot->area : tile_largest(&renderer->settings);
-    const size_t group[2] = {kernel->launch.group[0], kernel->launch.group[1]};
-    const size_t grid[2] = {grid_side(kernel, size.width, kernel->launch.group[0]),
-                            grid_side(kernel, size.height, kernel->launch.group[1])};
-    cl_int status = CL_SUCCESS;
-    if (!renderer_set_scene(renderer, frame, error))
-        return false;
-    for (int i = 0; i < pass->outputs && status == CL_SUCCESS; i++)
-        status = clSetKernelArg(kernel->handle, FLAT_ARRAYS + 1 + (cl_uint)i, sizeof(cl_mem),
-                                &slot->outputs[i]);
-    if (status == CL_SUCCESS)
-        status = clEnqueueNDRangeKernel(slot->queue, kernel->handle, 2, NULL, grid, group, 0, NULL,
-                                        NULL);
-    return cl_succeeded(status, "run the kernel", error);
+    const size_t side = renderer->kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE : 1;
+    const KernelRun run = {
+        .queue = slot->queue,
+        .frame = frame,
+        .scene = renderer->scene->arrays,
+        .arguments = {&slot->outputs[0], &slot->outputs[1]},
+        .items = {(size.width + side - 1) / side, (size.height + side - 1) / side}};
+    return kernel_run(renderer->kernel, &run, error);
 }
 
 // Starts the copy of an output to the slot's values, or to its place in the framebuffer.
@@ -145,7 +131,7 @@ static cl_int start_read(Slot *slot, const PassRun *run, int output, cl_event *d
 static bool start_reads(Slot *slot, const PassRun *run, Error *error)
 {
     cl_int status = CL_SUCCESS;
-    for (int i = run->pass->outputs - 1; i >= 0 && status == CL_SUCCESS; i--)
+    for (int i = 1; i >= 0 && status == CL_SUCCESS; i--)
         if (run->pass->sizes[i] > 0)
             status = start_read(slot, run, i, i == 0 ? &slot->done : NULL);
     if (status == CL_SUCCESS)
@@ -165,7 +151,7 @@ static bool start_launch(PassRun *run, Error *error)
     tile_aim(&frame, settings, &slot->area);
     if (slot->queue == NULL && !open_slot(slot, run->pass, run->renderer, error))
         return false;
-    if (!launch(slot, run->pass, run->renderer, &frame, error))
+    if (!launch(slot, run->renderer, &frame, error))
         return false;
     return is_paced(run->renderer) ? cl_succeeded(clFlush(slot->queue), "start the kernel", error)
                                    : start_reads(slot, run, error);
@@ -254,33 +240,4 @@ bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderO
     for (int slot = 0; slot < SLOTS; slot++)
         close_slot(&run.slots[slot]);
     return ok;
-}
-
-// Bytes that suffice for every kernel's output of one pixel.
-#define LARGEST_OUTPUT 256
-
-static bool run_once(Renderer *renderer, const TilePass *pass, Error *error)
-{
-    Slot slot = {.area = tile_largest(&renderer->settings)};
-    const bool ok = open_slot(&slot, pass, renderer, error) &&
-                    launch(&slot, pass, renderer, &pass->frame, error) &&
-                    cl_succeeded(clFinish(slot.queue), "finish the first run", error);
-    close_slot(&slot);
-    return ok;
-}
-
-static bool run_one_output(Renderer *renderer, Error *error)
-{
-    return run_once(renderer, &(TilePass){.outputs = 1, .sizes = {LARGEST_OUTPUT}}, error);
-}
-
-static bool run_two_outputs(Renderer *renderer, Error *error)
-{
-    const TilePass pass = {.outputs = 2, .sizes = {LARGEST_OUTPUT, LARGEST_OUTPUT}};
-    return run_once(renderer, &pass, error);
-}
-
-bool tile_pass_run_first(const Kernel *kernel, int outputs, Error *error)
-{
-    return renderer_run_first(kernel, outputs == 1 ? run_one_output : run_two_outputs, error);
 }

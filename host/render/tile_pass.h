@@ -8,10 +8,9 @@
 // A pass over all tiles by a kernel that computes values for each pixel. The kernel's arguments are
 // the frame, the scene's arrays and the outputs.
 typedef struct {
-    FrameData frame; // without a tile
-    int outputs;     // 1 or 2
-    size_t sizes[2]; // bytes per pixel of each output; 0 if the kernel does not write the second
-    uint64_t first;  // the number of the first tile to draw
+    FrameData frame;          // without a tile
+    size_t sizes[2];          // bytes per pixel of each output; 0 if the kernel does not write it
+    uint64_t first;           // the number of the first tile to draw
     Framebuffer *framebuffer; // receives the first output; NULL if take does
     // Receives a tile's other outputs, row by row. The tiles come in the order of their numbers.
     void (*take)(void *context, const Tile *tile, void *const values[2]);
@@ -22,6 +21,3 @@ typedef struct {
 // tile to progress.
 bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderObserver *observer,
                    RenderProgress *progress, Error *error);
-
-// Runs a kernel with these outputs once over an empty tile. Implements KernelEntry::first_run.
-bool tile_pass_run_first(const Kernel *kernel, int outputs, Error *error);

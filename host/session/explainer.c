@@ -46,51 +46,8 @@ static bool make_room(Explainer *explainer, Error *error)
            device_buffer(device, sizeof(uint32_t), &explainer->count, error);
 }
 
-// The kernel's outputs: values, words, result and count.
-#define OUTPUTS 4
-
-static bool run_kernel(const Renderer *renderer, const FrameData *frame, const cl_uint place[2],
-                       const cl_mem outputs[OUTPUTS], Error *error)
-{
-    const Kernel *kernel = renderer->kernel;
-    const size_t one = 1;
-    cl_uint next = FLAT_ARRAYS + 1;
-    cl_int status = CL_SUCCESS;
-    if (!renderer_set_scene(renderer, frame, error))
-        return false;
-    for (int axis = 0; axis < 2; axis++)
-        status |= clSetKernelArg(kernel->handle, next++, sizeof place[axis], &place[axis]);
-    for (int i = 0; i < OUTPUTS; i++)
-        status |= clSetKernelArg(kernel->handle, next++, sizeof(cl_mem), &outputs[i]);
-    if (!cl_succeeded(status, "set the arguments of the kernel explain_sample", error))
-        return false;
-    status = clEnqueueNDRangeKernel(kernel->device->queue, kernel->handle, 1, NULL, &one, &one, 0,
-                                    NULL, NULL);
-    return cl_succeeded(status, "run the kernel explain_sample", error);
-}
-
-// Runs the kernel once, as first_run requires. The sample has no levels, so the kernel writes no
-// more than 64 bytes to each output.
-static bool trace_nothing(Renderer *renderer, Error *error)
-{
-    const Device *device = renderer->kernel->device;
-    const cl_uint place[2] = {0, 0};
-    cl_mem nothing;
-    if (!device_buffer(device, 64, &nothing, error))
-        return false;
-    const cl_mem outputs[OUTPUTS] = {nothing, nothing, nothing, nothing};
-    const bool ok = run_kernel(renderer, &(FrameData){.samples = 1}, place, outputs, error) &&
-                    cl_succeeded(clFinish(device->queue), "finish the first run", error);
-    device_release(&nothing);
-    return ok;
-}
-
-static bool first_run(const Kernel *kernel, Error *error)
-{
-    return renderer_run_first(kernel, trace_nothing, error);
-}
-
-static const KernelEntry explain_entry = {"explain_sample", explain_source, NULL, first_run};
+static const KernelEntry explain_entry = {"explain_sample", explain_source,  NULL,
+                                          "nnbbbb",         .dimensions = 1, .group = 1};
 
 bool explainer_open(Explainer *explainer, Session *session, const RenderSettings *settings,
                     const Viewpoint *viewpoint, Error *error)
@@ -246,11 +203,15 @@ bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t ind
 {
     const uint32_t side = explainer->frame.samples;
     const cl_uint place[2] = {pixel[0] * side + index % side, pixel[1] * side + index / side};
-    const cl_mem outputs[OUTPUTS] = {explainer->values, explainer->words, explainer->result,
-                                     explainer->count};
+    const Renderer *renderer = &explainer->renderer;
+    const KernelRun run = {.queue = renderer->kernel->device->queue,
+                           .frame = &explainer->frame,
+                           .scene = renderer->scene->arrays,
+                           .arguments = {&place[0], &place[1], &explainer->values,
+                                         &explainer->words, &explainer->result, &explainer->count},
+                           .items = {1, 1}};
     *sample = (ExplainedSample){0};
-    if (!run_kernel(&explainer->renderer, &explainer->frame, place, outputs, error) ||
-        !read_back(explainer, sample, error)) {
+    if (!kernel_run(renderer->kernel, &run, error) || !read_back(explainer, sample, error)) {
         explained_sample_free(sample);
         return false;
     }

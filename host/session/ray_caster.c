@@ -15,63 +15,30 @@
 // Files of kernels, embedded at build time.
 extern const char rays_source[], crossings_source[], certify_rays_source[];
 
-static bool first_run(const Kernel *kernel, Error *error);
-
 static const KernelEntry entries[RAY_QUERIES] = {
-    [RAYS_NEAREST] = {"trace_rays", rays_source, "-DCLRT_RAYS=1", first_run},
-    [RAYS_CROSSED] = {"find_crossings", crossings_source, NULL, first_run},
-    [RAYS_CERTAIN] = {"certify_rays", certify_rays_source, NULL, first_run}};
+    [RAYS_NEAREST] = {"trace_rays", rays_source, "-DCLRT_RAYS=1", "bnnb", .dimensions = 1},
+    [RAYS_CROSSED] = {"find_crossings", crossings_source, NULL, "bnnbb", .dimensions = 1,
+                      .group = 64},
+    [RAYS_CERTAIN] = {"certify_rays", certify_rays_source, NULL, "bnnb", .dimensions = 1}};
 
 static bool finds_all(const RayCaster *caster)
 {
     return caster->kernel->entry == &entries[RAYS_CROSSED];
 }
 
-static bool set_arguments(const RayCaster *caster, const RayCast *cast, cl_uint count, Error *error)
-{
-    const Renderer renderer = {.kernel = caster->kernel, .scene = cast->scene};
-    const bool all = finds_all(caster);
-    const cl_uint kind = cast->start | (cast->any ? RAY_ANY_HIT : 0), next = FLAT_ARRAYS + 1;
-    cl_kernel kernel = caster->kernel->handle;
-    if (!renderer_set_scene(&renderer, &cast->scene->frame, error))
-        return false;
-    cl_int status = clSetKernelArg(kernel, next, sizeof(cl_mem), &caster->rays);
-    status |= clSetKernelArg(kernel, next + 1, sizeof count, &count);
-    status |= clSetKernelArg(kernel, next + 2, sizeof kind, all ? &cast->room : &kind);
-    status |= clSetKernelArg(kernel, next + 3, sizeof(cl_mem), &caster->hits);
-    if (all)
-        status |= clSetKernelArg(kernel, next + 4, sizeof(cl_mem), &caster->counts);
-    return cl_succeeded(status, "set the arguments of a kernel for rays", error);
-}
-
 // Runs the kernel for the first `count` rays in the buffer.
 static bool launch(const RayCaster *caster, const RayCast *cast, size_t count, Error *error)
 {
     const Kernel *kernel = caster->kernel;
-    const bool has_lanes = kernel->choice.nodes == NODES_WIDE && !finds_all(caster);
-    const uint32_t *sides = kernel->launch.group;
-    const bool is_fixed = kernel->choice.nodes == NODES_WIDE && !has_lanes;
-    const size_t group = is_fixed ? 64 : (size_t)sides[0] * sides[1];
-    const size_t items = has_lanes ? count / FEWEST_LANES : count;
-    const size_t grid = (items / group + 1) * group;
-    return set_arguments(caster, cast, (cl_uint)count, error) &&
-           cl_succeeded(clEnqueueNDRangeKernel(kernel->device->queue, kernel->handle, 1, NULL,
-                                               &grid, &group, 0, NULL, NULL),
-                        "run a kernel for rays", error);
-}
-
-static bool cast_nothing(Renderer *renderer, Error *error)
-{
-    const cl_mem nothing = renderer->scene->arrays[0];
-    const RayCaster caster = {renderer->kernel, nothing, nothing, nothing};
-    const RayCast cast = {.scene = renderer->scene};
-    return launch(&caster, &cast, 0, error) &&
-           cl_succeeded(clFinish(renderer->kernel->device->queue), "finish the first run", error);
-}
-
-static bool first_run(const Kernel *kernel, Error *error)
-{
-    return renderer_run_first(kernel, cast_nothing, error);
+    const bool all = finds_all(caster), has_lanes = kernel->choice.nodes == NODES_WIDE && !all;
+    const cl_uint number = (cl_uint)count, kind = cast->start | (cast->any ? RAY_ANY_HIT : 0);
+    const KernelRun run = {.queue = kernel->device->queue,
+                           .frame = &cast->scene->frame,
+                           .scene = cast->scene->arrays,
+                           .arguments = {&caster->rays, &number, all ? &cast->room : &kind,
+                                         &caster->hits, &caster->counts},
+                           .items = {(has_lanes ? count / FEWEST_LANES : count) + 1, 1}};
+    return kernel_run(kernel, &run, error);
 }
 
 static size_t launch_rays(const RayCaster *caster)
