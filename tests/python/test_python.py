@@ -11,7 +11,9 @@ import subprocess
 import sys
 import tempfile
 import threading
+import types
 import unittest
+import unittest.mock
 
 try:
     import cffi  # pylint: disable=unused-import
@@ -63,6 +65,21 @@ class Pictures(unittest.TestCase):
         self.assertEqual(scene.cameras[0].height, 4)
         self.assertEqual(clrt.hash(scene.render(32, 32, camera=clrt.Camera((9, 0, 0), height=4))),
                          clrt.hash(scene.render(32, 32)))
+
+    def test_narrow_orthographic_pictures_have_the_least_width(self):
+        scene = clrt.Scene()
+        scene.sphere((0, 0, 0), 1, scene.material("silhouette", diffuse=(0, 0, 0)))
+        scene.camera((9, 0, 0), height=4, width=4)
+        covered = (scene.render(32, 64) == 0).all(axis=2).mean()
+        self.assertAlmostEqual(covered, np.pi / 32, delta=0.01)
+
+    def test_the_cameras_of_a_scene_draw_its_views(self):
+        scene = clrt.load(SCENES / "cone.ply")
+        self.assertGreater(scene.cameras[0].width_degrees, 0)
+        scene.camera((3, -4, 2), (0, 0, 1), (0, 1, 1), height=3, width=2.5)
+        for number, camera in enumerate(scene.cameras, 1):
+            self.assertEqual(clrt.hash(scene.render(16, 48, camera=camera)),
+                             clrt.hash(scene.render(16, 48, view=number)))
 
     def test_meshes_have_colors_of_vertices(self):
         def draw(colors):
@@ -143,6 +160,15 @@ class Pictures(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "'sampels'"):
             renderer.render(scene, 32, 32, sampels=2)
 
+    def test_a_bar_shows_the_progress(self):
+        bars, modules = [], {"tqdm": types.ModuleType("tqdm"), "tqdm.auto": types.ModuleType("auto")}
+        modules["tqdm.auto"].tqdm = lambda unit: bars.append(unittest.mock.Mock()) or bars[0]
+        with unittest.mock.patch.dict(sys.modules, modules):
+            clrt.load(REFLECTIONS).render(300, 200, progress=True)
+        self.assertEqual((bars[0].n, bars[0].total), (6, 6))
+        with unittest.mock.patch.dict(sys.modules, {"tqdm.auto": None}):
+            clrt.load(REFLECTIONS).render(8, 8, progress=True)
+
 
 class Rays(unittest.TestCase):
     def test_hits_name_the_face_and_the_place(self):
@@ -161,7 +187,7 @@ class Rays(unittest.TestCase):
         hits = cast(cube(), (0, 0, 3), [(0, 0, -1), (0, 0, 1)], results=("distance",))
         self.assertEqual(hits.hit.tolist(), [True, False])
         with self.assertRaises(clrt.ArgumentError):
-            _ = cast(cube(), (0, 0, 3), [(0, 0, -1)], results=("face",)).hit
+            _ = cast(cube(), (0, 0, 3), [(0, 0, -1)], results=iter(["face"])).hit
 
     def test_all_crossings_are_in_order(self):
         hits = clrt.Renderer().trace_all(cube(), [(0, 0, 3), (9, 9, 9), (0.1, 0.2, 0)], (0, 0, -1))
@@ -268,7 +294,9 @@ class Errors(unittest.TestCase):
                      CUBE, SIDES, colors=[(0, 0, 0)] * 7)),
                  (clrt.ArgumentError, "color of vertex 0", lambda: clrt.Scene().mesh(
                      CUBE, SIDES, colors=[(0, 255, 0)] * 8)),
-                 (clrt.ArgumentError, "shape", lambda: clrt.Scene().mesh(CUBE[0], SIDES)),
+                 (clrt.ArgumentError, r"shape is \(3,\), not \(n, 3\)",
+                  lambda: clrt.Scene().mesh(CUBE[0], SIDES)),
+                 (clrt.ArgumentError, "center: the shape", lambda: clrt.Scene().sphere((1, 2), 1)),
                  (clrt.ArgumentError, "channel",
                   lambda: clrt.load(REFLECTIONS).render(8, 8, channels=["dept"])),
                  (clrt.ArgumentError, "directions",

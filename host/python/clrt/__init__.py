@@ -9,14 +9,12 @@
 ([1.0, inf], True)
 """
 
-from . import library
-from .library import NOTHING, ArgumentError, DeviceError, Error, SceneError, Stopped
-from .picture import Picture, channel_kinds, compare, hash
-from .rays import Hits
+from .arrays import Hits, Picture, channel_kinds, compare, hash
+from .library import NOTHING, ArgumentError, DeviceError, Error, SceneError, Stopped, ffi, lib
 from .renderer import Renderer, devices
 from .scene import Camera, Scene, load
 
-__version__ = library.ffi.string(library.lib.clrt_version()).decode()
+__version__ = ffi.string(lib.clrt_version()).decode()
 __all__ = ["NOTHING", "ArgumentError", "Camera", "DeviceError", "Error", "Hits", "Picture",
            "Renderer", "Scene", "SceneError", "Stopped", "channel_kinds", "compare", "devices",
            "hash", "load"]

@@ -17,8 +17,8 @@ _ADVICE = (
     " (Fedora), conda install pocl-cpu-minimal ocl-icd (conda-forge).")
 
 NOTHING = 0xFFFFFFFF
-
 ffi = cffi.FFI()
+_kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 
 class Error(Exception):
@@ -75,9 +75,6 @@ def call(name, *arguments):
     return result
 
 
-_kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
-
-
 def struct(kind, **members):
     """Makes a struct of clrt.h. Arrays in it live as long as the struct. None is the default."""
     types = {name: field.type for name, field in ffi.typeof(kind).fields}
@@ -100,13 +97,10 @@ def _c_value(value, kind, what):
     return ffi.new("char[]", os.fsencode(value)) if isinstance(value, str) else value
 
 
-def values_of(given):
-    """A struct as a dict without its size. Texts and enumerations become str, arrays tuples."""
-    return {name: _value_of(getattr(given, name), field.type)
-            for name, field in ffi.typeof(given[0]).fields[1:]}
-
-
-def _value_of(value, kind):
+def value_of(value, kind):
+    """A C value. Structs become dicts without size, arrays str or tuples, enumerations str."""
+    if kind.kind == "struct":
+        return {name: value_of(getattr(value, name), field.type) for name, field in kind.fields[1:]}
     if kind.kind == "array":
         is_text = kind.item.cname == "char"
         return ffi.string(value).decode(errors="replace") if is_text else tuple(value)
@@ -119,11 +113,12 @@ def _names(enumeration):
             for _, name in sorted(enumeration.elements.items())]
 
 
-def described(kind, name, *arguments):
-    """Calls clrt_NAME, which fills a struct, and returns the struct as a dict."""
-    part = struct(kind)
-    call(name, *arguments, part)
-    return values_of(part)
+def result_of(name, *arguments):
+    """Calls clrt_NAME, which fills its last argument, and returns that number or struct."""
+    kind = ffi.typeof(getattr(lib, "clrt_" + name)).args[-2]
+    made = struct(kind.item.cname) if kind.item.kind == "struct" else ffi.new(kind)
+    call(name, *arguments, made)
+    return value_of(made[0], kind.item)
 
 
 def numbers(values, dtype, what):
@@ -135,27 +130,16 @@ def numbers(values, dtype, what):
     return made
 
 
-def rows(values, dtype, what, is_dense=False):
-    """An array of the shape (n, 3), each row in one place. Copies only if it must."""
-    made = numbers(values, dtype, what)
-    if made.ndim != 2 or made.shape[1] != 3:
-        raise ArgumentError(f"{what} have the shape {made.shape}, not (n, 3)")
-    size, (row, column) = made.itemsize, made.strides
-    is_in_rows = column == size and row >= 3 * size and made.flags.aligned and not is_dense
-    return made if is_in_rows else np.ascontiguousarray(made)
-
-
-def stride_of(made):
-    """Bytes from one row to the next. numpy does not define the stride of a single row."""
-    return max(made.strides[0], 3 * made.itemsize)
+def threes(array, what, *axes):
+    """The array. Raises unless its shape is that of the named axes, followed by 3."""
+    if array.shape[len(axes):] != (3,):
+        raise ArgumentError(f"{what}: the shape is {array.shape}, not ({', '.join((*axes, '3'))})")
+    return array
 
 
 def vector(values, what):
     """Three numbers for the library."""
-    array = np.asarray(values, np.float64)
-    if array.shape != (3,):
-        raise ArgumentError(f"{what} is not three numbers")
-    return array.tolist()
+    return threes(np.asarray(values, np.float64), what).tolist()
 
 
 def choice(names, given, what):
@@ -168,28 +152,25 @@ def choice(names, given, what):
 @contextlib.contextmanager
 def progress_of(progress):
     """Yields a ClrtProgress: a function of (done, all), a bar by tqdm for True, otherwise NULL."""
-    if not progress or progress is True and not (progress := _bar()):
-        yield ffi.NULL
-        return
-    faults = []
-    callback = ffi.callback("ClrtProgress", lambda _, *parts: progress(*parts) is not False,
-                            error=False, onerror=lambda _, fault, __: faults.append(fault))
+    faults, advance = [], _bar() if progress is True else progress
+    callback = advance and ffi.callback(
+        "ClrtProgress", lambda _, *parts: advance(*parts) is not False, error=False,
+        onerror=lambda _, fault, __: faults.append(fault))
     try:
-        yield callback
+        yield callback or ffi.NULL
     except Stopped as stopped:
         raise faults[0] if faults else stopped
 
 
 def _bar():
     """A progress function that shows a bar while it lives, or None without tqdm."""
-    try:
+    with contextlib.suppress(ImportError):
         from tqdm.auto import tqdm
-    except ImportError:
-        return None
-    bar = tqdm(unit="part")
+        bar = tqdm(unit="part")
 
-    def advance(done, all_):
-        bar.total, bar.n = all_, done
-        bar.refresh()
+        def advance(done, all_):
+            bar.total, bar.n = all_, done
+            bar.refresh()
 
-    return advance
+        return advance
+    return None

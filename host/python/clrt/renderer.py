@@ -8,9 +8,8 @@ from typing import Any, Callable, Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .library import call, described, ffi, lib, progress_of, rows, stride_of, struct, values_of
-from .picture import Picture, channel_array
-from .rays import RESULTS, Hits, hit_arrays, rays
+from .arrays import RESULTS, Hits, Picture, channel_array, hit_arrays, rays, rows
+from .library import call, ffi, lib, progress_of, result_of, struct, value_of
 from .scene import Scene
 
 Progress = bool | Callable[[int, int], bool | None] | None
@@ -40,20 +39,18 @@ class Renderer:
         members of ClrtPicture in clrt.h, such as samples (N for N x N per pixel), error, max_level
         and statistics. reference_samples draws a reference in fp64.
         """
-        picture = _request(width, height, **settings)
+        picture = _request(width, height, result=struct("ClrtResult"), **settings)
         shape = (picture.crop_height or height or scene.info["height"],
                  picture.crop_width or width or scene.info["width"])
         arrays = {name: channel_array(name, shape) for name in channels}
         names = [ffi.new("char[]", name.encode()) for name in arrays]
-        array = ffi.new("ClrtChannel[]", [(name, ffi.from_buffer(values))
-                                          for name, values in zip(names, arrays.values())])
+        array = ffi.new("ClrtChannel[]", [*zip(names, map(ffi.from_buffer, arrays.values()))])
         picture.channels, picture.channel_count = array, len(arrays)
-        picture.result = result = struct("ClrtResult")
         pixels = np.zeros((*shape, 3), np.float32)
         self._run("reference" if picture.reference_samples else "render", scene, picture,
                   ffi.from_buffer("float[]", pixels), progress)
         made = pixels.view(Picture)
-        made.channels, made.result = arrays, values_of(result)
+        made.channels, made.result = arrays, value_of(picture.result[0], ffi.typeof("ClrtResult"))
         return made
 
     def explain(self, scene: Scene, x: int, y: int, width: int = 0, height: int = 0,
@@ -62,9 +59,7 @@ class Renderer:
 
         Its "samples" have "rays", and these have "lights"; clrt.h describes the members.
         """
-        picture = _request(width, height, **settings)
-        with self._lock:
-            explanation = call("explain", self._handle, scene._handle, picture, [x, y])
+        explanation = self._run("explain", scene, _request(width, height, **settings), [x, y], None)
         return _explained(ffi.gc(explanation, lib.clrt_explanation_free))
 
     def trace(self, scene: Scene, origins: ArrayLike, directions: ArrayLike, *,
@@ -75,21 +70,19 @@ class Renderer:
         results: what to compute; fewer take less time, and "certain" takes the longest. Limits:
         near and far limit the distance, one number or n. starts: the primitive on which each ray
         starts (Hits.primitive), so that it is not hit again, or clrt.NOTHING; without near.
-        one_sided: rays pass the backs of meshes that are not two-sided; otherwise all faces stop
-        rays from both sides.
+        one_sided: only two_sided meshes stop rays from behind; otherwise, all faces do.
         """
         given = rays(origins, directions, **limits)
-        target, arrays = hit_arrays(results, given.count)
+        target, arrays = hit_arrays({*results}, given.count)
         self._run("trace", scene, given, target, progress)
         return Hits(**arrays)
 
     def trace_all(self, scene: Scene, origins: ArrayLike, directions: ArrayLike, *,
                   results: Iterable[str] = RESULTS, progress: Progress = None,
                   **limits: Any) -> Hits:
-        """Finds all faces that the rays cross, and returns Hits ordered by ray, then by distance.
+        """Finds all faces, but no spheres, that rays cross. Orders Hits by ray, then by distance.
 
-        A ray through an edge or vertex of a closed mesh crosses it in one face. Spheres do not
-        count.
+        A ray through an edge or vertex of a closed mesh crosses it in one face.
         """
         given = rays(origins, directions, **limits)
         counts = np.zeros(given.count, np.uint32)
@@ -108,9 +101,9 @@ class Renderer:
 
     def contains(self, scene: Scene, points: ArrayLike, *, progress: Progress = None) -> np.ndarray:
         """Whether each point is inside of the scene's meshes, which must be closed, as bools."""
-        origins = rows(points, np.float64, "points")
-        given = struct("ClrtRays", count=len(origins), origins=origins,
-                       origin_stride=stride_of(origins))
+        points = rows(points, np.float64, "points")
+        given = struct("ClrtRays", count=len(points), origins=points,
+                       origin_stride=points.strides[0])
         return self._flags("contains", scene, given, progress)
 
     def check(self, scene: Scene) -> dict[str, Any]:
@@ -121,11 +114,9 @@ class Renderer:
         """
         with self._lock:
             check = ffi.gc(call("check", self._handle, scene._handle), lib.clrt_check_free)
-        info = described("ClrtCheckInfo", "check_get_info", check)
-        meshes = [described("ClrtCheckedMesh", "check_get_mesh", check, i)
-                  for i in range(info["mesh_count"])]
-        findings = [described("ClrtFinding", "check_get_finding", check, i)
-                    for i in range(info["finding_count"])]
+        info = result_of("check_get_info", check)
+        meshes = [result_of("check_get_mesh", check, i) for i in range(info["mesh_count"])]
+        findings = [result_of("check_get_finding", check, i) for i in range(info["finding_count"])]
         return {"fine": info["fine"], "meshes": meshes, "findings": findings}
 
     def _flags(self, kind, scene, given, progress):
@@ -135,21 +126,20 @@ class Renderer:
 
     def _run(self, kind, scene, given, target, progress):
         with progress_of(progress) as given.progress, self._lock:
-            call(kind, self._handle, scene._handle, given, target)
+            return call(kind, self._handle, scene._handle, given, target)
 
 
 def _request(width, height, crop=None, camera=None, max_level=None, **settings):
     """A ClrtPicture, whose members are the settings."""
-    left, top, crop_width, crop_height = crop or (0, 0, 0, 0)
-    return struct("ClrtPicture", width=width, height=height, left=left, top=top,
-                  crop_width=crop_width, crop_height=crop_height, camera=camera and camera._struct(),
-                  max_level=-1 if max_level == 0 else max_level, **settings)
+    rectangle = zip(("left", "top", "crop_width", "crop_height"), crop or (0, 0, 0, 0), strict=True)
+    return struct("ClrtPicture", width=width, height=height, camera=camera and camera._struct(),
+                  **dict(rectangle), max_level=-1 if max_level == 0 else max_level, **settings)
 
 
 def _explained(explanation, *place):
     """The part of an explanation at a place: numbers of a sample, a ray and a light."""
     kind, *parts = ("pixel", "sample", "ray", "light")[len(place):]
-    values = described("ClrtExplained" + kind.capitalize(), "explanation_get_" + kind, explanation,
+    values = result_of("explanation_get_" + kind, explanation,
                        *(place if len(place) < 2 else [place]))
     for part in parts[:1]:
         values[part + "s"] = [_explained(explanation, *place, i)
@@ -159,12 +149,8 @@ def _explained(explanation, *place):
 
 def devices() -> list[dict[str, Any]]:
     """The OpenCL devices, as dicts. "device" is the name for Renderer(device=)."""
-    count = ffi.new("uint32_t *")
-    call("device_count", count)
-    return [described("ClrtDevice", "device_get", i) for i in range(count[0])]
+    return [result_of("device_get", i) for i in range(result_of("device_count"))]
 
 
-@functools.cache
-def default_renderer() -> Renderer:
-    """The renderer of Scene.render, opened at the first call."""
-    return Renderer()
+# Returns the renderer of Scene.render, which the first call opens.
+default_renderer = functools.cache(Renderer)

@@ -3,15 +3,13 @@
 
 import dataclasses
 import os
-from typing import Any, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .library import ArgumentError, call, choice, described, ffi, lib, rows, struct, vector
-from .picture import Picture
-
-Vector = Sequence[float] | np.ndarray
+from .arrays import Picture, rows
+from .library import ArgumentError, call, choice, ffi, lib, result_of, struct, vector
 
 _MATERIALS = ("silhouette", "matte", "blinn_phong", "mirror")
 
@@ -21,17 +19,20 @@ class Camera:
     """A camera at `eye`. `fov` is its vertical field of view in degrees.
 
     If `height` is above 0, the camera is orthographic. Its pictures have this height in scene units.
+    Narrow pictures show at least `width` units, or in perspective `width_degrees`.
     """
 
-    eye: Vector
-    look_at: Vector = (0, 0, 0)
-    up: Vector = (0, 0, 1)
+    eye: ArrayLike
+    look_at: ArrayLike = (0, 0, 0)
+    up: ArrayLike = (0, 0, 1)
     fov: float = 45.0
     height: float = 0.0
+    width: float = 0.0
+    width_degrees: float = 0.0
 
     def _struct(self):
-        return struct("ClrtCamera", eye=self.eye, look_at=self.look_at, up=self.up,
-                      fov_degrees=self.fov, height=self.height)
+        members = dict(vars(self))
+        return struct("ClrtCamera", fov_degrees=members.pop("fov"), **members)
 
 
 class Scene:
@@ -40,19 +41,16 @@ class Scene:
     def __init__(self, handle: Any = None):
         self._handle = ffi.gc(handle or call("scene_create"), lib.clrt_scene_free)
 
-    def material(self, shading: str = "blinn_phong", *, diffuse: Vector = (1, 1, 1),
-                 specular: Vector = (1, 1, 1), kd: float = 0.8, ks: float = 0.5,
+    def material(self, shading: str = "blinn_phong", *, diffuse: ArrayLike = (1, 1, 1),
+                 specular: ArrayLike = (1, 1, 1), kd: float = 0.8, ks: float = 0.5,
                  shininess: float = 50.0, reflectivity: float = 0.0) -> int:
-        """Adds a material and returns its number.
+        """Adds a material and returns its number. clrt.h has the formula of its colors.
 
-        shading: "silhouette", "matte" or "blinn_phong". Colors are R G B in [0, 1]; clrt.h has the
-        formula.
+        shading: "silhouette", "matte" or "blinn_phong". Colors are R G B in [0, 1].
         """
-        number = ffi.new("uint32_t *")
         given = struct("ClrtMaterial", shading=shading, diffuse=diffuse, specular=specular, kd=kd,
                        ks=ks, shininess=shininess, reflectivity=reflectivity)
-        call("scene_add_material", self._handle, given, number)
-        return number[0]
+        return result_of("scene_add_material", self._handle, given)
 
     def mesh(self, vertices: ArrayLike, faces: ArrayLike, material: int | str = "matte", *,
              normals: ArrayLike | None = None, colors: ArrayLike | None = None,
@@ -60,11 +58,10 @@ class Scene:
         """Adds a mesh.
 
         vertices: (n, 3) numbers, kept as float64. faces: (m, 3) vertex numbers, counter-clockwise
-        seen from the front. normals: (n, 3), one per vertex. colors: (n, 3), R G B per vertex
-        instead of the material's diffuse color: uint8, uint16 or numbers in [0, 1]. smooth computes
-        normals that are missing; angles above `crease` degrees (33) stay sharp. Pictures show the
-        backs of two_sided meshes, too. material: a number that `material` returned, "silhouette",
-        "matte", "blinn_phong" or "mirror".
+        seen from the front. normals, colors: (n, 3), one per vertex. Colors replace the material's
+        diffuse color: uint8, uint16 or numbers in [0, 1]. smooth computes missing normals; angles
+        above `crease` degrees (33) stay sharp. two_sided meshes are also visible from behind.
+        material: "silhouette", "matte", "blinn_phong", "mirror" or the result of `material`.
         """
         vertices = rows(vertices, np.float64, "vertices", is_dense=True)
         faces = rows(faces, np.uint32, "faces", is_dense=True)
@@ -76,22 +73,22 @@ class Scene:
                        flat=normals is None and not smooth, crease_degrees=crease)
         call("scene_add_mesh", self._handle, given)
 
-    def sphere(self, center: Vector, radius: float, material: int | str = "matte") -> None:
+    def sphere(self, center: ArrayLike, radius: float, material: int | str = "matte") -> None:
         """Adds a sphere."""
-        center = vector(center, "center")
-        call("scene_add_sphere", self._handle, center, radius, _material(material))
+        call("scene_add_sphere", self._handle, vector(center, "center"), radius,
+             _material(material))
 
-    def light(self, position: Vector, intensity: float = 1.0, color: Vector = (1, 1, 1)) -> None:
+    def light(self, position: ArrayLike, intensity: float = 1.0,
+              color: ArrayLike = (1, 1, 1)) -> None:
         """Adds a point light without attenuation."""
         call("scene_add_colored_light", self._handle, vector(position, "position"), intensity,
              vector(color, "color"))
 
-    def camera(self, eye: Vector, look_at: Vector = (0, 0, 0), up: Vector = (0, 0, 1),
-               fov: float = 45.0, height: float = 0.0) -> None:
-        """Appends a view. Its number is len(scene.cameras). A height makes it orthographic."""
-        call("scene_add_camera", self._handle, Camera(eye, look_at, up, fov, height)._struct())
+    def camera(self, eye: ArrayLike, *settings: Any, **more: Any) -> None:
+        """Appends a Camera of these arguments as a view. Its number is len(scene.cameras)."""
+        call("scene_add_camera", self._handle, Camera(eye, *settings, **more)._struct())
 
-    def background(self, color: Vector) -> None:
+    def background(self, color: ArrayLike) -> None:
         """Sets the color of rays that hit nothing."""
         call("scene_set_background", self._handle, vector(color, "color"))
 
@@ -102,21 +99,18 @@ class Scene:
     @property
     def info(self) -> dict[str, Any]:
         """The counts of the scene's parts, and the size of its pictures, as a dict."""
-        return described("ClrtSceneInfo", "scene_get_info", self._handle)
+        return result_of("scene_get_info", self._handle)
 
     @property
     def cameras(self) -> list[Camera]:
         """The scene's views, as a list of Camera. View n is element n - 1."""
-        views = [described("ClrtCamera", "scene_get_camera", self._handle, i + 1)
+        views = [result_of("scene_get_camera", self._handle, i + 1)
                  for i in range(self.info["view_count"])]
-        return [Camera(view["eye"], view["look_at"], view["up"], view["fov_degrees"],
-                       view["height"])
-                for view in views]
+        return [Camera(fov=view.pop("fov_degrees"), **view) for view in views]
 
     def render(self, width: int = 0, height: int = 0, **settings: Any) -> Picture:
         """Draws the scene on the default device. See Renderer.render."""
         from .renderer import default_renderer
-
         return default_renderer().render(self, width, height, **settings)
 
 

@@ -21,27 +21,26 @@ class RayMeshIntersector:
         self._scene, self._state = None, None
 
     def _cast(self, kind, *arrays, **settings):
-        """The arrays as rows of three, and the result of the renderer's method for them."""
+        """The result of the renderer's method for the arrays as rows of three."""
         if self._state != hash(self.mesh):
             self._scene, self._state = Scene(), hash(self.mesh)
             self._scene.mesh(self.mesh.vertices, self.mesh.faces)
-        given = [np.asarray(array, np.float64).reshape(-1, 3) for array in arrays]
         method = getattr(self._renderer or default_renderer(), kind)
-        return *given, method(self._scene, *given, **settings)
+        return method(self._scene, *(np.reshape(array, (-1, 3)) for array in arrays), **settings)
 
     def intersects_id(self, ray_origins, ray_directions, multiple_hits=True, max_hits=None,
                       return_locations=False, **_):
         """The faces and the rays that hit them: index_tri, index_ray and, if asked, locations."""
-        origins, directions, hits = self._cast(
-            "trace_all" if multiple_hits else "trace", ray_origins, ray_directions,
-            results=("primitive", "face", "distance"))
+        kind = "trace_all" if multiple_hits else "trace"
+        hits = self._cast(kind, ray_origins, ray_directions, results=("face", "distance"))
         ray = hits.ray if multiple_hits else np.arange(len(hits.face))
         limit = np.inf if max_hits is None else max_hits
         keep = hits.hit & (np.arange(len(ray)) - np.searchsorted(ray, ray) < limit)
         face, ray = hits.face[keep].astype(np.int64), ray[keep]
         if not return_locations:
             return face, ray
-        return face, ray, origins[ray] + directions[ray] * hits.distance[keep, None]
+        paths = np.asarray(ray_directions).reshape(-1, 3)[ray] * hits.distance[keep, None]
+        return face, ray, np.asarray(ray_origins).reshape(-1, 3)[ray] + paths
 
     def intersects_location(self, ray_origins, ray_directions, **settings):
         """The points that rays hit, the rays and the faces: locations, index_ray, index_tri."""
@@ -51,13 +50,13 @@ class RayMeshIntersector:
 
     def intersects_first(self, ray_origins, ray_directions):
         """The first face that each ray hits, or -1."""
-        *_, hits = self._cast("trace", ray_origins, ray_directions, results=("face",))
-        return np.where(hits.face == NOTHING, -1, hits.face.astype(np.int64))
+        face = self._cast("trace", ray_origins, ray_directions, results=("face",)).face
+        return np.where(face == NOTHING, -1, face.astype(np.int64))
 
     def intersects_any(self, ray_origins, ray_directions):
         """Whether each ray hits the mesh."""
-        return self._cast("occluded", ray_origins, ray_directions)[-1]
+        return self._cast("occluded", ray_origins, ray_directions)
 
     def contains_points(self, points):
         """Whether each point is inside of the mesh, which must be closed."""
-        return self._cast("contains", points)[-1]
+        return self._cast("contains", points)

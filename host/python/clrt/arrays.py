@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: MIT
+"""Pictures, rays and hits as numpy arrays."""
+
+import functools
+import struct as binary
+import zlib
+from dataclasses import dataclass, field, fields
+from typing import Any, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .library import NOTHING, ArgumentError, ffi, lib, numbers, result_of, struct, threes
+
+
+class Picture(np.ndarray):
+    """A picture: a float32 array of shape (height, width, 3), R G B in [0, 1], top row first.
+
+    channels maps the names of the requested channels to arrays of shape (height, width) or
+    (height, width, components). result is a dict of ClrtResult in clrt.h.
+    """
+
+    channels: Mapping[str, np.ndarray] = {}
+    result: Mapping[str, Any] = {}
+
+    def __array_wrap__(self, array, *_):
+        return array.view(Picture) if array.ndim else array[()]
+
+    def _repr_png_(self) -> bytes | None:
+        """PNG bytes for notebooks, with the values that `clrt -o FILE.png` writes."""
+        if self.ndim != 3 or self.shape[2] != 3:
+            return None
+        height, width, _ = self.shape
+        lines = np.zeros((height, 1 + 3 * width), np.uint8)
+        lines[:, 1:] = np.rint(np.clip(self, 0, 1) * 255).reshape(height, -1)
+        header = binary.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+        parts = ((b"IHDR", header), (b"IDAT", zlib.compress(lines.tobytes())), (b"IEND", b""))
+        return b"\x89PNG\r\n\x1a\n" + b"".join(
+            binary.pack(">I", len(data)) + kind + data + binary.pack(">I", zlib.crc32(kind + data))
+            for kind, data in parts)
+
+
+@functools.cache
+def channel_kinds() -> dict[str, tuple[int, type, str]]:
+    """The channels that render can make: name -> (components, dtype, help)."""
+    kinds = [result_of("channel_get", i) for i in range(lib.clrt_channel_count())]
+    return {kind["name"]: (kind["components"], np.uint32 if kind["is_integer"] else np.float32,
+                           kind["help"]) for kind in kinds}
+
+
+def channel_array(name, shape):
+    """Zeros for a channel of a picture of this shape. The library rejects unknown names."""
+    components, dtype, _ = channel_kinds().get(name, (1, np.float32, ""))
+    return np.zeros(shape if components == 1 else (*shape, components), dtype)
+
+
+def hash(picture: ArrayLike) -> str:  # pylint: disable=redefined-builtin
+    """The 32 digits that `clrt SCENE --hash` prints for this picture."""
+    pixels = threes(np.ascontiguousarray(picture, np.float32), "the picture", "height", "width")
+    text = ffi.new("char[33]")
+    lib.clrt_hash(ffi.from_buffer("float[]", pixels), *pixels.shape[1::-1], text)
+    return ffi.string(text).decode()
+
+
+def compare(picture: ArrayLike, other: ArrayLike) -> dict[str, float]:
+    """The differences of two pictures of one size, as a dict: rmse, psnr, largest, pixels."""
+    a, b = np.asarray(picture, np.float64), np.asarray(other, np.float64)
+    if a.shape != b.shape:
+        raise ArgumentError(f"the pictures have the shapes {a.shape} and {b.shape}")
+    apart = np.abs(a - b)
+    rmse = np.sqrt(np.mean(apart**2))
+    psnr = -20 * np.log10(rmse) if rmse > 0 else np.inf
+    return {"rmse": float(rmse), "psnr": float(psnr), "largest": float(apart.max(initial=0)),
+            "pixels": int((apart > 0).any(-1).sum())}
+
+
+@dataclass
+class Hits:
+    """What rays hit. Arrays have one element per ray, or per crossing of trace_all.
+
+    distance: float64, in lengths of the ray's direction; infinity without a hit. primitive, mesh,
+    face: uint32. primitive is the number that `starts` and the channel of this name take: first
+    all spheres, then all faces but those with two corners at one place. mesh and face count from 0,
+    in the given order. Without a hit, and for the mesh and face of spheres, they are clrt.NOTHING.
+    weights: float64 (n, 2), of the face's second and third corner; u and v are its columns. normal:
+    float64 (n, 3), the unit normal of the front. front: bool, whether the ray comes from the front.
+    certain: bool, whether rounding cannot have changed the primitive; only on request, and not of
+    trace_all. ray: the rays' numbers, of trace_all only. Arrays that were not requested are None.
+    """
+
+    distance: np.ndarray | None = field(default=None, metadata={"distances": "f8"})
+    primitive: np.ndarray | None = field(default=None, metadata={"primitives": "u4"})
+    mesh: np.ndarray | None = field(default=None, metadata={"meshes": "u4"})
+    face: np.ndarray | None = field(default=None, metadata={"triangles": "u4"})
+    weights: np.ndarray | None = field(default=None, metadata={"weights": "2f8"})
+    normal: np.ndarray | None = field(default=None, metadata={"normals": "3f8"})
+    front: np.ndarray | None = field(default=None, metadata={"fronts": "?"})
+    certain: np.ndarray | None = field(default=None, metadata={"certain": "?"})
+    ray: np.ndarray | None = None
+
+    @property
+    def hit(self) -> np.ndarray:
+        """Which rays hit something, as bools, from distance or primitive."""
+        if self.primitive is None and self.distance is None:
+            raise ArgumentError("neither 'distance' nor 'primitive' was requested")
+        return np.isfinite(self.distance) if self.primitive is None else self.primitive != NOTHING
+
+    u = property(lambda self: self.weights[:, 0])
+    v = property(lambda self: self.weights[:, 1])
+
+
+_ARRAYS = {array.name: item for array in fields(Hits) for item in array.metadata.items()}
+RESULTS = tuple(name for name in _ARRAYS if name != "certain")
+
+
+def rays(origins, directions, *, near=None, far=None, starts=None, **settings):
+    """A ClrtRays. Renderer.trace describes the arguments. The settings are further members."""
+    origins, directions = np.asarray(origins), np.asarray(directions)
+    shape = max(origins.shape, directions.shape, key=len)
+    origins, directions = (
+        rows(np.broadcast_to(array, shape) if array.ndim == 1 else array, np.float64, what)
+        for array, what in ((origins, "origins"), (directions, "directions")))
+    count = len(origins)
+    if len(directions) != count:
+        raise ArgumentError(f"there are {count} origins, but {len(directions)} directions")
+    limits = {"nears": (near, np.float64), "fars": (far, np.float64), "starts": (starts, np.uint32)}
+    settings |= {name: np.ascontiguousarray(np.broadcast_to(numbers(values, dtype, name), count))
+                 for name, (values, dtype) in limits.items() if values is not None}
+    return struct("ClrtRays", count=count, origins=origins, origin_stride=origins.strides[0],
+                  directions=directions, direction_stride=directions.strides[0], **settings)
+
+
+def hit_arrays(results, count, room=1):
+    """Arrays for the results of `count` rays with `room` hits each: ClrtHits, name -> array."""
+    for unknown in set(results) - set(_ARRAYS):
+        raise ArgumentError(f"{unknown!r} is not one of {', '.join(_ARRAYS)}")
+    arrays = {name: np.empty(count * room, _ARRAYS[name][1]) for name in results}
+    members = {_ARRAYS[name][0]: array for name, array in arrays.items()}
+    return struct("ClrtHits", room=room, **members), arrays
+
+
+def rows(values, dtype, what, is_dense=False):
+    """An array of the shape (n, 3), each row in one place. Copies only if it must."""
+    made = threes(numbers(values, dtype, what), what, "n")
+    size, (row, column) = made.itemsize, made.strides
+    is_in_rows = column == size and row >= 3 * size and made.flags.aligned
+    return made if is_in_rows and (row == 3 * size or not is_dense) else made.copy()
