@@ -14,7 +14,8 @@
 // Processes one mesh object at a time. Threads process chunks of its triangles.
 
 typedef struct {
-    const MeshObject *object;
+    const Mesh *mesh;
+    uint32_t material;      // with TRIANGLE_TWO_SIDED if the object is
     const uint8_t *orders;  // the object's section of Triangles::orders
     TriangleLook *looks;    // the object's section of FlatScene::looks
     CornerNormals *normals; // its section of FlatScene::normals; NULL for flat shading
@@ -85,14 +86,12 @@ static void store_colors(CornerColors *data, const Mesh *mesh, const uint32_t *t
 static void make_chunk(void *context, uint32_t first, uint32_t end)
 {
     const ObjectLooks *looks = context;
-    const MeshObject *object = looks->object;
-    const Mesh *mesh = &object->mesh;
-    const uint32_t material = object->material | (object->two_sided ? TRIANGLE_TWO_SIDED : 0);
+    const Mesh *mesh = looks->mesh;
     const bool smooth = looks->normals != NULL, colored = looks->colors != NULL;
     for (uint32_t i = first; i < end; i++) {
         const uint32_t *triangle = mesh->triangles[i];
         const CornerOrder *order = &corner_orders[looks->orders[i]];
-        looks->looks[i].material = material | (order->reversed ? TRIANGLE_REVERSED : 0);
+        looks->looks[i].material = looks->material | (order->reversed ? TRIANGLE_REVERSED : 0);
         looks->looks[i].shading = smooth ? looks->first_normals + i : NOTHING;
         if (smooth)
             store_normals(&looks->normals[i], mesh, triangle, order);
@@ -128,7 +127,9 @@ static bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *er
         const MeshObject *object = &scene->objects.data[i];
         const uint32_t count = (uint32_t)object->mesh.triangle_count;
         const bool smooth = object->mesh.normals != NULL, colored = object->mesh.colors != NULL;
-        ObjectLooks looks = {object,
+        const bool two_sided = object->two_sided || source->is_two_sided;
+        ObjectLooks looks = {&object->mesh,
+                             object->material | (two_sided ? TRIANGLE_TWO_SIDED : 0),
                              source->triangles->orders + first,
                              flat->looks + first,
                              smooth ? flat->normals + flat->normals_count : NULL,
@@ -276,7 +277,8 @@ bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *
                                     .bvh = source->has_tree ? &used->bvh : &none,
                                     .normalization = source->normalization,
                                     .layout = source->layout,
-                                    .pool = source->pool};
+                                    .pool = source->pool,
+                                    .is_two_sided = source->is_two_sided};
     *stages = (CompileStages){0};
     return (source->given != NULL || make_stages(stages, source, error)) &&
            flat_make(flat, &flat_source, error);

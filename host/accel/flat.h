@@ -37,8 +37,9 @@ typedef struct {
     const Normalization *normalization; // of the scene
     NodeLayout layout;
     BvhBuilder builder;
-    bool has_tree;    // false: rays test every triangle
-    ThreadPool *pool; // NULL for the caller's thread only
+    bool has_tree;     // false: rays test every triangle
+    ThreadPool *pool;  // NULL for the caller's thread only
+    bool is_two_sided; // as in FlatSource
 } CompileSource;
 
 // Fills *flat, which must be {0}, and *stages, which stays empty if stages are given. The caller

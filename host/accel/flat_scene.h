@@ -37,5 +37,6 @@ typedef struct {
     const Bvh *bvh;
     const Normalization *normalization; // of the scene
     NodeLayout layout;
-    ThreadPool *pool; // NULL for the caller's thread only
+    ThreadPool *pool;  // NULL for the caller's thread only
+    bool is_two_sided; // all meshes are; otherwise, each object decides
 } FlatSource;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays hit one-sided triangles from behind too, unless a request says otherwise. For such rays, the
-// scene is compiled from a copy whose meshes are all two-sided.
+// Rays hit one-sided triangles from behind too, unless a request says otherwise. For such rays, all
+// meshes of the compiled scene are two-sided.
 #include "session/ray_scene.h"
 
 #include <stdlib.h>
@@ -15,35 +15,20 @@ void ray_scene_free(RayScene *ray_scene)
     *ray_scene = (RayScene){0};
 }
 
-static bool compile(RayScene *ray_scene, const Session *session, const Scene *scene,
-                    NodeLayout layout, Error *error)
+static bool compile(RayScene *ray_scene, const Session *session, NodeLayout layout, bool one_sided,
+                    Error *error)
 {
     CompileStages stages = {0};
     const bool has_tree =
         session->settings.wanted.tree != CLRT_TREE_NONE && session_wants_tree(session, layout);
-    CompileSource source = {.scene = scene, .layout = layout, .has_tree = has_tree};
+    CompileSource source = {.scene = session->scene.scene,
+                            .layout = layout,
+                            .has_tree = has_tree,
+                            .is_two_sided = !one_sided};
     const bool ok = session_compile(session, &source, &ray_scene->flat, &stages, error);
     ray_scene->triangles = stages.triangles;
     stages.triangles = (Triangles){0};
     compile_stages_free(&stages);
-    return ok;
-}
-
-// The copy borrows everything but the list of its objects.
-static bool compile_both_sides(RayScene *ray_scene, const Session *session, NodeLayout layout,
-                               Error *error)
-{
-    Scene both = *session->scene.scene;
-    const size_t count = both.objects.count;
-    both.objects.data = memory_raw(count, sizeof *both.objects.data, error);
-    if (both.objects.data == NULL)
-        return false;
-    for (size_t i = 0; i < count; i++) {
-        both.objects.data[i] = session->scene.scene->objects.data[i];
-        both.objects.data[i].two_sided = true;
-    }
-    const bool ok = compile(ray_scene, session, &both, layout, error);
-    free(both.objects.data);
     return ok;
 }
 
@@ -97,9 +82,8 @@ bool ray_scene_take(RayScene *ray_scene, Session *session, NodeLayout layout, bo
         return true;
     ray_scene_free(ray_scene);
     const bool ok =
-        (one_sided ? compile(ray_scene, session, scene, layout, error)
-                   : compile_both_sides(ray_scene, session, layout, error)) &&
-        find_places(ray_scene, error) && list_meshes(ray_scene, scene, error) &&
+        compile(ray_scene, session, layout, one_sided, error) && find_places(ray_scene, error) &&
+        list_meshes(ray_scene, scene, error) &&
         scene_buffers_make(&ray_scene->buffers, &session->device, &ray_scene->flat, error);
     if (!ok)
         ray_scene_free(ray_scene);
