@@ -92,8 +92,8 @@ class Hits:
     primitive: np.ndarray | None = field(default=None, metadata={"primitives": "u4"})
     mesh: np.ndarray | None = field(default=None, metadata={"meshes": "u4"})
     face: np.ndarray | None = field(default=None, metadata={"triangles": "u4"})
-    weights: np.ndarray | None = field(default=None, metadata={"weights": "2f8"})
-    normal: np.ndarray | None = field(default=None, metadata={"normals": "3f8"})
+    weights: np.ndarray | None = field(default=None, metadata={"weights": np.dtype("2f8")})
+    normal: np.ndarray | None = field(default=None, metadata={"normals": np.dtype("3f8")})
     front: np.ndarray | None = field(default=None, metadata={"fronts": "?"})
     certain: np.ndarray | None = field(default=None, metadata={"certain": "?"})
     ray: np.ndarray | None = None
