@@ -168,8 +168,7 @@ static void flatten_sphere(SphereData *data, const Sphere *sphere,
 
 static void flatten_light(PointLight *data, const Light *light, const Normalization *normalization)
 {
-    const Vec3 position = normalize_point(normalization, light->position);
-    vec3_store(data->position, position);
+    vec3_store(data->position, normalize_light(normalization, light));
     data->intensity = (float)light->intensity;
     vec3_store(data->color, light->color);
 }

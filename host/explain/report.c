@@ -166,9 +166,10 @@ static void print_light(const ExplainReport *report, const ExplainedRay *ray, si
                         const json_t *light, FILE *stream)
 {
     const ClrtLightState state = ray->lights[index].state;
+    const bool is_sun = report->scene->lights.data[index].is_sun;
     const bool shines =
         report->scene->materials.data[ray->found.material].shader == SHADER_BLINN_PHONG;
-    fprintf(stream, "    light %-4zu ", index + 1);
+    fprintf(stream, "    %s %-4zu ", is_sun ? "sun  " : "light", index + 1);
     switch (state) {
     case CLRT_LIGHT_BEHIND:
         fputs("does not reach it: the normal is turned away", stream);
@@ -179,11 +180,13 @@ static void print_light(const ExplainReport *report, const ExplainedRay *ray, si
     case CLRT_LIGHT_BLOCKED:
         fputs("is blocked by ", stream);
         print_primitive(report, json_object_get(light, "blocker"), stream);
-        print(report, light, ", {blocker_distance .6g} away; the light is {distance .6g} away", "",
-              stream);
+        print(report, light, ", {blocker_distance .6g} away", "", stream);
+        if (!is_sun)
+            print(report, light, "; the light is {distance .6g} away", "", stream);
         break;
     case CLRT_LIGHT_REACHES:
-        print(report, light, "reaches it from {distance .6g} away", "reaches it", stream);
+        print(report, light, is_sun ? "reaches it" : "reaches it from {distance .6g} away",
+              "reaches it", stream);
         break;
     }
     print(report, light, "; cosine {cosine .6g}", "", stream);

@@ -135,6 +135,11 @@ CLRT_API bool clrt_scene_add_colored_light(ClrtScene *scene, const double positi
                                            double intensity, const double color[3],
                                            ClrtError *error);
 
+// Adds a light that is infinitely far away. direction points toward it and must not be zero; its
+// length has no effect. The other arguments are those of clrt_scene_add_colored_light.
+CLRT_API bool clrt_scene_add_sun(ClrtScene *scene, const double direction[3], double intensity,
+                                 const double color[3], ClrtError *error);
+
 typedef struct {
     size_t size;
     double eye[3], look_at[3];
@@ -536,7 +541,8 @@ typedef struct {
     ClrtLightState state;
     uint32_t blocker; // the primitive of CLRT_LIGHT_BLOCKED; otherwise CLRT_NOTHING
     double cosine;    // between the normal and the direction to the light
-    double distance, blocker_distance;
+    double distance;  // INFINITY for a sun
+    double blocker_distance;
     // Zero unless the light reaches the point.
     double diffuse;  // intensity * cosine
     double specular; // intensity * (normal . half vector) ^ shininess

@@ -61,18 +61,37 @@ bool clrt_scene_add_light(ClrtScene *scene, const double position[3], double int
     return clrt_scene_add_colored_light(scene, position, intensity, white, error);
 }
 
+static bool add_light(ClrtScene *scene, const Light *light, ClrtError *error)
+{
+    Error cause = {0};
+    const bool ok = array_push(&scene->scene.lights, *light, &cause);
+    return scene_handle_changed(scene, ok, &cause, error);
+}
+
 bool clrt_scene_add_colored_light(ClrtScene *scene, const double position[3], double intensity,
                                   const double color[3], ClrtError *error)
 {
-    Error cause = {0};
+    return check_given(error, "the scene", scene) &&
+           check_vector(error, "the position", position, COORDINATE_MOST) &&
+           check_number(error, "the intensity", intensity, 0, INTENSITY_MOST) &&
+           check_color(error, "the light's color", color) &&
+           add_light(scene,
+                     &(Light){vec3_of_doubles(position), intensity, vec3_of_doubles(color), false},
+                     error);
+}
+
+bool clrt_scene_add_sun(ClrtScene *scene, const double direction[3], double intensity,
+                        const double color[3], ClrtError *error)
+{
     if (!check_given(error, "the scene", scene) ||
-        !check_vector(error, "the position", position, COORDINATE_MOST) ||
+        !check_vector(error, "the direction", direction, COORDINATE_MOST) ||
         !check_number(error, "the intensity", intensity, 0, INTENSITY_MOST) ||
-        !check_color(error, "the light's color", color))
+        !check_color(error, "the sun's color", color))
         return false;
-    const Light light = {vec3_of_doubles(position), intensity, vec3_of_doubles(color)};
-    const bool ok = array_push(&scene->scene.lights, light, &cause);
-    return scene_handle_changed(scene, ok, &cause, error);
+    const Light sun = {vec3_of_doubles(direction), intensity, vec3_of_doubles(color), true};
+    if (vec3_extent(sun.position) == 0)
+        return check_fail(error, CLRT_ARGUMENT, "the direction of a sun must not be zero");
+    return add_light(scene, &sun, error);
 }
 
 // Fails unless the angles of a perspective camera, or the sides of an orthographic one, are valid.

@@ -203,9 +203,9 @@ const char mesh_scene_studio[] =
 
 // A key light from the left, a fill light from the right and a light from behind, as seen by the
 // first camera. The vectors are positions relative to the meshes, in units of LIGHT_DISTANCE.
-static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}},
-                                {{26, -14, 18}, 0.20, {0.9, 0.95, 1}},
-                                {{-8, 26, 16}, 0.30, {1, 1, 1}}};
+static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}, false},
+                                {{26, -14, 18}, 0.20, {0.9, 0.95, 1}, false},
+                                {{-8, 26, 16}, 0.30, {1, 1, 1}, false}};
 
 // Sizes in radii of the meshes. The floor is the top of a sphere that is too large to look curved.
 // The lights are so distant that the floor has the even color of the background, and no horizon is

@@ -48,6 +48,12 @@ Vec3 normalize_point(const Normalization *normalization, Vec3 point)
     return vec3_scale(vec3_sub(point, normalization->center), normalization->scale);
 }
 
+Vec3 normalize_light(const Normalization *normalization, const Light *light)
+{
+    return light->is_sun ? vec3_scale(vec3_normalize(light->position), SUN_DISTANCE)
+                         : normalize_point(normalization, light->position);
+}
+
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point)
 {
     return vec3_add(vec3_scale(point, 1 / normalization->scale), normalization->center);
@@ -75,7 +81,8 @@ static bool sphere_fits(const Normalization *normalization, const Sphere *sphere
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error)
 {
     for (size_t i = 0; i < scene->lights.count; i++)
-        if (!is_near(normalization, scene->lights.data[i].position))
+        if (!scene->lights.data[i].is_sun &&
+            !is_near(normalization, scene->lights.data[i].position))
             return error_set(error, "light %zu is more than 5e11 times the scene's size away",
                              i + 1);
     for (size_t i = 0; i < scene->viewpoints.count; i++)

@@ -30,6 +30,14 @@ double scene_extent(const Scene *scene);
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 
+// The normalized distance of a sun, the largest that the kernels allow. Within the normalized box,
+// the direction to it changes by less than 2^-39, far below the rounding of fp32. A sun needs no
+// kernel of its own then.
+#define SUN_DISTANCE 0x1p40
+
+// Returns the normalized position of a light or sun.
+Vec3 normalize_light(const Normalization *normalization, const Light *light);
+
 // Returns the scene coordinates of a normalized point.
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 

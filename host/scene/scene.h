@@ -22,14 +22,15 @@
 enum { MESH_CLAY = COURSE_MATERIALS, MESH_FLOOR, MESH_OWN_MATERIALS };
 
 typedef struct {
-    Vec3 position;
+    Vec3 position;    // of a sun: a vector toward it, not 0
     double intensity; // 0 or more; lights do not attenuate
     Vec3 color;       // each component in [0, 1]
+    bool is_sun;      // infinitely far away
 } Light;
 
 static inline Light light_white(Vec3 position, double intensity)
 {
-    return (Light){position, intensity, {1, 1, 1}};
+    return (Light){position, intensity, {1, 1, 1}, false};
 }
 
 typedef struct {

@@ -23,7 +23,8 @@ typedef struct {
     Error *error;
 } Parser;
 
-static bool read_light(Parser *parser)
+// Reads a light. Of a sun, the first three numbers are a vector toward it.
+static bool read_light_or_sun(Parser *parser, bool is_sun)
 {
     double position[3], intensity, color[3] = {1, 1, 1};
     Tokens *tokens = &parser->tokens;
@@ -32,8 +33,20 @@ static bool read_light(Parser *parser)
     const bool is_colored = ok && tokens_have_more(tokens);
     for (int i = 0; is_colored && ok && i < 3; i++)
         ok = tokens_number_within(tokens, &color[i], 0, 1);
-    const Light light = {vec3_of_doubles(position), intensity, vec3_of_doubles(color)};
+    const Light light = {vec3_of_doubles(position), intensity, vec3_of_doubles(color), is_sun};
+    if (ok && is_sun && vec3_extent(light.position) == 0)
+        return tokens_fail(tokens, tokens->last, "the direction of a sun must not be zero");
     return ok && array_push(&parser->scene->lights, light, parser->error);
+}
+
+static bool read_light(Parser *parser)
+{
+    return read_light_or_sun(parser, false);
+}
+
+static bool read_sun(Parser *parser)
+{
+    return read_light_or_sun(parser, true);
 }
 
 static bool read_sphere(Parser *parser)
@@ -204,6 +217,7 @@ static const struct {
     {"sides", "sides one|two", read_sides},
     {"size", "size WIDTH HEIGHT", read_size},
     {"sphere", "sphere X Y Z RADIUS", read_sphere},
+    {"sun", "sun X Y Z INTENSITY [R G B]", read_sun},
     {"up", "up X Y Z", read_up},
 };
 #define STATEMENT_COUNT (sizeof statements / sizeof statements[0])

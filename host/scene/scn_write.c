@@ -244,7 +244,7 @@ static void write_lights(const Writer *writer)
 {
     for (size_t i = 0; i < writer->scene->lights.count; i++) {
         const Light *light = &writer->scene->lights.data[i];
-        fputs("light", writer->stream);
+        fputs(light->is_sun ? "sun" : "light", writer->stream);
         write_vector(writer->stream, light->position);
         write_number(writer->stream, light->intensity);
         if (light->color.x < 1 || light->color.y < 1 || light->color.z < 1)

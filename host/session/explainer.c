@@ -124,14 +124,16 @@ static void take_light(ClrtExplainedLight *light, const Notes *level, uint32_t i
     const Explainer *explainer = level->explainer;
     const Notes notes = {explainer, level->value + LEVEL_VALUES + (size_t)index * LIGHT_VALUES,
                          level->word + LEVEL_WORDS + (size_t)index * LIGHT_WORDS};
-    const Vec3 apart = vec3_sub(explainer->scene->lights.data[index].position, point);
+    const Light *source = &explainer->scene->lights.data[index];
+    const double traced = source->is_sun ? SUN_DISTANCE / explainer->normalization->scale
+                                         : length_of(vec3_sub(source->position, point));
     *light = (ClrtExplainedLight){.state = (ClrtLightState)noted_word(&notes, LIGHT_STATE),
                                   .blocker = NOTHING,
                                   .cosine = number_at(&notes, LIGHT_COSINE),
-                                  .distance = length_of(apart)};
+                                  .distance = source->is_sun ? (double)INFINITY : traced};
     if (light->state == CLRT_LIGHT_BLOCKED) {
         light->blocker = noted_word(&notes, LIGHT_BLOCKER);
-        light->blocker_distance = fmax(number_at(&notes, LIGHT_BLOCKER_T), 0) * light->distance;
+        light->blocker_distance = fmax(number_at(&notes, LIGHT_BLOCKER_T), 0) * traced;
     }
     if (light->state == CLRT_LIGHT_REACHES) {
         light->diffuse = number_at(&notes, LIGHT_DIFFUSE);

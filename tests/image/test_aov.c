@@ -122,6 +122,7 @@ TEST(channels_of_small_scenes_are_what_the_oracle_sees)
     check(SOURCE_SCENE("scenes/silhouette.scn"), 4);
     check(SOURCE_SCENE("tests/image/every_feature.scn"), 1);
     check(SOURCE_SCENE("tests/image/orthographic.scn"), 1);
+    check(SOURCE_SCENE("tests/image/suns.scn"), 1);
 }
 
 TEST(channels_of_a_mesh_are_what_the_oracle_sees)

@@ -6,6 +6,7 @@
 
 static const double background[3] = {0.25, 0.5, 0.75}, ambient = 0.125;
 static const double lights[2][7] = {{3, -4, 6, 0.8, 1, 1, 1}, {-5, -2, 4.1, 0.4, 0.2, 1, 0.5}};
+static const double sun[7] = {0.5, 1, 0.75, 0.3, 1, 0.8, 0.6};
 static const double spheres[2][4] = {{0, 0, 1.1, 1}, {1.5, -0.5, 0.4, 0.4}};
 static const uint32_t sphere_materials[2] = {4, CLRT_MATERIAL_MIRROR};
 
@@ -79,6 +80,7 @@ ClrtScene *filled_make(void)
         assert_true(clrt_scene_add_material(scene, &materials[i], &number, NULL));
         assert_int_equal(number, 4 + i);
     }
+    assert_true(clrt_scene_add_sun(scene, sun, sun[3], &sun[4], NULL));
     for (int i = 0; i < 2; i++) {
         assert_true(
             clrt_scene_add_sphere(scene, spheres[i], spheres[i][3], sphere_materials[i], NULL));

@@ -79,7 +79,7 @@ TEST(the_info_counts_the_added_objects)
     assert_int_equal(info.height, 512);
     assert_int_equal(info.max_level, 3);
     assert_int_equal(info.view_count, 2);
-    assert_int_equal(info.light_count, 2);
+    assert_int_equal(info.light_count, 3);
     assert_int_equal(info.material_count, 6);
     assert_int_equal(info.sphere_count, 2);
     assert_int_equal(info.triangle_count, 5);

@@ -83,8 +83,8 @@ static void expect_channels(const ClrtExplanation *explanation, uint32_t primiti
     }
     if (primitive == NOTHING)
         return;
-    assert_int_equal(ray.light_count, 2);
-    assert_true(fabsf((float)reached / 2 - shadow) < 1e-6f);
+    assert_int_equal(ray.light_count, 3);
+    assert_true(fabsf((float)reached / 3 - shadow) < 1e-6f);
     for (int axis = 0; axis < 3; axis++)
         assert_true(fabs(ray.point[axis] - (double)position[axis]) < 1e-5);
 }
@@ -134,8 +134,8 @@ TEST(parts_that_do_not_exist_are_refused)
     REFUSES(clrt_explanation_get_pixel(explanation, NULL, &error), "the pixel is NULL");
     REFUSES(clrt_explanation_get_sample(explanation, 1, &sample, &error), "no sample 1");
     REFUSES(clrt_explanation_get_ray(explanation, (uint32_t[]){0, 9}, &ray, &error), "no ray 9");
-    REFUSES(clrt_explanation_get_light(explanation, (uint32_t[]){0, 0, 2}, &light, &error),
-            "no light 2");
+    REFUSES(clrt_explanation_get_light(explanation, (uint32_t[]){0, 0, 3}, &light, &error),
+            "no light 3");
     REFUSES(clrt_explanation_get_ray(NULL, (uint32_t[]){0, 0}, &ray, &error),
             "the explanation is NULL");
     clrt_explanation_free(explanation);

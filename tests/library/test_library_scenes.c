@@ -51,6 +51,9 @@ TEST(null_arguments_are_named)
     REFUSES(clrt_scene_add_light(scene, NULL, 1, &error), "the position is NULL");
     REFUSES(clrt_scene_add_colored_light(scene, three, 1, NULL, &error),
             "the light's color is NULL");
+    REFUSES(clrt_scene_add_sun(scene, NULL, 1, three, &error), "the direction is NULL");
+    REFUSES(clrt_scene_add_sun(scene, (const double[3]){0}, 1, (const double[3]){1, 1, 1}, &error),
+            "the direction of a sun must not be zero");
     REFUSES(clrt_scene_add_camera(NULL, &filled_cameras[0], &error), "the scene is NULL");
     REFUSES(clrt_scene_add_camera(scene, NULL, &error), "the camera is NULL");
     REFUSES(clrt_scene_set_background(NULL, three, &error), "the scene is NULL");

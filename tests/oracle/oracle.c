@@ -84,10 +84,10 @@ typedef struct {
 
 static OracleLight see_light(const Oracle *oracle, const OracleSurface *surface, const Light *light)
 {
-    const Vec3 apart = vec3_sub(light->position, surface->point);
+    const Vec3 apart = light->is_sun ? light->position : vec3_sub(light->position, surface->point);
     const Vec3 toward = vec3_normalize(apart);
-    const OracleRay ray = {surface->point, toward, surface->near, sqrt(vec3_dot(apart, apart)),
-                           surface->id};
+    const double distance = light->is_sun ? (double)INFINITY : sqrt(vec3_dot(apart, apart));
+    const OracleRay ray = {surface->point, toward, surface->near, distance, surface->id};
     const double cosine = vec3_dot(surface->normal, toward);
     const bool shines = cosine > 0 && !surface_blocks(surface, toward) &&
                         meet_spheres(oracle->scene, &ray).id == NOTHING &&

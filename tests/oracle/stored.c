@@ -92,7 +92,12 @@ bool stored_round(Scene *scene, const Normalization *normalization, Error *error
 {
     for (size_t i = 0; i < scene->lights.count; i++) {
         Light *light = &scene->lights.data[i];
-        light->position = rounded_point(normalization, light->position);
+        if (light->is_sun) {
+            const Vec3 unit = vec3_normalize(light->position);
+            light->position = vec3(rounded(unit.x), rounded(unit.y), rounded(unit.z));
+        } else {
+            light->position = rounded_point(normalization, light->position);
+        }
         light->intensity = rounded(light->intensity);
         light->color =
             vec3(rounded(light->color.x), rounded(light->color.y), rounded(light->color.z));

@@ -58,6 +58,15 @@ TEST(spheres_take_the_material_before_them)
     assert_true(scene.materials.data[3].reflectivity == 0.25f);
 }
 
+TEST(suns_are_lights_with_a_direction)
+{
+    FREED_BY(scene_free) Scene scene = parsed("light 1 2 3 0.5\nsun 0 -3 4 0.5 0.25 1 0");
+    const Light *sun = &scene.lights.data[1];
+    assert_int_equal(scene.lights.count, 2);
+    assert_true(!scene.lights.data[0].is_sun && sun->is_sun);
+    assert_true(sun->position.y == -3 && sun->intensity == 0.5 && sun->color.x == 0.25);
+}
+
 TEST(lights_are_white_or_have_a_color_and_the_last_line_needs_no_line_end)
 {
     FREED_BY(scene_free) Scene scene = parsed("light 1 2 3 0.5\nlight 1 2 3 0.5 0.25 1 0");
@@ -166,6 +175,7 @@ TEST(different_scenes_have_different_hashes)
 
 #define STATEMENT "; the statement is "
 #define LIGHT     STATEMENT "'light X Y Z INTENSITY [R G B]'"
+#define SUN       STATEMENT "'sun X Y Z INTENSITY [R G B]'"
 #define SPHERE    STATEMENT "'sphere X Y Z RADIUS'"
 #define DEFINE    STATEMENT "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'"
 #define NORMALS   STATEMENT "'normals flat|smooth [DEGREES]'"
@@ -186,9 +196,12 @@ TEST(faults_name_line_column_and_the_statement)
         {"light 0 0 0 1 1 0", "1:18: expected a number: found the end of the line" LIGHT},
         {"light 0 0 0 1 1 0 1.5", "1:19: expected a number between 0 and 1: found '1.5'" LIGHT},
         {"light 0 0 0 1 1 1 1 1", "1:21: expected nothing more: found '1'" LIGHT},
+        {"sun 0 0 0 1", "1:11: the direction of a sun must not be zero: found '1'" SUN},
+        {"sun 0 0 1 1 2", "1:13: expected a number between 0 and 1: found '2'" SUN},
         {"spheer 0 0 0 1", "1:1: unknown statement (did you mean 'sphere'?): found 'spheer'"},
         {"??", "1:1: expected a statement (ambient, background, camera, define, light, material, "
-               "max_level, mesh, normals, ply_file, sides, size, sphere, up): found '\?\?'"},
+               "max_level, mesh, normals, ply_file, sides, size, sphere, sun, "
+               "up): found '\?\?'"},
         {"define gold matte\nmaterial gild",
          "2:10: undefined material (did you mean 'gold'?): found 'gild'" STATEMENT
          "'material NUMBER|NAME|own [NUMBER|NAME]'"},

@@ -26,7 +26,11 @@ static void expect_same_materials(const Scene *a, uint32_t left, const Scene *b,
 static void expect_same(const Scene *a, const Scene *b)
 {
     assert_int_equal(a->lights.count, b->lights.count);
-    assert_memory_equal(a->lights.data, b->lights.data, a->lights.count * sizeof *a->lights.data);
+    for (size_t i = 0; i < a->lights.count; i++) {
+        const Light *one = &a->lights.data[i], *other = &b->lights.data[i];
+        assert_memory_equal(one, other, offsetof(Light, is_sun));
+        assert_int_equal(one->is_sun, other->is_sun);
+    }
     assert_int_equal(a->viewpoints.count, b->viewpoints.count);
     assert_memory_equal(a->viewpoints.data, b->viewpoints.data,
                         a->viewpoints.count * sizeof *a->viewpoints.data);
@@ -56,6 +60,7 @@ TEST(every_statement_comes_back)
         "camera 1 2 3.3333333333333335 0 0 0 33.3\nup 0 1 0.1\ncamera 9 9 9 0 0 0 60 70.1\n"
         "camera 9 9 8 0 0 0 orthographic 0.1\ncamera 9 9 7 0 0 0 orthographic 3.3 4.4\n"
         "light 0.1 1e29 -1e-29 0.3\nlight 0 0 0 1 0.1 1 0.30000000000000004\n"
+        "sun 0.1 -1e29 1e-29 0.3\nsun 0 0 1 0 0.1 1 0.2\n"
         "define gold blinn_phong diffuse 1 .8 .2 shininess 200.5 reflectivity .3 ks 3.3 kd 0.7\n"
         "define \"my wax\" matte diffuse 0.1 0.2 0.3 kd 0.9\ndefine \"#a\" silhouette\n"
         "sphere 0.1 0.2 0.3 1e-7\nmaterial gold\nsphere 1 2 3 4\nmaterial 3\nsphere 5 6 7 8\n"

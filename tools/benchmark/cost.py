@@ -29,7 +29,7 @@ def scene_paths(names):
 def without_lights(scene, folder):
     dark = pathlib.Path(folder) / f"{scene.parent.name}-{scene.name}"
     lines = [line for line in scenes.with_absolute_paths(scene).splitlines()
-             if line.split()[:1] != ["light"]]
+             if line.split()[:1] not in (["light"], ["sun"])]
     dark.write_text("\n".join(lines) + "\n")
     return dark
 

@@ -85,12 +85,20 @@ def light_of(words):
     return f"light_source {{ {vector(words[:3])} rgb {vector(color)} }}"
 
 
+def sun_of(words):
+    length = math.dist((0, 0, 0), list(map(float, words[:3])))
+    far = [f"{1e6 * float(word) / length:.9g}" for word in words[:3]]
+    return f"{light_of([*far, *words[3:]])[:-1]} parallel point_at 0 }}"
+
+
 def objects_of(text, ambient):
     """Yields POV-Ray's lights, meshes and spheres. POV-Ray shows both sides of all meshes."""
     textures, texture = {}, None
     for name, words in statements(text):
         if name == "light":
             yield light_of(words)
+        elif name == "sun":
+            yield sun_of(words)
         elif name == "define":
             textures[words[0]] = finish_of(words[1:], ambient)
         elif name == "material" and words[0] in textures:

@@ -79,10 +79,10 @@ class Scene:
              _material(material))
 
     def light(self, position: ArrayLike, intensity: float = 1.0,
-              color: ArrayLike = (1, 1, 1)) -> None:
-        """Adds a point light without attenuation."""
-        call("scene_add_colored_light", self._handle, vector(position, "position"), intensity,
-             vector(color, "color"))
+              color: ArrayLike = (1, 1, 1), is_sun: bool = False) -> None:
+        """Adds a light without attenuation. A sun is infinitely far away, toward the position."""
+        call("scene_add_sun" if is_sun else "scene_add_colored_light", self._handle,
+             vector(position, "position"), intensity, vector(color, "color"))
 
     def camera(self, eye: ArrayLike, *settings: Any, **more: Any) -> None:
         """Appends a Camera of these arguments as a view. Its number is len(scene.cameras)."""
