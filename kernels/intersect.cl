@@ -71,19 +71,25 @@ static inline Mask meet_spheres(const Tracer *tracer, const Ray *ray, Hit *hit)
         return 0;
     if (CLRT_SPHERES && tracer->frame->sphere_count != 0)
         intersect_spheres(tracer, ray, hit);
-    return is_searchable(ray);
+    const Mask searching = is_searchable(ray);
+    return ends_at_any_hit(ray->kind) ? searching && hit->id == NOTHING : searching;
 }
 
-// Finds the hits of `count` packets, at most PACKETS.
-static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
+// Finds the hits of `count` packets, at most PACKETS, before the distances in `hits`.
+static inline void hits_before(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
     Mask searching[PACKETS];
-    for (uint i = 0; i < count; i++) {
-        hits[i] = (Hit){INFINITY, NOTHING, NOTHING};
+    for (uint i = 0; i < count; i++)
         searching[i] = meet_spheres(tracer, &rays[i], &hits[i]);
-    }
     if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
         intersect_triangles(tracer, rays, searching, count, hits);
+}
+
+static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
+{
+    for (uint i = 0; i < count; i++)
+        hits[i] = (Hit){INFINITY, NOTHING, NOTHING};
+    hits_before(tracer, rays, count, hits);
 }
 
 // Finds for each shadow ray whether a primitive is between the shaded point and the light. If
@@ -91,13 +97,9 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
 // is on a primitive, within the error of a distance, this primitive does not block the ray.
 static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
-    Mask searching[PACKETS];
-    for (uint i = 0; i < count; i++) {
+    for (uint i = 0; i < count; i++)
         hits[i] = (Hit){1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
-        searching[i] = meet_spheres(tracer, &rays[i], &hits[i]) && hits[i].id == NOTHING;
-    }
-    if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
-        intersect_triangles(tracer, rays, searching, count, hits);
+    hits_before(tracer, rays, count, hits);
 }
 
 static inline Hit nearest_hit(const Tracer *tracer, const Ray *ray)
