@@ -316,6 +316,16 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics)
     return traits;
 }
 
+float flat_reflectivity(const FlatScene *flat)
+{
+    float largest = 0;
+    for (uint32_t i = 0; i < flat->sphere_count; i++)
+        largest = fmaxf(largest, flat->materials[flat->spheres[i].material].reflectivity);
+    for (uint32_t i = 0; i < flat->triangle_count; i++)
+        largest = fmaxf(largest, flat->materials[material_of(flat, i)].reflectivity);
+    return largest;
+}
+
 SceneTraits traits_general(bool statistics)
 {
     return (SceneTraits){true, true, true, true, true, true, statistics};

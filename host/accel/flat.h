@@ -61,6 +61,9 @@ typedef struct {
 
 SceneTraits traits_of(const FlatScene *flat, bool statistics);
 
+// Returns the largest reflectivity of the materials that primitives use.
+float flat_reflectivity(const FlatScene *flat);
+
 // Returns the traits of the program that renders every scene. statistics is the user's choice and
 // does not depend on the scene.
 SceneTraits traits_general(bool statistics);

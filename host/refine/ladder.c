@@ -60,6 +60,8 @@ bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
                        .picture = picture,
                        .statistics.pixels = (size_t)picture->width * picture->height};
     requests->frame.samples = LADDER_GRID;
+    if (requests->frame.max_level > 1)
+        ladder->statistics.reflectivity = (double)renderer->scene->reflectivity;
     renderer->progress = (RenderProgress){0};
     if (picture->width > LADDER_SIDE_MOST || picture->height > LADDER_SIDE_MOST ||
         ladder->statistics.pixels > LADDER_PIXELS_MOST)

@@ -30,6 +30,13 @@
 #define LEAST_FAR     0.05
 #define LEAST_SAMPLED 0.05
 
+// Mirrors may show detail that no other pixel sees, with a contrast of at most the reflectivity.
+// With mirrors, the fractions of flat pixels are therefore at least these values times the squared
+// reflectivity. Without these minimums, 6 % of pictures of dots behind the eye and a perfect mirror
+// had errors above 1.1 times the goal.
+#define LEAST_FAR_MIRROR     0.2
+#define LEAST_SAMPLED_MIRROR 0.1
+
 // The largest mean feature of a rung is at least this, divided by the samples of a pixel. Without
 // this minimum, a picture whose centers all miss its parts would have a bound of 0.
 // At 0.5 %, EDGE_CENTER costs 2.3 % of the samples of an easy scene, and 1 would cost 4 %.
@@ -148,19 +155,22 @@ static void measure_rung(Rung rungs[], uint32_t rung, const Strata *strata)
     rungs[rung] = (Rung){(change + weight * first) / (feature + weight), largest};
 }
 
-static double least_feature(uint32_t stratum)
+static double least_feature(uint32_t stratum, double reflectivity)
 {
+    const double square = reflectivity * reflectivity;
     if (stratum >= BEND_CLASSES)
-        return LEAST_SAMPLED * ladder_samples[1] / ladder_samples[strata_rung(stratum)];
+        return fmax(LEAST_SAMPLED, LEAST_SAMPLED_MIRROR * square) * ladder_samples[1] /
+               ladder_samples[strata_rung(stratum)];
     if (stratum == THIN_CLASS)
         return LEAST_THIN;
-    return stratum >= NEAR_CLASS ? LEAST_NEAR : LEAST_FAR;
+    return stratum >= NEAR_CLASS ? LEAST_NEAR : fmax(LEAST_FAR, LEAST_FAR_MIRROR * square);
 }
 
 static Outlook outlook_of(const Strata *strata, uint32_t number, const Rung *rung)
 {
     const Stratum *stratum = &strata->strata[number];
-    const double feature = fmax(mean_feature(stratum), least_feature(number) * rung->feature);
+    const double least = least_feature(number, strata->reflectivity) * rung->feature;
+    const double feature = fmax(mean_feature(stratum), least);
     const double prior = rung->ratio * feature;
     const double weight = (double)stratum->advanced + STRATUM_WEIGHT;
     const double mean = (stratum->change + STRATUM_WEIGHT * prior) / weight;

@@ -41,6 +41,7 @@ typedef struct {
 typedef struct {
     Stratum strata[STRATA_COUNT];
     uint64_t pixels;
+    double reflectivity; // the largest of surfaces in the scene; 0 if pictures have no reflections
 } Strata;
 
 // The mean square error of a picture.

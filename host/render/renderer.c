@@ -27,8 +27,10 @@ bool scene_buffers_make(SceneBuffers *buffers, const Device *device, const FlatS
     bool ok = true;
     FlatArray arrays[FLAT_ARRAYS];
     const double start = clock_seconds();
-    *buffers =
-        (SceneBuffers){.device = device, .frame = frame_of(flat), .traits = traits_of(flat, false)};
+    *buffers = (SceneBuffers){.device = device,
+                              .frame = frame_of(flat),
+                              .traits = traits_of(flat, false),
+                              .reflectivity = flat_reflectivity(flat)};
     flat_arrays(flat, arrays);
     for (int i = 0; ok && i < FLAT_ARRAYS; i++) {
         ok = upload_array(device, &arrays[i], &buffers->arrays[i], error);

@@ -32,6 +32,7 @@ typedef struct {
     cl_mem arrays[FLAT_ARRAYS]; // in the order of the kernels' arguments
     FrameData frame;            // members that depend on the scene alone
     SceneTraits traits;         // without statistics
+    float reflectivity;         // the largest of materials in use
     size_t size;                // bytes
     double seconds;             // time of the upload
 } SceneBuffers;

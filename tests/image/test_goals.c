@@ -64,55 +64,73 @@ TEST(a_picture_of_one_color_keeps_it)
     unlink(path);
 }
 
-#define DOTS      16
-#define SCENES_OF 5
-#define DOT_GOAL  0.004
+// White spheres at corners of the pixels of request_for()'s picture. No center of a pixel sees one.
+// If is_mirrored, the spheres are behind the eye, and a mirror fills the picture.
+typedef struct {
+    int count;
+    double radius; // in pixels
+    double goal;
+    bool is_mirrored;
+} Dots;
 
-// Writes a scene of white spheres, 0.6 pixels wide, at corners of the pixels of request_for()'s
-// picture. No center of a pixel sees one. If is_mirrored, the spheres are behind the eye, and a
-// mirror fills the picture.
-static void write_dots(FILE *scene, uint64_t seed, bool is_mirrored)
+static void write_dots(FILE *scene, uint64_t seed, const Dots *dots)
 {
     const double depth = 5, side = 2 * sqrt(1.0 / 3) / 61 * depth;
     uint64_t state = seed;
     fprintf(scene, "up 0 1 0\ncamera 0 0 0 0 0 -1 60\nbackground 0 0 0\n");
-    if (is_mirrored)
+    if (dots->is_mirrored)
         fprintf(scene, "define mirror matte diffuse 0 0 0 reflectivity 1\nmaterial mirror\n"
                        "mesh " SCENES "plateau.ply scale 4 translate 0 0 -2\n");
     fprintf(scene, "define white silhouette diffuse 1 1 1\nmaterial white\n");
-    for (int i = 0; i < DOTS; i++) {
+    for (int i = 0; i < dots->count; i++) {
         const double x = floor(95 * random_unit(&state)) - 46.5;
         const double y = floor(59 * random_unit(&state)) - 28.5;
         fprintf(scene, "sphere %.9g %.9g %g %.9g\n", x * side, y * side,
-                is_mirrored ? depth - 4 : -depth, 0.3 * side);
+                dots->is_mirrored ? depth - 4 : -depth, dots->radius * side);
     }
 }
 
-static void expect_goal(uint64_t seed, bool is_mirrored)
+// Returns the picture's error divided by the goal.
+static double dots_error(uint64_t seed, const Dots *dots)
 {
     char path[TEMPORARY_PATH];
     FILE *scene = temporary_open(path);
-    write_dots(scene, seed, is_mirrored);
+    write_dots(scene, seed, dots);
     temporary_close(scene);
-    PictureRequest request = request_for(path, DOT_GOAL);
+    PictureRequest request = request_for(path, dots->goal);
     FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
     request.error_goal = 0;
     FREED_BY(framebuffer_free) Framebuffer centers = rendered(&request);
     request.samples = 16;
     FREED_BY(framebuffer_free) Framebuffer reference = rendered(&request);
-    const double before = rendered_error(&centers, &reference);
-    const double error = rendered_error(&picture, &reference);
-    print_message("error %.2f E, with centers %.2f E\n", error / DOT_GOAL, before / DOT_GOAL);
     for (size_t i = 0; i < (size_t)picture.width * picture.height; i++)
         assert_true(centers.pixels[i][0] == 0);
-    assert_true(before > 1.5 * DOT_GOAL && error < 1.1 * DOT_GOAL);
+    assert_true(rendered_error(&centers, &reference) > 1.5 * dots->goal);
     unlink(path);
+    return rendered_error(&picture, &reference) / dots->goal;
 }
 
 TEST(parts_that_no_center_sees_are_found)
 {
-    for (uint64_t seed = 1; seed <= SCENES_OF; seed++) {
-        expect_goal(seed, false);
-        expect_goal(seed, true);
+    const Dots dots = {16, 0.3, 0.004, false};
+    for (uint64_t seed = 1; seed <= 5; seed++)
+        assert_true(dots_error(seed, &dots) < 1.1);
+}
+
+// Random controls find these parts, so the test limits the rate of failures. With a prior that does
+// not depend on the reflectivity, 14 of 100 such pictures exceed 1.1 times the goal, instead of 1.
+#define MIRRORED 40
+
+TEST(parts_that_only_a_mirror_shows_are_missed_in_at_most_1_of_20_pictures)
+{
+    const Dots dots = {24, 0.45, 0.01, true};
+    int above = 0;
+    double worst = 0;
+    for (uint64_t seed = 1; seed <= MIRRORED; seed++) {
+        const double error = dots_error(seed, &dots);
+        above += error > 1.1;
+        worst = fmax(worst, error);
     }
+    print_message("%d of %d above 1.1 E, worst %.2f E\n", above, MIRRORED, worst);
+    assert_true(20 * above <= MIRRORED && worst < 1.5);
 }

@@ -112,6 +112,25 @@ TEST(flat_strata_get_controls_for_any_aim)
     assert_int_equal(strata_raise(&strata, &aim), STRATA_REACHED);
 }
 
+// Returns the estimate for a picture whose flat pixels are all on one rung.
+static double flat_estimate(uint32_t rung, double reflectivity)
+{
+    Strata strata = {.pixels = PIXELS, .reflectivity = reflectivity};
+    strata_enter(&strata,
+                 rung == 0 ? strata_of_bend(0, 0, false) : strata_of_deviation(rung, 0, false),
+                 PIXELS, 0);
+    return strata_estimate(&strata).mean;
+}
+
+TEST(only_strong_mirrors_raise_the_prior_of_flat_pixels)
+{
+    for (uint32_t rung = 0; rung < 3; rung++) {
+        assert_true(flat_estimate(rung, 0.5) == flat_estimate(rung, 0));
+        assert_true(flat_estimate(rung, 0.8) > flat_estimate(rung, 0));
+        assert_true(flat_estimate(rung, 1) > flat_estimate(rung, 0.8));
+    }
+}
+
 TEST(pixels_on_the_last_rung_exhaust_the_ladder)
 {
     const StrataAim aim = {.mean_square = 1e-12, .samples = INFINITY};
