@@ -76,7 +76,8 @@ static cl_int enqueue(const Kernel *kernel, const KernelRun *run)
     const KernelEntry *entry = kernel->entry;
     const uint32_t *sides = kernel->launch.group;
     const bool is_list = entry->dimensions == 1;
-    const size_t length = entry->group > 0 ? entry->group : (size_t)sides[0] * sides[1];
+    const bool is_fixed = entry->group > 0 && kernel->device->is_cpu;
+    const size_t length = is_fixed ? entry->group : (size_t)sides[0] * sides[1];
     const size_t group[2] = {is_list ? length : sides[0], is_list ? 1 : sides[1]};
     size_t grid[2];
     for (int i = 0; i < 2; i++)
