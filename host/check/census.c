@@ -132,6 +132,12 @@ static Identity identity_of(Vec3 position, double radius)
     return (Identity){{position.x + 0.0, position.y + 0.0, position.z + 0.0, radius}};
 }
 
+static Identity identity_of_light(const Light *light)
+{
+    return light->is_sun ? identity_of(vec3_normalize(light->position), 1)
+                         : identity_of(light->position, 0);
+}
+
 static Identity identity_of_mesh(const Mesh *mesh)
 {
     Identity identity = {{0}};
@@ -160,7 +166,7 @@ static bool find_duplicates(Census *census, const Scene *scene, Error *error)
         identities[i] = identity_of(scene->spheres.data[i].center, scene->spheres.data[i].radius);
     census->duplicate_spheres = count_duplicates(identities, scene->spheres.count);
     for (size_t i = 0; i < scene->lights.count; i++)
-        identities[i] = identity_of(scene->lights.data[i].position, 0);
+        identities[i] = identity_of_light(&scene->lights.data[i]);
     census->duplicate_lights = count_duplicates(identities, scene->lights.count);
     free(identities);
     return true;

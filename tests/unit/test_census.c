@@ -271,10 +271,11 @@ TEST(repeated_meshes_spheres_and_lights_are_duplicates)
 {
     FREED_BY(release)
     Taken taken = census_of_scene("light 1 2 3 1\nlight 1 2 4 1\nlight 1 2 3 0.5\n"
+                                  "sun 1 2 3 1\nsun 0.5 1 1.5 1\nsun 1 2 -3 1\n"
                                   "sphere 0 0 0 1\nsphere 0 -0 0 1\nsphere 0 0 0 2\n"
                                   "ply_file cube.ply\nply_file cone.ply\nply_file cube.ply\n"
                                   "mesh cube.ply translate 1 0 0");
-    assert_int_equal(taken.census.duplicate_lights, 1);
+    assert_int_equal(taken.census.duplicate_lights, 2);
     assert_int_equal(taken.census.duplicate_spheres, 1);
     assert_int_equal(taken.census.duplicate_meshes, 1);
 }

@@ -190,7 +190,7 @@ static int store_lights(float lights[LIGHT_LIMIT][4], float colors[LIGHT_LIMIT][
     size_t count = 0;
     for (; count < scene->lights.count && count < LIGHT_LIMIT; count++) {
         const Light *light = &scene->lights.data[count];
-        vec3_store(lights[count], normalize_point(normalization, light->position));
+        vec3_store(lights[count], normalize_light(normalization, light));
         lights[count][3] = (float)light->intensity;
         vec3_store(colors[count], light->color);
     }
