@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Decides whether a triangle becomes the best hit, in every search. pair.cl and packet.cl test one
-// triangle against one ray or a packet of rays. wide.cl tests one ray against a block of triangles,
-// and takes the same decisions for one lane.
+// Decides, for every search, whether a triangle becomes the best hit. pair.cl and packet.cl test
+// one triangle against one ray or a packet of rays. wide.cl tests one ray against a block of
+// triangles, and then calls accept_triangle for the ray's lane.
 //
-// Two cases are doubtful. They are rare, so their code is out of line: a triangle within rounding
-// of the ray's start (stops_on_neighbor), and triangles whose distances differ only by rounding
-// (triangle_is_nearer).
+// Two rare cases are doubtful: a triangle within rounding of the ray's start (stops_on_neighbor),
+// and triangles whose distances differ only by rounding (triangle_is_nearer). Their code is out of
+// line.
 //
-// Invariant: the decision depends only on the ray, the triangle and the best hit so far. The best
-// of several triangles does not depend on the order in which they are tested.
+// Invariant: the decision depends only on the ray, the limit of its search, the triangle and the
+// best hit so far. The best of several triangles does not depend on the order of the tests.
 #ifndef CLRT_ACCEPT_CL
 #define CLRT_ACCEPT_CL
 #include "order.cl"
 
-// The sides of a triangle that another triangle certainly reaches.
+// The sides of a triangle's plane on which another triangle certainly has a corner.
 typedef struct {
     Mask front, back;
 } Sides;
@@ -32,14 +32,15 @@ static inline Sides sides_exchanged(Mask exchange, Sides sides)
     return (Sides){exchange ? sides.back : sides.front, exchange ? sides.front : sides.back};
 }
 
-// Returns whether a ray that leaves its own triangle certainly stops on another triangle, which its
-// line hits within rounding of the ray's start. The positions of the two triangles decide:
+// Returns whether a ray that leaves the triangle `own` certainly stops on the triangle `other`. The
+// ray's line must hit `other` within rounding of the ray's start. The triangles' positions decide:
 //  - The plane of the own triangle: the other triangle is ahead if it is on the side to which the
 //    ray leaves, and behind if it is on the opposite side.
 //  - The plane of the other triangle: the other triangle is ahead if the own triangle is on the
 //    side from which the ray comes, and behind if the own triangle is on the opposite side.
-// A ray does not hit coplanar neighbors. `cross` receives the lanes in which each triangle is on
-// both sides of the other's plane. There, the order along the ray decides (order.cl).
+// A ray does not hit coplanar neighbors. `cross` receives the lanes in which neither plane decides
+// and a triangle is on both sides of the other's plane. In these lanes, the order along the ray
+// decides (order.cl).
 static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
                                  Mask from_back, Mask *cross)
 {
@@ -53,7 +54,8 @@ static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3
     return ahead && !behind;
 }
 
-// Returns the rays that stop on a triangle which their lines hit within rounding of their start.
+// Returns the rays that start on another triangle and stop on this one. The line of each ray must
+// hit this triangle within rounding of the ray's start.
 static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask from_back)
 {
     const Ray *ray = search->ray;
@@ -67,8 +69,8 @@ static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask 
     return known && (stops || (cross && is_ahead(search->tracer, ray, index)));
 }
 
-// Records the triangle as the hit of the candidates that it precedes. Returns the lanes whose hits
-// changed. If the triangle and the best hit are tied, the best hit's t can change alone.
+// Makes the triangle the best hit in the lanes of `candidates` in which it precedes the best hit so
+// far. Returns the lanes whose hits changed. In a tie, the t of a hit can change without its id.
 static inline Mask accept_triangle(const Search *search, Mask candidates, Hit *triangle, Hit *best)
 {
     const Mask close = candidates && is_close(search, triangle->t, best);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The kernels of the channels of --aov, except certainty (certify.cl). trace_paths writes the first
-// hit of each pixel's center, and count_tests writes the cost of each pixel. Both follow rays by
-// paths_step of trace.cl. They are compiled after render.cl, and only if requested.
+// The kernels for the channels of --aov, except certainty (certify.cl). trace_paths writes the
+// first hit of the ray through each pixel's center. count_tests writes the cost of each pixel. Both
+// follow rays with paths_step (trace.cl). They are compiled after render.cl, and only if requested.
 
 static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface *surface, Mask met)
 {
@@ -76,7 +76,7 @@ static inline bool lane_place(const FrameData *frame, uint2 corner, uint lane, s
     return column < frame->tile_width && row < frame->tile_height;
 }
 
-// Fills paths with one entry per pixel of the tile. The frame has one sample per pixel.
+// Fills `paths` with one entry per pixel of the tile. The frame must have one sample per pixel.
 kernel void trace_paths(TRACER_ARGUMENTS, global PathData *paths)
 {
     Tally tally = {0};
@@ -95,8 +95,8 @@ kernel void trace_paths(TRACER_ARGUMENTS, global PathData *paths)
         }
 }
 
-// Fills tallies with TALLY_KINDS counts per pixel of the tile, summed over all its samples. Each
-// ray is traced alone, because the rays of a packet share tests, which then belong to no single
+// Fills `tallies` with TALLY_KINDS counts per pixel of the tile, summed over the pixel's samples.
+// Each pixel is traced alone, because tests that the rays of a packet share belong to no single
 // pixel.
 kernel void count_tests(TRACER_ARGUMENTS, global uint *tallies)
 {

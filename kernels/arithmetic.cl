@@ -3,7 +3,8 @@
 // results with the host's, bit by bit. The kernel is compiled after render.cl, which forbids
 // contraction.
 
-// Each case has three operands. results receives a word for each operation, in the host's order.
+// Each case has three operands. For each case, `results` receives one word per operation, in the
+// host's order.
 kernel void repeat_arithmetic(global const float *cases, global uint *results)
 {
     const size_t item = get_global_id(0);

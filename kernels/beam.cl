@@ -2,8 +2,8 @@
 // A beam is up to PACKETS packets that traverse the tree of wide nodes together (compare Wald,
 // Slusallek, Benthin and Wagner, "Interactive rendering with coherent ray tracing", 2001). Bounds
 // over all rays of the beam cull a node's children, and a block's triangles, for all packets at
-// once. Each stack entry stores the packets that have rays inside the box of its parent. Only these
-// packets test their lanes against the entry's own box.
+// once. Each stack entry stores which packets have rays inside its parent's box. Only these packets
+// test their lanes against the entry's own box.
 //
 // Rays of a beam separate as they descend. If only few lanes enter a subtree, it is searched ray by
 // ray (wide.cl).
@@ -13,12 +13,12 @@
 
 #if CLRT_WIDE_NODES
 
-// The rays of a full beam.
+// The number of rays in a full beam.
 #define BEAM_LANES (PACKETS * CLRT_LANES)
 
 // If at most this many lanes of a beam enter a subtree, it is searched ray by ray. The limit is
-// higher in scenes of DENSE triangles, in which rays separate more. With the two limits exchanged,
-// scenes of 6 thousand triangles take 9 % longer, and scenes of a million take 10 % longer.
+// higher for DENSE or more triangles, because rays then separate more. With the two limits
+// exchanged, scenes of 6 thousand triangles take 9 % longer. Scenes of a million take 10 % longer.
 #define MOST_LANES_LEAVING       (3 * BEAM_LANES / 16)
 #define MOST_LANES_LEAVING_DENSE (5 * BEAM_LANES / 8)
 #define DENSE                    300000
@@ -36,7 +36,7 @@ typedef struct {
     uint own_block;       // the block of the triangle that all rays start on, or NOTHING
     uint others;          // bits of this block's triangles that the rays may hit
     uint live[PACKETS];   // bits of the lanes that search
-    float reach[PACKETS]; // largest search_reach of the live lanes
+    float reach[PACKETS]; // upper bound on search_reach in the live lanes
     Hit *hits;            // of the packets
     WideStack stack;
     uint inside[WIDE_STACK_SIZE]; // for each child on the stack: the packets inside its parent
@@ -98,7 +98,7 @@ static inline Mask lanes_in_child(global const BvhWide *node, uint child, const 
     return entry_distance(entries) <= leaving_distance(exits, reach);
 }
 
-// Returns the packets that enter the child, and stores their entering lanes in `bits`.
+// Returns the packets with live lanes that enter the child, and stores these lanes in `bits`.
 static inline uint packets_entering(Beam *beam, uint child, uint packets, uint bits[PACKETS])
 {
     global const BvhWide *node = &beam->tracer->nodes[child / WIDE];
@@ -116,7 +116,8 @@ static inline uint packets_entering(Beam *beam, uint child, uint packets, uint b
     return entering;
 }
 
-// Ends the lanes of a packet that need no further search, and updates the packet's reach.
+// If rays of the beam's kind end at any hit, ends the packet's lanes that have a hit. Otherwise,
+// updates the packet's reach.
 static inline void update_packet(Beam *beam, uint number)
 {
     const Hit *hit = &beam->hits[number];
@@ -236,15 +237,15 @@ static inline uint shared_own(const Beam *beam, const Ray *rays)
     return any_lane(other) ? NOTHING : own;
 }
 
-// Returns which triangles of the block have all corners at this coordinate of the axis.
+// Returns which triangles of the block have the coordinate `level` on the axis at all corners.
 static inline int8 lie_level(global const TriangleBlock *block, uint axis, float level)
 {
     return block_row(block, 0, axis) == level && block_row(block, 1, axis) == level &&
            block_row(block, 2, axis) == level;
 }
 
-// Returns whether rounding explains the height of all rays' starts over a plane that is
-// perpendicular to the axis (docs/numerics.md, B16).
+// Returns whether all rays start within rounding of the plane that is perpendicular to the axis at
+// the coordinate `level` (docs/numerics.md, B16).
 static inline bool start_level(const Ray *rays, uint count, uint axis, float level)
 {
     Mask apart = 0;
@@ -255,8 +256,9 @@ static inline bool start_level(const Ray *rays, uint count, uint axis, float lev
     return !any_lane(apart);
 }
 
-// Returns the bits of the triangles in a block that rays from one of them may hit. They do not hit
-// their own triangle. If it is perpendicular to an axis, they do not hit coplanar ones either.
+// Returns the bits of the triangles that the rays may hit in the block of their own triangle. Rays
+// do not hit their own triangle. If it is perpendicular to an axis and start_level returns true,
+// they do not hit the block's coplanar triangles either.
 static inline uint triangles_beside(const Beam *beam, const Ray *rays, uint own)
 {
     global const TriangleBlock *block = beam->tracer->triangles + own / WIDE;
@@ -270,8 +272,8 @@ static inline uint triangles_beside(const Beam *beam, const Ray *rays, uint own)
     return others;
 }
 
-// Notes which triangles the rays skip. Returns whether others are left that they may hit. This is
-// not so for rays that leave a floor in a scene of spheres.
+// Stores which triangles the rays skip. Returns false only if they skip all triangles of the scene,
+// for example if they leave the floor of a scene of spheres.
 static inline bool beam_start(Beam *beam, const Tracer *tracer, const Ray *rays)
 {
     beam->tracer = tracer;
@@ -301,9 +303,9 @@ static inline void beam_prepare(Beam *beam, const Ray *rays)
     beam->sheared = false;
 }
 
-// Finds the nearest hits of rays whose directions share their signs, or any hit of each shadow ray.
-// The beam's count and hits must be set, and at least one lane must search. If `alone` is set,
-// searches ray by ray.
+// Finds the hits of rays whose directions share their signs: any hits if ends_at_any_hit, else the
+// nearest hits. The beam's count and hits must be set, and at least one lane must search. If the
+// scene has a tree and `alone` is set, searches ray by ray.
 static NOT_INLINE void search_beam(Beam *beam, const Tracer *tracer, const Ray *rays, bool alone)
 {
     if (!beam_start(beam, tracer, rays))

@@ -13,8 +13,8 @@
 
 // All rays cross a near plane of a box at or after the smaller of fma(plane, inverse_low, near_low)
 // and fma(plane, inverse_high, near_high). They cross a far plane at or before the larger of
-// fma(plane, inverse_low, far_low) and fma(plane, inverse_high, far_high). Each array has a number
-// for each axis.
+// fma(plane, inverse_low, far_low) and fma(plane, inverse_high, far_high). Each array has one
+// element per axis and an unused element.
 typedef struct {
     uint negative[4]; // 1 if the rays enter by the higher plane, else 0
     float inverse_low[4], inverse_high[4];
@@ -57,7 +57,8 @@ static inline float8 folded(Real v)
 }
 #endif
 
-// Folds two vectors. The result's lower half has minima of a, and the upper half minima of b.
+// Folds two vectors. The lower half of the result has the minima of a, and the upper half has the
+// minima of b.
 static inline float8 lowest_of_two(float8 a, float8 b)
 {
     const float8 low = (float8)(a.s0, a.s1, a.s2, a.s3, b.s0, b.s1, b.s2, b.s3);
@@ -65,7 +66,7 @@ static inline float8 lowest_of_two(float8 a, float8 b)
     return min(low, high);
 }
 
-// Returns the lowest elements of four vectors. Reducing them together takes half as many
+// Returns the lowest element of each vector. Reducing the four vectors together takes half as many
 // instructions as reducing them one after the other.
 static inline float4 lowest_of_four(Real a, Real b, Real c, Real d)
 {
@@ -81,9 +82,9 @@ static inline Real3 lower3(Real3 a, Real3 b)
     return real3_of(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z));
 }
 
-// The extremes of rays, lane by lane. Maxima are stored as minima of the negated numbers. Each
-// origin moves by its own slack. It also moves by the slack by which boxes of nodes have grown,
-// because boxes of single triangles have not grown.
+// The extremes over a beam's packets, separately for each lane. Maxima are stored as minima of the
+// negated numbers. Each origin moves by its own slack. It also moves by the growth of a node's box,
+// because the boxes of single triangles have not grown.
 typedef struct {
     Real3 inverse, minus_inverse, behind, minus_ahead;
     Real minus_reach;
@@ -92,8 +93,7 @@ typedef struct {
 static inline void include_rays(Extremes *extremes, const Search *rays, Real reach)
 {
     const Real3 inverse = rays->slabs.inverse, origin = rays->ray->origin;
-    // The slack of a node's box is at most BVH_SLACK, because coordinates of triangles are at most
-    // 1.
+    // A node's box has grown by at most BVH_SLACK, because coordinates of triangles are at most 1.
     const Real slack = BVH_SLACK * (largest_component(origin) + 1.0f);
     const Real3 slacks = real3_of(slack, slack, slack);
     extremes->inverse = lower3(extremes->inverse, inverse);
@@ -120,7 +120,8 @@ static NOT_INLINE float bounds_over(const Packet *packets, const Hit *hits, uint
     const float4 high = -lowest_of_four(j.x, j.y, j.z, j.z);
     const float4 behind = lowest_of_four(b.x, b.y, b.z, b.z);
     const float4 ahead = -lowest_of_four(a.x, a.y, a.z, a.z);
-    // The origin farthest forward gives the earliest entry, the one farthest back the latest exit.
+    // The origin farthest forward gives the earliest entry. The one farthest back gives the latest
+    // exit.
     const int4 negative = high < 0.0f;
     const float4 near = negative ? behind : ahead, far = negative ? ahead : behind;
     vstore4(as_uint4(negative) & 1, 0, bounds->negative);
@@ -151,7 +152,7 @@ static inline float8 leave_bound(float8 plane, const BeamBounds *bounds, uint ax
     return max(low, high);
 }
 
-// The planes by which rays enter eight boxes, and those by which they leave.
+// The planes by which rays enter and leave eight boxes.
 typedef struct {
     Wide3 near, far;
 } BoxPlanes;
@@ -176,7 +177,7 @@ static inline float8 node_plane(global const BvhWide *node, const BeamBounds *bo
     return vload8(0, node->planes[axis][bounds->negative[axis] ^ other]);
 }
 
-// Returns the children that some ray may enter before `reach`, and the bounds of boxes_near.
+// Returns the children that some ray may enter before `reach`. Stores *entry like boxes_near.
 static inline int8 children_near(global const BvhWide *node, const BeamBounds *bounds, float reach,
                                  float8 *entry)
 {
@@ -195,8 +196,8 @@ static inline float8 block_plane(global const TriangleBlock *block, const BeamBo
     return (bounds->negative[axis] ^ other) ? max(max(a, b), c) : min(min(a, b), c);
 }
 
-// Returns the bits of the triangles that some ray may hit before `reach`, on average a third of the
-// block. Testing one triangle against all lanes costs as much as this call.
+// Returns the bits of the triangles that some ray may hit before `reach`: a third of the block on
+// average. Testing one triangle against all lanes costs as much as this call.
 static inline uint triangles_near(global const TriangleBlock *block, const BeamBounds *bounds,
                                   float reach)
 {

@@ -6,7 +6,7 @@
 #define CLRT_CAMERA_CL
 #include "ray.cl"
 
-// Returns the ray through a position in the whole picture. x and y count halves of a sub-pixel.
+// Returns the ray through a position in the whole picture. x and y count half sub-pixels.
 static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask active)
 {
     const Real across = to_real(to_int(x) - (int)(frame->width * frame->samples));

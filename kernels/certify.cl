@@ -8,11 +8,11 @@
 // only for the fp64 tracer, the pixel is repaired: it gets the color of the fp64 tracer. All other
 // pixels are open. The kernel is compiled after render.cl with CLRT_FP64, and only if requested.
 //
-// Invariant: an answer of YES or NO is proved. Whenever a bound does not suffice, the answer is
-// UNKNOWN and the pixel is not certified.
+// Invariant: an answer of YES or NO is proved. If a bound does not suffice, the answer is UNKNOWN.
+// All decisions that depend on this answer are then uncertain.
 #include "certify_surface.cl"
 
-// The decisions so far. A tracer in real arithmetic would make the same.
+// The decisions so far, all of them certain. A tracer in real arithmetic makes the same decisions.
 typedef struct {
     uint first_id, lit, signature; // as in CertaintyMark
 } Decisions;
@@ -87,8 +87,8 @@ static inline bool decide(const Tracer *tracer, uint2 sample, Real u, Decisions 
     return true;
 }
 
-// Returns the certainty of the pixel's least certain sample. decisions receives the decisions of
-// the last examined sample.
+// Returns the certainty of the pixel's least certain sample. Stores the decisions of the last
+// examined sample in *decisions.
 static inline Certainty decide_pixel(const Tracer *tracer, uint2 pixel, Decisions *decisions)
 {
     const uint side = tracer->frame->samples;
@@ -104,8 +104,8 @@ static inline Certainty decide_pixel(const Tracer *tracer, uint2 pixel, Decision
     return certainty;
 }
 
-// Writes one mark per pixel of the tile to marks, and the colors of repaired pixels to pixels. The
-// range of work-items is padded to whole work-groups.
+// Stores one mark per pixel of the tile in `marks`, and the colors of repaired pixels in `pixels`.
+// The range of work-items is padded to whole work-groups.
 kernel void certify_tile(TRACER_ARGUMENTS, global float *pixels, global CertaintyMark *marks)
 {
     Tally tally = {0};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A ray cone contains two rays: the exact ray on the stored scene, and the ray of a tracer with
-// unit roundoff u. If all rays of the cone lead to one decision, even with all errors of the
-// tracer's tests, no rounding can change this decision.
+// A ray cone contains two rays: the exact ray in the stored scene, and the ray of a tracer with
+// unit roundoff u. If all rays of the cone lead to one decision, despite all errors of the tracer's
+// tests, rounding cannot change this decision.
 //
 // The bounds are computed in fp64, for a tracer in fp32 (u = 2^-24) or in fp64 (u = 2^-53).
 // OWN_ROUNDOFF covers the rounding of the bounds themselves. docs/numerics.md derives the bounds as
@@ -9,12 +9,14 @@
 //  - The tracer's device rounds float operations correctly.
 //  - No rounding error of a product in fp32's edge functions underflows (B3). This holds if each
 //    sheared coordinate of a corner is 0 or at least 2^-51 in magnitude, in normalized coordinates.
-//    The kernel does not check this. Otherwise, only triangles seen edge-on may differ (B10).
+//    The kernel does not check this. If an error underflows, only decisions about triangles that
+//    are seen edge-on or have an area below 2^-147 can be wrong (B10).
 //
-// A camera ray's direction is fma(x, right, fma(y, down, forward)), or its origin is if the camera
-// is orthographic (B18). For fp32, camera_rounding repeats the rounding. For fp64, the two
-// roundings are below u (|inner| + |outer|) per component. A shadow ray ends within u of its length
-// from the light.
+// A camera ray's direction is fma(x, right, fma(y, down, forward)). If the camera is orthographic,
+// the origin is computed in this way from the eye (B18). For fp32, camera_rounding repeats the
+// rounding. For fp64, the roundings of the inner and the outer fma are together below
+// u (|inner| + |outer|) per component. The end of a shadow ray misses the light by at most u times
+// the ray's length.
 #ifndef CLRT_CERTIFY_CONE_CL
 #define CLRT_CERTIFY_CONE_CL
 
@@ -30,16 +32,16 @@ typedef struct {
 } UncertainPoint;
 
 typedef struct {
-    Real3 origin, along, right, up; // all but origin are of length 1 and perpendicular
-    Real around;         // bound on the distance of the cone's rays from the origin at their start
-    Real spread;         // bound on the tangent of their angle to `along`
-    Real tilt;           // upper bound of the sine of their angle to the longest axis
+    Real3 origin, along, right, up; // along, right and up are perpendicular unit vectors
+    Real around;         // bound on the distance between the origin and the starts of the rays
+    Real spread;         // bound on the tangent of the angle between a ray and `along`
+    Real tilt;           // bound on the sine of the angle between a ray and the longest axis
     Real length;         // of a shadow ray, up to the light; else INFINITY
     Real u;              // unit roundoff of the tracer being checked
     UInt own, own_index; // as in Ray
     RayKind kind;
-    UncertainPoint start; // the surface point that it leaves, or the eye
-    UncertainPoint goal;  // of a shadow ray: its end, at the light
+    UncertainPoint start; // the surface point that the ray leaves, or the eye
+    UncertainPoint goal;  // the end of a shadow ray, at the light
 } RayCone;
 
 static inline Real length_of(Real3 v)
@@ -57,13 +59,13 @@ static inline Real sum_of_sizes(Real3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-// Bounds the tangent of the angle that a chord of this length spans between unit vectors.
+// Returns a bound on the tangent of the angle between two unit vectors at the distance `chord`.
 static inline Real spread_of(Real chord)
 {
     return chord < 0.25f ? chord / (1.0f - chord) : INFINITY;
 }
 
-// Sets the frame of a ray along a unit vector.
+// Sets the ray's axes and tilt. `along` is the unit direction. ray->spread must be set.
 static inline void set_axis(RayCone *ray, Real3 along)
 {
     const Real3 size = magnitudes(along);
@@ -78,8 +80,8 @@ static inline void set_axis(RayCone *ray, Real3 along)
     ray->tilt = sqrt(x * x + y * y) + 2.0f * ray->spread;
 }
 
-// Returns whether the tracer searches along the ray (intersect.cl), and the cone is narrow enough
-// for any decision.
+// Returns whether the tracer certainly searches along the ray (intersect.cl) and the cone is narrow
+// enough for the bounds.
 static inline bool is_usable(const RayCone *ray)
 {
     return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0x1p-8f && ray->around < 0x1p-5f;
@@ -93,7 +95,7 @@ static inline Real3 to_cone_frame(const RayCone *ray, Real3 point)
                     dot_product(apart, ray->along));
 }
 
-// Returns the cone's radius at a depth. The cone of a shadow ray narrows again toward the light.
+// Returns the cone's radius at a depth. The cone of a shadow ray narrows toward the light.
 static inline Real cone_at(const RayCone *ray, Real z)
 {
     const Real depth = fabs(z) + ray->around;
@@ -103,8 +105,8 @@ static inline Real cone_at(const RayCone *ray, Real z)
            radius_of(&ray->goal) * (depth / ray->length);
 }
 
-// Bounds the shift of a point as seen along any ray of the cone, including the tracer's rounding
-// (B10).
+// Bounds the distance between a point's positions as seen along the axis and along any ray of the
+// cone. Includes the tracer's rounding (B10).
 static inline Real blur_at(const RayCone *ray, Real3 seen)
 {
     const Real depth = fabs(seen.z) + ray->around;
@@ -113,13 +115,13 @@ static inline Real blur_at(const RayCone *ray, Real3 seen)
            16.0f * OWN_ROUNDOFF * (depth + aside);
 }
 
-// Returns the vector to which the camera adds steps: to a ray's origin or to its direction.
+// Returns the vector to which the camera adds its steps: the eye if orthographic, else forward.
 static inline const float *camera_middle(const CameraData *camera)
 {
     return camera->orthographic != 0 ? camera->eye : camera->forward;
 }
 
-// Returns the difference between `moved` and the vector that fp32 computes.
+// Returns the distance between `moved` and the vector that fp32 computes.
 static inline Real camera_rounding(const CameraData *camera, Real3 moved, float x, float y)
 {
     const float *right = camera->right_step, *down = camera->down_step;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Finds the rays whose hits rounding cannot have changed. A ray cone (certify_cone.cl) holds the
-// caller's ray and the rounded ray that rays.cl traces. The kernel is compiled after render.cl with
-// CLRT_FP64, and only if requested.
+// Finds the rays whose hits cannot have been changed by rounding. A ray cone (certify_cone.cl)
+// contains the caller's ray and the rounded ray that rays.cl traces. The kernel is compiled after
+// render.cl with CLRT_FP64, and only if requested.
 #include "certify_search.cl"
 
-// Returns the distance between a ray's start and the sphere that it starts on.
+// Returns the distance between a ray's start and its own sphere, or 0 if it has no own sphere.
 static inline Real sphere_offset(const Tracer *tracer, Real3 origin, uint own)
 {
     if (own >= tracer->frame->sphere_count)
@@ -13,7 +13,7 @@ static inline Real sphere_offset(const Tracer *tracer, Real3 origin, uint own)
     return fabs(length_of(difference(origin, sphere.center)) - sphere.radius);
 }
 
-// The host rounds each component of the direction by u.
+// The host has rounded each component of the direction, with a relative error of at most 2^-24.
 static inline RayCone given_cone(const Tracer *tracer, global const RayData *data, uint kind)
 {
     const Real3 origin = load3(data->origin), along = unit_vector(load3(data->direction));
@@ -31,8 +31,8 @@ static inline RayCone given_cone(const Tracer *tracer, global const RayData *dat
     return cone;
 }
 
-// Returns whether rounding cannot change the ray's hit, and stores its id. Rays that end within
-// rounding of a hit are uncertain, and so are rays from anywhere that pass a sphere by name.
+// Returns whether rounding cannot change the ray's hit, and stores the hit's id. A ray is uncertain
+// if it ends within rounding of a hit, or if its kind is RAY_CAMERA and data->own is a sphere.
 static inline bool certify_ray(const Tracer *tracer, global const RayData *data, uint kind,
                                uint *id)
 {
@@ -52,9 +52,8 @@ static inline bool certify_ray(const Tracer *tracer, global const RayData *data,
            (nearest.id == NOTHING || end == INFINITY || nearest.high < end - doubt);
 }
 
-// Stores in hits[i] the id of the primitive that ray i certainly hits, or NOTHING if it certainly
-// hits none, with t = 0. t is INFINITY if the hit is uncertain. The arguments are those of
-// trace_rays.
+// Stores the result for ray i in hits[i]. If it is certain, t is 0, and id is the primitive that
+// the ray hits, or NOTHING. If it is uncertain, t is INFINITY. The arguments are as for trace_rays.
 kernel void certify_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
                          global HitData *hits)
 {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Finds the certain first hit of a ray cone, and whether a primitive certainly blocks a shadow ray.
-// The search follows only the cone's axis, through boxes that have grown to cover the cone.
+// Decides which primitive a ray cone hits first, and whether a primitive blocks a shadow ray. Both
+// answers can be uncertain. The search follows only the cone's axis, through boxes that have grown
+// to cover the cone.
 //
-// A box grows by the cone's radius at its farthest corner, and by at least 129u of this corner's
-// distance. 18u cover the rest of the blur, and 111u cover a distance error (B12). For rays that
-// leave a surface, boxes also grow by behind_of, because rounding may put a hit behind the origin.
-// The axis then enters a box before any possible hit of a triangle in it.
+// A box grows by the cone's radius at its farthest corner, and by 140u of this corner's distance.
+// The 140u cover the rest of the blur, 18u, and errors of the distance, 70u + 25u (B12). For rays
+// that leave a surface, boxes also grow by behind_of, because rounding may put a hit behind the
+// origin. The axis then enters a box before any possible hit of a triangle in it.
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL
 #include "certify_sphere.cl"
@@ -34,7 +35,7 @@ static inline void nearest_add(Nearest *nearest, const Candidate *candidate, uin
 
 typedef struct {
     const RayCone *ray;
-    Real origin[3], inverse[3]; // of the ray and its direction
+    Real origin[3], inverse[3]; // the ray's origin and the inverse of its direction
     Nearest nearest;
     uint triangle;  // index of the nearest hit if it is a triangle, else NOTHING
     Answer blocked; // for a shadow ray
@@ -48,8 +49,8 @@ static inline Real growth_at(const RayCone *ray, Real far)
            behind_of(ray);
 }
 
-// Returns 1 / direction. A direction below 2^-60 is first raised to 2^-60, which changes less than
-// rounding does.
+// Returns 1 / direction for one component. A magnitude below 2^-60 is first raised to 2^-60, which
+// changes less than rounding does.
 static inline Real inverse_of(Real direction)
 {
     return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);
@@ -67,8 +68,7 @@ static inline ConeSearch search_in_cone(const RayCone *ray)
 }
 
 // Returns the depth beyond which the search may stop. Nothing beyond the nearest certain hit can be
-// the first hit. A hit beyond a possible hit of another primitive is not certainly
-// the first.
+// the first hit. A hit beyond a possible hit of another primitive is not certainly the first hit.
 static inline Real cone_reach(const ConeSearch *search)
 {
     if (search->ray->kind == RAY_SHADOW)
@@ -111,8 +111,8 @@ static inline Real child_entry(const ConeSearch *search, global const BvhPair *n
     return box_entry(search, &box, reach);
 }
 
-// Returns box_entry for the triangle's own box, which is tested before the triangle. The result
-// then does not depend on the boxes of the tree, so every tree gives the same result.
+// Returns box_entry for the triangle's own box, which is tested before the triangle. The search's
+// result therefore does not depend on the boxes of the tree, and every tree gives the same result.
 static inline Real triangle_entry(const ConeSearch *search, global const TriangleData *triangle,
                                   Real reach)
 {
@@ -146,8 +146,8 @@ static inline Candidate leaf_candidate(const Tracer *tracer, const RayCone *ray,
     return certainly_misses_coincident(&corners, ray) ? candidate_none() : candidate;
 }
 
-// Updates the nearest hit by a triangle. If the triangle coincides with the nearest hit, it may
-// replace the id, but the depths stay.
+// Updates the nearest hit with a triangle. If the triangle coincides with the nearest hit, the
+// lower id wins, and the depths do not change.
 static inline void add_triangle(const Tracer *tracer, ConeSearch *search, uint index,
                                 const Candidate *candidate)
 {

@@ -4,9 +4,9 @@
 // sphere.cl computes with sums of two floats. For unit roundoff u, the error of its discriminant
 // radius^2 - distance^2 is below 64 u^2 (distance + radius) (|f| + radius + |center|), where f
 // leads from the center to the origin. The error of its foot of the perpendicular is below 64 u^3
-// |f|^2. Moving the ray aside by distance_doubt has a larger effect than both errors together, and
-// than the error of sphere_power. All other terms of a distance have a relative error below 8u
-// (B15).
+// |f|^2. Moving the ray aside by distance_doubt has a larger effect than both errors together. Its
+// effect is also larger than the error of sphere_power. All other terms of a distance have a
+// relative error below 8u (B15).
 #ifndef CLRT_CERTIFY_SPHERE_CL
 #define CLRT_CERTIFY_SPHERE_CL
 #include "certify_triangle.cl"
@@ -24,8 +24,8 @@ static inline PlainSphere plain_sphere(global const SphereData *data)
                          sphere.radius.high};
 }
 
-// Bounds the tracer's error as described at the top. The error of fp64 here is at most 2^-49 of
-// `sizes`.
+// Bounds the tracer's error as a distance by which the ray moves aside (see the top of this file).
+// The error of this kernel's own fp64 arithmetic is at most 2^-49 of `sizes`.
 static inline Real distance_doubt(Real u, Real apart, const PlainSphere *sphere)
 {
     const Real sizes = apart + sphere->radius + length_of(sphere->center);
@@ -41,7 +41,7 @@ typedef struct {
 typedef struct {
     Answer met; // whether the line hits the sphere
     Range enter, leave;
-    Real shift; // bound on the shift of the origin by the tracer's rounding
+    Real shift; // bound on the shift of a ray's origin by `around` and by the tracer's rounding
 } Chord;
 
 // Returns power / sum. sum must be above zero.
@@ -63,13 +63,13 @@ static inline Range rounded_range(const RayCone *ray, Range range, Real shift)
                    range.high + factor * fabs(range.high) + shift};
 }
 
-// Returns the depths at which the cone's rays enter and leave the sphere. Turning a line by the
-// spread moves its point closest to the center aside by spread * |middle|, and along the line by
+// Returns the depths at which the cone's rays enter and leave the sphere. If a line turns by the
+// spread, its closest point to the center moves aside by spread * |middle|, and along the line by
 // spread * distance.
 //
-// The depth of the nearer wall is (|f|^2 - radius^2) / (|middle| + half the chord), where the
-// numerator does not depend on the direction. The tracer uses this quotient too. A nearby wall of a
-// huge sphere is therefore as certain as a wall of a small sphere.
+// The depth of the nearer wall is (|f|^2 - radius^2) / (|middle| + half the chord). The numerator
+// does not depend on the direction. The tracer uses this quotient too. A nearby wall of a huge
+// sphere is therefore as certain as a wall of a small sphere.
 static inline Chord chord_of(const RayCone *ray, const PlainSphere *sphere)
 {
     const Real3 f = difference(sphere->center, ray->origin);

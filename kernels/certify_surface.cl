@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A certain hit of a ray cone -> a surface, and the cones of the rays that leave it. The surface's
-// point and normals have bounds on the difference between the tracer's values and the exact values.
+// Computes the surface at a certain hit of a ray cone, and the cones of the rays that leave it. The
+// point and the normals have bounds on the difference between the tracer's and the exact values.
 #ifndef CLRT_CERTIFY_SURFACE_CL
 #define CLRT_CERTIFY_SURFACE_CL
 #include "certify_search.cl"
@@ -16,18 +16,18 @@ typedef struct {
     bool from_behind; // seen from a triangle's back or from inside a sphere
     Corners corners;  // of a triangle
     Real room, edge;  // the point is at least room / edge away from the edges
-    Real area;        // twice the triangle's area, or less
+    Real area;        // lower bound of twice the triangle's area
 } UncertainSurface;
 
-// Bounds the distance that a unit vector moves if its vector has this length and an error of
-// `doubt`.
+// Bounds the error of a unit vector. The vector that it is computed from has this length, and an
+// error of at most `doubt`.
 static inline Real turn_of(Real doubt, Real length)
 {
     return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
 }
 
 // Interpolates the normal by the weights. If the point slides along the triangle, a weight changes
-// by the slide divided by the altitude of the weight's corner.
+// by at most the slide divided by the altitude of the weight's corner.
 static inline void interpolate_normal(UncertainSurface *surface, const Corners *normals,
                                       Real3 weights, const Corners *corners, Real u)
 {
@@ -52,8 +52,8 @@ static inline void face_viewer(UncertainSurface *surface)
     surface->face = negative3(surface->face);
 }
 
-// Sets area, room and edge. end.slide reduces the room, because the exact point may be closer to an
-// edge than the tracer's point.
+// Sets area, room and edge. end.slide reduces the room, because the exact point and the tracer's
+// point may be closer to an edge than end.point.
 static inline void note_room(UncertainSurface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -153,13 +153,14 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 // Returns the start of a ray that leaves in a direction known within `doubt`. Near an edge, the
 // ray's line may miss its own triangle. The edge is then nearer than the errors of the point (11u
 // per axis) and of the corners (14u of their distance), divided by the sine of the ray's angle to
-// the face. The tracer ignores edges farther than 64u / sine. Near an edge, the start may move by
-// 256u / sine along the surface, on each axis (B14).
+// the face. The tracer ignores edges if room / edge, a lower bound of their distance from the
+// point, exceeds 64u / sine. Otherwise, it may move the start by up to 256u / sine along the
+// surface, on each axis (B14).
 //
 // A reflected ray is lifted only if its line misses the triangle from the last start. This start is
 // 256u / sine from the point toward the triangle's middle, or the middle if that is nearer. As a
-// fraction of the way, this is at least 500u / (sine * edge), or 1. At the start, each weight is at
-// least a third of the fraction.
+// fraction of the distance to the middle, the move is at least the smaller of 1 and
+// 500u / (sine * edge). At this start, each weight is at least a third of the fraction.
 static inline UncertainPoint start_of(const UncertainSurface *surface, Real3 direction, Real doubt,
                                       Real u, bool *may_be_lifted)
 {
@@ -181,7 +182,7 @@ static inline RayCone shadow_cone(const UncertainSurface *surface, Real3 light, 
     const Real3 apart = difference(light, surface->end.point);
     const Real length = length_of(apart), rounding = (u + 8.0f * OWN_ROUNDOFF) * length;
     const Real turn = turn_of(radius_of(&surface->end) + rounding, length) + 8.0f * u;
-    bool may_be_lifted; // only reflected rays are
+    bool may_be_lifted; // ignored, because only reflected rays are lifted
     const UncertainPoint start =
         start_of(surface, unit_vector(apart), turn, u + OWN_ROUNDOFF, &may_be_lifted);
     RayCone ray = {.origin = start.point,
@@ -220,8 +221,8 @@ static inline Answer certify_face_facing(const UncertainSurface *surface, const 
 }
 
 // Returns whether the shading normal and the face both face the light. From outside, a sphere's
-// face is its normal. From inside it is the opposite, so only rounding can let a light near the
-// horizon pass both tests.
+// face is its normal. From inside, its face is opposite to its normal. A light then passes both
+// tests only by rounding, near the horizon.
 static inline Answer certify_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
     const Answer normal = certify_normal_facing(surface, to_light);

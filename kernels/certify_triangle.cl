@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Decides whether the rays of a cone hit a triangle: certainly, with bounds on the depth, certainly
-// not, or unknown.
+// Decides whether the rays of a cone hit a triangle. The answer is yes, no or unknown. A possible
+// hit has bounds on its depth.
 //
-// The triangle is projected into the frame of the cone's axis. The blur of a corner bounds its
-// shift, as seen along any ray of the cone, together with the tracer's rounding. If the axis passes
-// all edges by more than the blur, all rays of the cone pass the edges on the same side. A hit near
-// the ray's start also depends on the side of the triangle's plane on which the start lies
-// (side_of).
+// The triangle is projected into the frame of the cone's axis. The blur of a corner bounds the
+// distance between its positions as seen along the axis and along any ray of the cone, including
+// the tracer's rounding. If the axis passes all edges by more than the blur, all rays of the cone
+// pass each edge on the same side. A hit near the ray's start also depends on the side of the
+// triangle's plane on which the start lies (side_of).
 #ifndef CLRT_CERTIFY_TRIANGLE_CL
 #define CLRT_CERTIFY_TRIANGLE_CL
 #include "certify_cone.cl"
@@ -23,7 +23,7 @@ typedef struct {
 typedef struct {
     Corners corners;
     Edges edges; // across the ray; the determinant is twice the area, positive if the front is seen
-    Real blur;   // of all corners
+    Real blur;   // the largest blur of a corner
     Real size;   // upper bound of the corners' distances
     Real sides;  // sum of the lengths of the two edges at the first corner
     bool clear;  // the axis passes all edges by more than the blur
@@ -39,7 +39,7 @@ static inline bool corners_pass(const Corners *c, Real blur)
            min(min(c->a.y, c->b.y), c->c.y) > blur || max(max(c->a.y, c->b.y), c->c.y) < -blur;
 }
 
-// Returns whether the axis passes the edge from p to q by more than the blur. edge is its edge
+// Returns whether the axis passes the edge from p to q by more than the blur. `edge` is the edge
 // function.
 static inline bool edge_is_clear(Real3 p, Real3 q, Real edge, Real blur)
 {
@@ -96,10 +96,10 @@ static inline Real slope_of(const ProjectedTriangle *projected)
 
 // Returns bounds on the depth of a hit. The hit is within the blur of the axis, and its depth is
 // between the depths of the corners. For a broad triangle, the plane's slope also limits the
-// difference between this depth and the depth of the axis's own hit. A broad triangle is more than
-// 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the plane by less than
-// half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this. 26 u of the size cover the
-// rounding of the distance (B11).
+// difference between this depth and the depth at which the axis crosses the plane. A broad triangle
+// is more than 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the plane by
+// less than half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this. 26 u of the size
+// cover the rounding of the distance (B11).
 static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 {
     const Corners *c = &projected->corners;
@@ -115,17 +115,18 @@ static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
     return depth;
 }
 
-// Returns a bound on the distance error that the tracer gives to surface_ray_distance (B12).
+// Returns a bound on the argument `error` that the tracer passes to surface_ray_distance (B12).
 static inline Real margin_of(const ProjectedTriangle *projected, Real u)
 {
     return 70.0f * (u + OWN_ROUNDOFF) * projected->size;
 }
 
 // Returns the side of a triangle's plane on which a point certainly is: 1 in front, -1 behind, or 0
-// if unknown. A nonzero result agrees with real arithmetic and with height_over. The error of
-// height_over is below 12u n.|apart| + 12u E |apart|, and so is its threshold. The bound `rounding`
-// is therefore doubled. It also covers is_before_face (shade.cl), whose unit vector adds an error
-// of 4u n.|apart|.
+// if unknown. A nonzero result agrees with real arithmetic and with height_over. With the n and E
+// of B6, the error of height_over is below 12u (n.|apart| + E |apart|). The threshold of
+// height_over is at most 16u n.|point| + 8u (n.|apart| + E |apart|). Both are below u * rounding,
+// so this bound is doubled. It then also covers is_before_face (shade.cl), whose unit vector adds
+// an error of 4u n.|apart|.
 static inline int side_of(const Corners *corners, const UncertainPoint *uncertain, Real u)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -146,8 +147,8 @@ static inline int side_of(const Corners *corners, const UncertainPoint *uncertai
     return height > 0.0f ? 1 : -1;
 }
 
-// Bounds search_behind, the distance by which a new ray may start beyond a triangle that stops it.
-// The length of a direction is at most the square root of 3 times its longest component (B12).
+// Bounds search_behind: rounding may put a ray's start this far beyond a triangle that stops the
+// ray. A direction is at most sqrt(3) times as long as its longest component (B12).
 static inline Real behind_of(const RayCone *ray)
 {
     if (ray->kind == RAY_CAMERA)
@@ -177,8 +178,8 @@ static inline Candidate reflected_candidate(const RayCone *ray, const ProjectedT
     return candidate;
 }
 
-// For hits that are closer to the eye than this, the tracer may test the eye like the start of a
-// ray that leaves a surface.
+// If a hit is closer to the eye than this, the tracer may test the eye like the start of a ray that
+// leaves a surface.
 #define AT_EYE 0x1p-15f
 
 static inline Candidate camera_candidate(const RayCone *ray, const ProjectedTriangle *projected,
@@ -250,19 +251,19 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
            is_same_corner(one->c, two->c);
 }
 
-// Returns whether a ray that leaves a triangle certainly misses a coincident triangle. It does if
-// height_over returns zero for the ray's start. hits_neighbor then compares the triangles and finds
-// neither in front of the other, because the height of an edge over its own plane is below 6u
-// n.|edge|, less than height_over allows. Here n is the tracer's normal, and n.|v| is the sum of
-// the products' magnitudes.
+// Returns whether a ray that leaves a triangle certainly misses a coincident triangle. It misses if
+// height_over returns zero for the ray's start. hits_neighbor then finds neither triangle in front
+// of the other: the height of an edge over its own plane is below 6u n.|edge|, which is less than
+// height_over allows. Here n is the tracer's normal, and n.|v| is the sum of the products'
+// magnitudes.
 //
 // The computed height of the start is the sum of these errors:
-//  - The start is a weighted sum of corners, which all have the height n.a over the origin. Its
+//  - The start is a weighted sum of corners, which all have the height n.a over the origin. The
 //    weights add up to 1 within 4u, which gives 4u |n.a|. Rounding the sum adds 3u n.|corner|.
-//  - Moving the start into the triangle adds u n.|start| and 2u n.|way|.
-//  - An edge leaves the plane across n by 4u n.|edge|: 3u from rounding the components of n, and
-//    u from rounding the edge.
-//  - The difference of start and corner and its product with n add 4u n.|difference|.
+//  - If the start moves into the triangle, this adds u n.|start| and 2u n.|move|.
+//  - An edge leaves the plane perpendicular to n by 4u n.|edge|: 3u from rounding the components of
+//    n, and u from rounding the edge.
+//  - Subtracting a corner from the start and multiplying by n adds 4u n.|start - corner|.
 // Both sides of the comparison are in units of u. The normal computed here differs from n by 4u E
 // per axis, because the tracer rounds the edges. E is the product of the largest edge components.
 // As coordinates are at most 1, this changes the comparison by less than 1100u E.

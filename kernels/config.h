@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The switches that specialize a program. The kernels test these constants by plain `if`, and the
+// The switches that specialize a program. The kernels test most of them with a plain `if`, and the
 // optimizer removes unused features. The defaults make the general program, which renders every
-// scene. The first group describes the scene, and whether the kernels count (host/accel/flat.c).
+// scene. The first group describes the scene and enables counting (host/accel/flat.c).
 #ifndef CLRT_CONFIG_H
 #define CLRT_CONFIG_H
 
@@ -21,13 +21,13 @@
 #define CLRT_SHADED 1 // some material is shaded by lights
 #endif
 #ifndef CLRT_COLORS
-#define CLRT_COLORS 1 // some mesh has colors of vertices
+#define CLRT_COLORS 1 // some mesh has vertex colors
 #endif
 #ifndef CLRT_STATISTICS
 #define CLRT_STATISTICS 0 // rays and tests are counted
 #endif
 
-// The form of the kernels, set by host/device/kernel_choice.c and program.c.
+// The form of the kernels, set by kernel_choice.c, program.c and KernelEntry (all in host/device).
 #ifndef CLRT_WIDE_NODES
 #define CLRT_WIDE_NODES 0 // BvhWide and TriangleBlock replace BvhPair and TriangleData
 #endif

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Finds all triangles that rays cross. If their number is odd, the ray starts inside a closed
-// surface.
+// Finds all triangles that a ray crosses. If a ray crosses an odd number of triangles of a closed,
+// two-sided surface, the ray starts inside the surface.
 //
-// A ray through an edge or a vertex hits several triangles that share it. It would cross the
-// surface several times there, and the parity would be wrong. Therefore only triangles that own the
-// ray count. edges_own decides as if the ray were moved by an infinitely small distance in a fixed
-// direction (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
+// A ray through an edge or a vertex hits several triangles there. If all of them counted, the
+// parity could be wrong. A triangle therefore counts only if it owns the ray. edges_own decides as
+// if the ray were moved by an infinitely small distance in a fixed direction (Edelsbrunner and
+// Muecke, "Simulation of simplicity", 1990).
 //
-// Invariant: a ray that crosses a closed surface at an edge or vertex is owned by an odd number of
-// the triangles there, and a ray that only touches the surface by an even number.
+// Invariant: if a ray crosses a closed surface at an edge or vertex, an odd number of the triangles
+// there own the ray. If the ray only touches the surface there, the number is even.
 //
 // A work-item follows one ray through the same tree as the other searches, but never stops before
 // the ray's limit. The file is compiled after render.cl, and only if requested.
 
-// The crossings of a ray: their number, and the nearest `room` ones in order of distance and id.
+// The number of a ray's crossings, and the nearest `room` of them, sorted by distance and id.
 typedef struct {
     global HitData *nearest;
     uint room, count;
@@ -147,8 +147,8 @@ static inline void cross_triangles(const Tracer *tracer, const Ray *along, Real 
 }
 #endif
 
-// Stores the number of crossings of each ray in counts. Stores the nearest `room` crossings of each
-// ray in hits, which has `room` entries for each ray.
+// Stores the number of crossings of each ray in `counts`. Stores the nearest `room` crossings of
+// each ray in `hits`, which has `room` entries for each ray.
 kernel void find_crossings(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint room,
                            global HitData *hits, global uint *counts)
 {

@@ -4,8 +4,8 @@
 // compiled after render.cl, and only if requested.
 
 typedef struct {
-    global Scalar *values; // LEVEL_VALUES for each level, then LIGHT_VALUES for each of its lights
-    global uint *words;    // LEVEL_WORDS for each level, then LIGHT_WORDS for each of its lights
+    global Scalar *values; // for each level: LEVEL_VALUES, then LIGHT_VALUES for each light
+    global uint *words;    // for each level: LEVEL_WORDS, then LIGHT_WORDS for each light
 } Notes;
 
 static inline Notes level_notes(const Notes *notes, const FrameData *frame, uint level)
@@ -38,7 +38,8 @@ static inline void note_count(const Notes *notes, uint place, UInt value)
     notes->words[place] = ((const uint *)&value)[0];
 }
 
-// Bounds the error of t at a triangle hit by the bound on the depth's error (triangle.inc.cl).
+// Returns a bound on the error of t at a triangle: the bound on the depth's error, divided by |z|
+// of the direction (triangle.inc.cl).
 static inline Real triangle_error(const Tracer *tracer, const Ray *ray, UInt index)
 {
     const Corners corners = fetch_corners(tracer, index);
@@ -57,11 +58,11 @@ static inline Real size_of3(Real3 v)
     return size.x + size.y + size.z;
 }
 
-// Bounds the error of t at a sphere hit by the residual |origin + t * direction - center|^2 -
-// radius^2. The residual is |direction|^2 times the product of the distances from t to both roots.
-// The nearer root is therefore within the square root of |residual| / |direction|^2. If the ray
-// does not graze the sphere, the root is also within twice a Newton step. The bound adds 64 units
-// of two-float rounding to the residual.
+// Returns a bound on the error of t at a sphere. The residual is |origin + t * direction -
+// center|^2 - radius^2, and equals |direction|^2 * (t - first root) * (t - second root). The nearer
+// root is therefore within the square root of |residual| / |direction|^2. The root is also within
+// twice a Newton step, which is less unless the ray grazes the sphere. The bound adds 64 units of
+// two-float rounding to the residual.
 static inline Real sphere_error(const Tracer *tracer, const Ray *ray, UInt index, Real t)
 {
     const Sphere sphere = fetch_sphere(tracer, index);
@@ -137,7 +138,7 @@ static inline void note_surface(const Notes *notes, const Tracer *tracer, const 
     }
 }
 
-// Traces like trace() and records the path. end receives the number of rays and, at index 3, the
+// Traces like trace() and records the path. `end` receives the number of rays and, at index 3, the
 // background's weight in the color.
 static inline Real3 trace_noting(const Tracer *tracer, Ray ray, const Notes *notes,
                                  const Notes *end)
@@ -161,9 +162,9 @@ static inline Real3 trace_noting(const Tracer *tracer, Ray ray, const Notes *not
     return path_color(tracer, path);
 }
 
-// Traces the sample at a column and row of the picture's sample grid. values and words have room
-// for max_level levels. result receives the color in steps of 2^-32 and the background's weight in
-// it. count receives the number of levels.
+// Traces the sample at a column and row of the picture's sample grid. `values` and `words` have
+// room for max_level levels. `result` receives the color in steps of 2^-32 and, at index 3, the
+// background's weight in the color. `count` receives the number of levels.
 kernel void explain_sample(TRACER_ARGUMENTS, uint column, uint row, global Scalar *values,
                            global uint *words, global Scalar *result, global uint *count)
 {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Finds the nearest hit of a ray, or any primitive that blocks a shadow ray. Spheres are all tested
-// first. Triangles are then searched by the tree for which the program is compiled.
+// Finds the nearest hit of a ray, or any primitive that blocks a shadow ray. All spheres are tested
+// first. Triangles are then searched as the program's nodes require (pair.cl or regroup.cl).
 //
-// Invariant: the nearest hit is the smallest pair (distance, id) of all primitives, with the
-// distances of triangles ordered by order.cl. It does not depend on the tree or on the other rays.
+// Invariant: the primitive with the smallest pair (distance, id) is hit. order.cl compares the
+// distances of triangles. The hit does not depend on the tree or on the other rays.
 #ifndef CLRT_INTERSECT_CL
 #define CLRT_INTERSECT_CL
 #include "pair.cl"
 #include "regroup.cl"
 #include "sphere.cl"
 
-// Returns the distance to the sphere on which the ray starts. Only a reflected ray can hit it
-// again, and only from inside.
+// Returns the distance to the sphere on which the ray starts. Only a reflected ray can hit this
+// sphere again, and only from inside.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
 {
     if (plain_kind(ray->kind) != RAY_REFLECTED || !any_lane(is_own))
@@ -36,9 +36,9 @@ static inline void intersect_spheres(const Tracer *tracer, const Ray *ray, Hit *
     }
 }
 
-// Returns whether the ray may search for triangles. The ray must start within 2^46 of the frame's
-// origin, and its direction must be between 2^-80 and 2^80 long, both as sums of components. All
-// other rays hit no triangle. With an infinity or a NaN, a ray could be inside every box, even a
+// Returns whether the ray may search for triangles. The sum of the components' magnitudes must be
+// below 2^46 for the start, and between 2^-80 and 2^80 for the direction. Other rays never search,
+// so they hit no triangle. With an infinity or a NaN, a ray could be inside every box, even a
 // missing child's, and the search would never end.
 static inline Mask is_searchable(const Ray *ray)
 {
@@ -47,8 +47,8 @@ static inline Mask is_searchable(const Ray *ray)
     return ray->active && reach < 0x1p46f && size > 0x1p-80f && size < 0x1p80f;
 }
 
-// Searches for triangles that the rays in `active` hit, in the tree that the program is compiled
-// for.
+// Finds the hits of triangles in the lanes of `active`, by the search for which the program is
+// compiled.
 static inline void intersect_triangles(const Tracer *tracer, const Ray *rays,
                                        const Mask active[PACKETS], uint count, Hit *hits)
 {
@@ -94,7 +94,7 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
 
 // Finds for each shadow ray whether a primitive is between the shaded point and the light. If
 // nothing blocks a ray, its hit has the id NOTHING, and t is the limit of the search. If the light
-// is on a primitive, within the error of a distance, this primitive does not block the ray.
+// is within rounding of a primitive, this primitive does not block the ray.
 static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
     for (uint i = 0; i < count; i++)

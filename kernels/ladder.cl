@@ -2,8 +2,8 @@
 // The kernel of error and time goals: requests for samples of pixels -> the sums of these samples.
 // It is compiled after render.cl, and only if requested.
 
-// The samples of a work-item. With a limit on requests instead, a work-item could take 1024
-// samples, and short lists would leave cores idle.
+// The number of samples per work-item. If the number of requests were limited instead, a work-item
+// could take 1024 samples, and short lists would leave cores idle.
 #define ITEM_SAMPLES (BLOCK * BLOCK)
 
 // Color values are rounded to this many bits before squaring, so that the sum of squares of
@@ -22,7 +22,7 @@ typedef struct {
 #define LANE_NUMBER (LANE_Y * PACKET_WIDTH + LANE_X)
 #endif
 
-// Returns bit `bit` of each number, times value.
+// Returns `value` in lanes whose number has this bit set, and 0 in the others.
 static inline UInt times_bit(UInt number, uint bit, uint value)
 {
     return (number >> bit & 1) * value;
@@ -42,8 +42,9 @@ static inline UInt point_y(UInt point)
            times_bit(point, 3, 960);
 }
 
-// Returns samples start to start + CLRT_LANES - 1 of a list of requests with equal sample counts,
-// which are powers of two. With divisions by the count, pictures took 3 to 5 % longer.
+// Returns the samples with the numbers `start` to `start` + CLRT_LANES - 1 of a list of requests.
+// All requests have the same number of samples, a power of two. With divisions instead of shifts,
+// pictures took 3 to 5 % longer.
 static inline PixelSamples samples_of(global const PixelRequest *requests, uint samples, uint start,
                                       uint end)
 {
@@ -118,13 +119,13 @@ static inline void store_sums(global PixelSums *sums, Real3 color, uint samples,
     }
 }
 
-// A packet's first sample among the work-item's `count` samples. Each request has `samples`.
+// `start` is a packet's first of the work-item's `count` samples. A request has `samples` samples.
 typedef struct {
     uint samples, start, count;
 } Span;
 
-// Adds a packet's colors to the sums of its requests. `sum` holds the sums so far of a request that
-// spans several packets.
+// Adds a packet's colors to the sums of its requests. `sum` holds the partial sums of a request
+// that spans several packets.
 static inline void add_packet(global PixelSums *sums, PixelSums *sum, Real3 color, Span span)
 {
     global PixelSums *place = sums + span.start / span.samples;
@@ -141,10 +142,10 @@ static inline void add_packet(global PixelSums *sums, PixelSums *sum, Real3 colo
     }
 }
 
-// Writes the sums of requests first to end - 1 to the elements of `sums` with the same indices. All
-// requests have equal sample counts. A work-item serves requests for ITEM_SAMPLES samples in total,
-// or one larger request. It writes its tally at its first request, and only if statistics are
-// compiled in.
+// Stores the sums of the requests `first` to `end` - 1 at the same indices of `sums`. All requests
+// have the same number of samples. A work-item serves requests for ITEM_SAMPLES samples in total,
+// or one larger request. If statistics are compiled in, the work-item stores its tally at the
+// index of its first request.
 kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
                          uint end, global PixelSums *sums, global uint *tallies)
 {

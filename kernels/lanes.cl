@@ -25,8 +25,8 @@
 #endif
 #endif
 
-// Scalar is float, or double with --precision fp64. Both compile the same source for the same
-// scene, which is stored in float. Their pictures therefore differ only by the error of float
+// Scalar is float, or double with --precision fp64. Both precisions use the same source and the
+// same scene, which is stored in floats. Their pictures therefore differ only by the error of float
 // arithmetic.
 #if CLRT_FP64
 typedef double Scalar;
@@ -126,9 +126,9 @@ typedef UInt Bits;
 #define to_long FOR_LANES(convert_ulong)
 #endif
 
-// Returns one bit for each true lane. x86 has an instruction for this, without which a whole
-// picture takes a fifth longer. The fallback masks each lane with its bit and combines the lanes by
-// a tree of ORs.
+// Returns a word in which bit i is set if lane i is true. x86 has an instruction for this. Without
+// it, a whole picture takes a fifth longer. The fallback masks each lane with its bit and combines
+// the lanes by a tree of ORs.
 static inline uint OVERLOAD lane_bits(int mask)
 {
     return mask != 0;
@@ -168,8 +168,8 @@ static inline uint OVERLOAD lane_bits(int16 mask)
 }
 #endif
 
-// Packets that a work-item traces in lock step. A beam has 64 rays with 8 and 16 lanes. With 4
-// lanes, 64 rays would take 1.7 times as long as 16.
+// The number of packets that a work-item traces in lock step, as a beam. With 8 or 16 lanes, a beam
+// has 64 rays. With 4 lanes, it has 16, because 64 rays would take 1.7 times as long.
 #if CLRT_PACKET
 #define PACKETS (CLRT_LANES == 8 ? 8 : 4)
 #else
@@ -212,11 +212,11 @@ static inline Mask lanes_of(uint bits)
 #define GATHER_8(p)  GATHER_4(p.lo), GATHER_4(p.hi)
 #define GATHER_16(p) GATHER_8(p.lo), GATHER_8(p.hi)
 
-// Returns words[place], lane by lane. AVX-512's gather makes pictures 3 to 5 % faster.
+// Returns words[place], lane by lane. AVX-512's gather instruction makes pictures 3 to 5 % faster.
 static inline UInt gather(global const uint *words, UInt place)
 {
 #if CLRT_LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_gathersiv16si)
-    // The instruction's indices are signed, so they count from the middle of place's range.
+    // The instruction's indices are signed, so they count from the middle of the range of `place`.
     typedef int Register __attribute__((vector_size(64)));
     const Register index = (Register)as_int16(place ^ 0x80000000u);
     const ulong middle = (ulong)words + 0x80000000ul * sizeof(uint);

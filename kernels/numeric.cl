@@ -13,7 +13,7 @@
 // the eight triangles of a block. Both compile the same files, so their results are equal.
 #include "triangle.inc.cl"
 
-// The types named Wide... hold a float for each of the WIDE triangles of a block.
+// The types named Wide... have a lane for each of the WIDE triangles of a block.
 #if CLRT_WIDE_NODES && CLRT_LANES == WIDE
 typedef Real3 Wide3;
 typedef Shear WideShear;
@@ -51,8 +51,8 @@ static inline Real3 real3_of(Real x, Real y, Real z)
     return (Real3){x, y, z};
 }
 
-// Returns *v, read component by component. PoCL copies whole structs by parts of registers, and a
-// register that is read soon afterwards waits for its parts.
+// Returns *v, read component by component. PoCL copies a whole struct in pieces smaller than a
+// register. If a register is loaded soon afterwards, it waits for all its pieces.
 static inline Real3 read3(const Real3 *v)
 {
     return real3_of(v->x, v->y, v->z);
@@ -89,7 +89,7 @@ static inline Real3 choose3(Mask first, Real3 a, Real3 b)
     return real3_of(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
 }
 
-// Returns 1 for negative numbers, in fewer instructions than v < 0.
+// Returns 1 for negative numbers and -0, else 0. This takes fewer instructions than v < 0.
 static inline UInt sign_bit(Real v)
 {
     return (UInt)(as_bits(v) >> (int)(8 * sizeof(Scalar) - 1));
@@ -121,9 +121,9 @@ static inline Real unless_tiny(Real power)
     return power < 0x1p-100f ? 0.0f : power;
 }
 
-// Returns base^exponent for a base in [0, 1]. Squaring gives the same bits on every device, in a
-// twentieth of the time of pow. Powers below 2^-100 become zero, so devices that flush denormals
-// agree.
+// Returns base^exponent for a base in [0, 1]. Repeated squaring gives the same bits on every
+// device, in a twentieth of the time of pow. Powers below 2^-100 become zero, so devices that flush
+// denormals compute the same bits, too.
 static inline Real integer_power(Real base, UInt exponent)
 {
     Real result = 1.0f;

@@ -5,7 +5,8 @@
 // The edge tests decide exactly about the sheared corners (triangle.inc.cl), and neighbors share
 // these corners. For a ray, all triangles therefore form one surface: the stored surface, with each
 // corner moved by the rounding of the shear. A Nearness is the distance to this surface with twice
-// the bits of t. docs/numerics.md proves that rays then stay inside closed surfaces.
+// the bits of t. docs/numerics.md proves that rays then stay inside closed surfaces, except for one
+// step that is only measured.
 //
 // Invariant: a Nearness depends only on the ray and on the triangle's corners, and not on the order
 // of the tests.
@@ -18,8 +19,8 @@
 // select the triangle that a ray would hit first if it passed a little beside the edge or corner.
 typedef struct {
     TwoFloat t;
-    Real lowest; // at a corner: the least slope of t away from the ray in the triangle; else 0
-    Real slope;  // of t across the edge, into the triangle; 0 if the ray hits no edge exactly
+    Real lowest; // at a corner: the least slope of t from there into the triangle; else 0
+    Real slope;  // slope of t across the edge, into the triangle; 0 if the ray hits no edge exactly
 } Nearness;
 
 static inline TwoFloat two_product(Real a, Real b)
@@ -40,8 +41,8 @@ static inline TwoFloat two_quotient(TwoFloat a, TwoFloat b)
     return two_sum_ordered(high, rest.high / b.high);
 }
 
-// Returns the depth at which the ray hits the edge. The depth depends only on the edge's ends, in
-// the host's order, so all triangles at this edge get the same bits.
+// Returns the depth at which the ray hits the edge. The depth depends only on the edge's ends,
+// which the host has sorted, so all triangles at this edge get the same bits.
 static inline TwoFloat edge_depth(Real3 first, Real3 second)
 {
     const Mask by_x = fabs(second.x - first.x) >= fabs(second.y - first.y);
@@ -76,7 +77,7 @@ static inline Real slope_along(Real3 first, Real3 second)
 }
 
 // Returns the least slope of the depth from the corner `first` into the triangle. The steepest
-// descent has this slope if it leads into the triangle. Otherwise, one of the two edges has it.
+// descent has this slope if it leads into the triangle. Otherwise, an edge at the corner has it.
 static inline Real slope_around(Real3 first, Real3 second, Real3 third)
 {
     const Real3 p = difference(second, first), q = difference(third, first);
@@ -94,8 +95,8 @@ static inline Corners corners_chosen(Mask first, const Corners *a, const Corners
                      choose3(first, a->c, b->c)};
 }
 
-// Returns the corners in another order. If the ray hits an edge exactly, it is the edge from a to
-// b, whose ends are in the host's order. If the ray hits a corner exactly, it is a.
+// Returns the corners in another order. An edge that the ray hits exactly becomes the edge from a
+// to b, with its ends in the host's order. A corner that the ray hits exactly becomes a.
 static inline Corners corners_from_edge(const Corners *s, const Edges *edges, Mask *at_corner)
 {
     const Mask on_u = edges->u == 0.0f, on_v = edges->v == 0.0f, on_w = edges->w == 0.0f;
@@ -150,7 +151,7 @@ static inline Mask is_nearer(const Nearness *a, const Nearness *b, Mask else_nea
     return a->t.high < b->t.high || (same_high && a->t.low < b->t.low) || (same_t && by_lowest);
 }
 
-// Returns whether the ray hits a triangle after it leaves its own.
+// Returns whether the ray hits the triangle beyond its own triangle, by their nearnesses.
 static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index)
 {
     const Mask known = ray->own_index != NOTHING;
@@ -159,10 +160,10 @@ static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index
     return is_nearer(&own, &other, 0);
 }
 
-// Returns whether a triangle precedes the best hit, in the given lanes. There, the best hit must be
-// a triangle too. If the nearnesses are equal, both triangles get the lesser t, because their own t
-// differ by rounding. The id then decides only which triangle is hit. To use the nearnesses' common
-// distance would take 15 registers more on GPUs, and a separate test for equality 9.
+// Returns whether a triangle precedes the best hit, in the given lanes. In these lanes, the best
+// hit must also be a triangle. If the nearnesses are equal, both triangles get the lesser t,
+// because their own t differ by rounding. The id then decides only which triangle is hit. On GPUs,
+// storing the common nearness as t would take 15 more registers, and a separate equality test 9.
 static NOT_INLINE Mask triangle_is_nearer(const Search *search, Hit *triangle, Hit *best,
                                           Mask lanes)
 {
@@ -178,8 +179,8 @@ static NOT_INLINE Mask triangle_is_nearer(const Search *search, Hit *triangle, H
     return nearer;
 }
 
-// Returns the lanes in which nearness decides between a triangle at t and the best hit. Only
-// triangles in front of the nearest sphere count.
+// Returns the lanes in which nearness decides between a triangle at t and the best hit. There, both
+// distances are below search->limit.
 static inline Mask is_close(const Search *search, Real t, const Hit *best)
 {
     return fabs(t - best->t) <= search->tie && t < search->limit && best->t < search->limit;

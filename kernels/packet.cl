@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tests packets of rays against the triangles of a block. The directions of a packet share their
-// signs. Bounds over the rays have culled most of the block's triangles (bounds.cl). Each remaining
-// triangle is tested against all lanes at once, by the operations of triangle.inc.cl.
+// Tests packets of rays against the triangles of a block. All rays of a packet point into the same
+// octant. Bounds over the rays have already culled most of the block's triangles (bounds.cl). Each
+// remaining triangle is tested against all lanes at once, by the operations of triangle.inc.cl.
 #ifndef CLRT_PACKET_CL
 #define CLRT_PACKET_CL
 #include "wide.cl"
@@ -9,12 +9,12 @@
 #if CLRT_WIDE_NODES
 
 typedef struct {
-    Search rays;   // inactive lanes copy an active one
+    Search rays;   // inactive lanes have copies of an active ray
     bool one_axis; // all rays have the same longest axis
     uint axes[3];  // if one_axis is set, the shear's x, y and z axes
 } Packet;
 
-// Prepares the tests against triangles. Many packets need none.
+// Prepares the tests against triangles, which many packets never need.
 static inline void packet_shear(Packet *packet)
 {
     search_shear(&packet->rays);
@@ -32,8 +32,8 @@ static inline Real3 splat_corner(const BlockPlace *at, uint corner)
                     at->block->corners[corner][2][at->place]);
 }
 
-// The rows of a block's first corners, in the order of a packet's axes. The rows of the next corner
-// follow 3 * WIDE words later.
+// The rows with the first corners of a block's triangles, in the order of a packet's axes. The rows
+// with the next corners follow 3 * WIDE words later.
 typedef struct {
     global const float *x, *y, *z;
 } BlockRows;
@@ -45,7 +45,7 @@ static inline BlockRows rows_ordered(global const TriangleBlock *block, const Pa
                        rows + packet->axes[2] * WIDE};
 }
 
-// Returns a corner relative to each ray's origin, if all rays have the same axes.
+// Returns a corner relative to each ray's origin. All rays must have the same axes.
 static inline Real3 corner_in_rows(const BlockRows *rows, uint word, Real3 backward)
 {
     return real3_of(rows->x[word] + backward.x, rows->y[word] + backward.y,
@@ -70,7 +70,7 @@ static ALWAYS_INLINE Corners corners_from(const BlockPlace *at, const BlockRows 
                      corner_from(at, 2, packet)};
 }
 
-// Returns `near` without the bits of triangles whose edges no ray of the packet passes inside. All
+// Returns the bits of `near` for triangles through which the line of a ray in `lanes` passes. All
 // rays must have the same axes. The loop has no branches.
 static ALWAYS_INLINE uint triangles_entered(const BlockPlace *start, const BlockRows *rows,
                                             const Packet *packet, Mask lanes, uint near)

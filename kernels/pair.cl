@@ -4,7 +4,7 @@
 // their distances.
 //
 // Invariant: a child is skipped only if the ray misses its box, or enters it beyond search_reach.
-// Both are conservative (search.cl), so the hit is the same as without a tree.
+// Both tests are conservative (search.cl), so the hit is the same as without a tree.
 #ifndef CLRT_PAIR_CL
 #define CLRT_PAIR_CL
 #include "accept.cl"
@@ -17,7 +17,7 @@ typedef struct {
 } Intervals;
 
 // Narrows the intervals to the slabs of one axis. `planes` has the low and the high planes of both
-// children. All of them are loaded, because a GPU reads a whole node faster than chosen planes.
+// children. All planes are loaded, because a GPU reads a whole node faster than selected planes.
 static inline Intervals clip_slabs(Intervals inside, global const float planes[2][2], Real inverse,
                                    Real2 offsets)
 {
@@ -30,8 +30,8 @@ static inline Intervals clip_slabs(Intervals inside, global const float planes[2
     return inside;
 }
 
-// Returns the distances at which the ray enters the children's boxes, INFINITY for boxes that it
-// does not enter before `reach`.
+// Returns the distances at which the ray enters the children's boxes, and INFINITY for boxes that
+// it does not enter before `reach`.
 static inline Real2 enter_boxes(global const BvhPair *node, const Slabs *slabs, Real reach)
 {
     const Real3 near = slabs->near_offset, far = slabs->far_offset;
@@ -43,8 +43,8 @@ static inline Real2 enter_boxes(global const BvhPair *node, const Slabs *slabs, 
 }
 
 // Returns a corner relative to the ray's origin, in the order of the axes. A CPU reads the
-// coordinates in this order, which makes small scenes a tenth faster. A GPU reads 16 bytes at once
-// and needs 9 fewer registers.
+// coordinates in this order, which makes small scenes a tenth faster. A GPU reads 16 bytes at once,
+// which saves 9 registers.
 static inline Real3 corner_relative(global const float *corner, const Search *search)
 {
     if (CLRT_GPU)
@@ -69,15 +69,15 @@ static inline void intersect_range(const Search *search, uint2 range, Hit *best)
     }
 }
 
-// The farther children that the ray enters, as 2 * node + child, and the distances at which it
-// enters them. A GPU keeps these arrays in memory, and the rest of the search's state in registers.
+// The children that are still to be visited, as 2 * node + child, and the distances at which the
+// ray enters them. A GPU keeps these arrays in memory, and the search's other state in registers.
 typedef struct {
     uint child[BVH_STACK_SIZE];
     Real entry[BVH_STACK_SIZE];
 } PairStack;
 
-// A place in the tree: triangles [first, first + count) or, if count is 0, the node `first`. The
-// first place is {0}.
+// A place in the tree: triangles [first, first + count) or, if count is 0, the node `first`. {0} is
+// the root.
 typedef struct {
     uint first, count;
     uint depth; // entries on the stack
@@ -91,7 +91,7 @@ static inline void push_child(PairStack *stack, PairPlace *place, uint child, Re
 }
 
 // Pushes the children that the ray enters, the nearer one last. `entry` has the distances at which
-// the ray enters them, INFINITY for a child that it misses.
+// the ray enters them, and INFINITY for a child that it misses.
 static inline void push_children(Real2 entry, PairStack *stack, PairPlace *place)
 {
     const uint first = 2 * place->first;
@@ -104,8 +104,8 @@ static inline void push_children(Real2 entry, PairStack *stack, PairPlace *place
         push_child(stack, place, first + 1, entry.y);
 }
 
-// Moves from a node to the nearer child, and pushes the other one. `entry` is as for push_children.
-// Returns false if the ray enters neither.
+// Moves from a node to the nearer child, and pushes the other child if the ray enters it. `entry`
+// has the same meaning as in push_children. Returns false if the ray enters neither child.
 static inline bool move_to_child(global const Node *nodes, Real2 entry, PairStack *stack,
                                  PairPlace *place)
 {
@@ -122,8 +122,8 @@ static inline bool move_to_child(global const Node *nodes, Real2 entry, PairStac
 }
 
 // Enters a node's children. A GPU keeps the nearer one in registers. On a CPU, small scenes take a
-// seventh less time with both on the stack. Returns whether the place is now a child; otherwise,
-// the next place is on the stack.
+// seventh less time with both on the stack. Returns whether the place is now a child. Otherwise,
+// the caller must pop the next place.
 static inline bool enter_children(global const Node *nodes, Real2 entry, PairStack *stack,
                                   PairPlace *place)
 {
@@ -133,8 +133,8 @@ static inline bool enter_children(global const Node *nodes, Real2 entry, PairSta
     return false;
 }
 
-// Moves to the nearest child on the stack that the ray enters before `reach`. Returns false if
-// there is none.
+// Pops children until the ray enters one before `reach`, and moves to this child. Returns false if
+// the stack has no such child.
 static inline bool pop_place(global const Node *nodes, Real reach, const PairStack *stack,
                              PairPlace *place)
 {
@@ -150,7 +150,7 @@ static inline bool pop_place(global const Node *nodes, Real reach, const PairSta
     return false;
 }
 
-// Enters the children of a node that the ray enters before `reach`.
+// Enters those children of the node whose boxes the ray enters before `reach`.
 static inline bool descend(const Search *search, Real reach, PairStack *stack, PairPlace *place)
 {
     const Tracer *tracer = search->tracer;

@@ -18,7 +18,7 @@ static inline bool ends_at_any_hit(RayKind kind)
     return kind == RAY_SHADOW || kind != plain_kind(kind);
 }
 
-// origin + t * direction. A shadow ray runs from the shaded point at t = 0 to the light at t = 1.
+// A ray: origin + t * direction. A shadow ray leads from a surface at t = 0 to a light at t = 1.
 typedef struct {
     Real3 origin, direction;
     UInt own;       // id of the primitive on which it starts, or NOTHING

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Traces arrays of rays with the searches that render pictures, for clrt check and the library.
+// Traces arrays of rays for clrt check and the library, with the searches that render pictures.
 // Neighbors in an array may be random rays, for which beams are slow. Packets of rays that differ
 // too much are therefore traced ray by ray. The file is compiled after render.cl, and only if
 // requested.
 
-// Reads a lane's ray for each of the CLRT_LANES rays from `start` on. Rays past the count are
-// inactive.
+// Reads CLRT_LANES rays from index `start` on, one per lane. Lanes past the array's end are
+// inactive, and so are rays with a limit below 0.
 static inline Ray ray_at(global const RayData *rays, uint start, uint count, uint kind, Hit *limit)
 {
     const UInt place = start + LANE_Y * PACKET_WIDTH + LANE_X;
@@ -21,7 +21,7 @@ static inline Ray ray_at(global const RayData *rays, uint start, uint count, uin
 
 #if CLRT_PACKET
 // If origins or directions differ by more than this, beams are slower than single rays. For random
-// rays at 5, 82 and 1300 thousand triangles, single rays save about 45, 35 and 40 % of the time.
+// rays in 5, 82 and 1300 thousand triangles, single rays save about 45, 35 and 40 % of the time.
 #define LARGEST_SPREAD 0.5f
 
 static inline Real3 first_real3(Real3 v, Mask among)
@@ -29,8 +29,8 @@ static inline Real3 first_real3(Real3 v, Mask among)
     return real3_of(first_real(v.x, among), first_real(v.y, among), first_real(v.z, among));
 }
 
-// Returns whether beams trace the rays faster than single rays do. Directions have a largest
-// component in [1, 2). Both find the same hits.
+// Returns whether a beam traces the rays faster than searches ray by ray. The hits are the same.
+// The library scales directions until their largest component is in [1, 2).
 static inline bool are_coherent(const Ray packets[PACKETS])
 {
     bool coherent = true;
@@ -74,8 +74,8 @@ static inline void store_hits(global HitData *hits, uint left, const Hit *found)
     }
 }
 
-// Finds the nearest hits of `count` rays, all of one kind (RayKind), or any hits if the kind has
-// RAY_ANY_HIT. A work-item traces PACKETS packets of consecutive rays.
+// Finds the nearest hits of `count` rays, or any hits if `kind` has RAY_ANY_HIT. All rays have the
+// same kind (RayKind). A work-item traces PACKETS packets of consecutive rays.
 kernel void trace_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
                        global HitData *hits)
 {

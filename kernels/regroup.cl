@@ -4,9 +4,9 @@
 //
 // Camera rays fill their packets. After a reflection or at the edge of a shadow, only some lanes of
 // a packet are active, and neighbors may point into different octants. But a packet takes as long
-// with one active lane as with all lanes, and bounds cull only if directions share their signs. The
-// rays of each octant are therefore collected from partly filled packets into full packets, which
-// form a beam. Afterwards, their hits are copied back to the original lanes.
+// with one active lane as with all lanes, and bounds cull only if all rays point into one octant.
+// The rays of each octant are therefore collected from partly filled packets into full packets,
+// which form a beam. Afterwards, the hits are copied back to the original lanes.
 //
 // Invariant: a ray's hit does not depend on the other rays, because beams only cull, and every lane
 // accepts triangles by the same operations. Grouping therefore changes no bit of the picture.
@@ -16,7 +16,7 @@
 
 #if CLRT_WIDE_NODES
 
-// Groups of fewer rays are faster ray by ray.
+// Smaller groups of rays are traced ray by ray, which is faster for them.
 #define SMALLEST_BEAM 6
 
 #if CLRT_LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_compresssi512_mask)
@@ -215,7 +215,7 @@ static inline uint sign_bits(Real v)
     return lane_bits(sign_bit(v) != 0);
 }
 
-// Returns whether all lanes of all packets search and their directions share their signs.
+// Returns whether all lanes of PACKETS packets search, and all rays point into one octant.
 static inline bool are_one_beam(const Ray *rays, const uint *wanted, uint count)
 {
     const Real3 first = rays->direction;
@@ -231,7 +231,7 @@ static inline bool are_one_beam(const Ray *rays, const uint *wanted, uint count)
     return all == ALL_LANES && sign_bits(as_real(differing)) == 0;
 }
 
-// Finds the hits of rays that fill a beam. They need not be moved.
+// Finds the hits of rays that fill a beam. These rays need not be moved.
 static inline void search_full(const Tracer *tracer, const Ray *rays, Hit *hits)
 {
     Beam beam;
@@ -240,7 +240,7 @@ static inline void search_full(const Tracer *tracer, const Ray *rays, Hit *hits)
     search_beam(&beam, tracer, rays, false);
 }
 
-// The octants of rays' directions: bits of the lanes that are negative on each axis.
+// The octants of rays' directions: for each axis, bits of the lanes whose direction is negative.
 typedef struct {
     uint negative[3];
 } Octants;
@@ -274,7 +274,7 @@ typedef struct {
     uint count;          // packets
 } Ungrouped;
 
-// Takes the rays of one octant. Returns false if none are left.
+// Takes the rays of one octant. Returns false if no rays are left.
 static inline bool take_octant(Ungrouped *rays, RayGroup *group)
 {
     uint first = 0;
@@ -292,8 +292,8 @@ static inline bool take_octant(Ungrouped *rays, RayGroup *group)
     return true;
 }
 
-// Takes the next group, which is an octant with at least `smallest` rays. If no such octant is
-// left, takes all remaining rays, each of which searches alone.
+// Takes an octant with at least `smallest` rays as the next group. If no such octant is left, takes
+// all remaining rays, and each of them searches alone. Returns false if no rays are left.
 static inline bool take_group(Ungrouped *rays, uint smallest, RayGroup *group)
 {
     while (take_octant(rays, group)) {

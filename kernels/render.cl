@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The colors of pixels and samples. All kernels are compiled after this file. With binary nodes, a
-// work-item has one pixel. With wide nodes, it has a block of BLOCK x BLOCK pixels, of which it
-// traces PACKETS packets at a time.
+// Computes the colors of pixels and samples. All kernels are compiled after this file. With binary
+// nodes, a work-item has one pixel. With wide nodes, it has a block of BLOCK x BLOCK pixels, and
+// traces PACKETS packets of them at a time.
 //
 // Invariant: colors are rounded to integer steps of 2^-32 and summed as integers. A pixel's color
 // therefore does not depend on the order of its samples, or on how pixels are assigned to
@@ -45,8 +45,8 @@ typedef struct {
     Mask active;
 } Places;
 
-// Computes the colors of samples in steps of 2^-32. Functions with paths are not inlined. Otherwise
-// PoCL would keep the private memory of all work-items of a group on its stack at once.
+// Computes the colors of samples, in steps of 2^-32. On CPUs, functions with Paths are not inlined.
+// Otherwise, PoCL would keep the private memory of all work-items of a group on its stack at once.
 static NOT_INLINE void sample_colors(const Tracer *tracer, const Places samples[PACKETS],
                                      Real3 colors[PACKETS])
 {
@@ -57,8 +57,8 @@ static NOT_INLINE void sample_colors(const Tracer *tracer, const Places samples[
     trace(tracer, &paths, colors);
 }
 
-// Sums of samples in steps of 2^-32, which are exact in any order. A constant color therefore stays
-// unchanged for any number of samples.
+// The sums of the samples' colors, in steps of 2^-32. Integer sums are exact in any order. A
+// constant color therefore stays unchanged for any number of samples.
 typedef struct {
     ULong red, green, blue;
 } ColorSum;

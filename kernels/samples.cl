@@ -25,10 +25,10 @@ static inline Places places_listed(global const uint *places, uint start, uint e
     return (Places){x, y, number < end && x != NOTHING};
 }
 
-// Samples the places first to end - 1, and stores the results in the elements of samples with the
-// same indices. A place consists of two coordinates in sub-pixels, and is skipped if x is NOTHING.
-// A work-item takes ITEM_SAMPLES consecutive places. Tallies are written at the first place of each
-// beam, and only if statistics are compiled in.
+// Traces rays through the places `first` to `end` - 1, and stores the results at the same indices
+// of `samples`. A place consists of the coordinates x and y in sub-pixels. If x is NOTHING, the
+// place has no ray. A work-item takes ITEM_SAMPLES consecutive places. If statistics are compiled
+// in, a tally is stored at the first place of each beam.
 kernel void trace_samples(TRACER_ARGUMENTS, global const uint *places, uint first, uint end,
                           global SampleData *samples, global uint *tallies)
 {

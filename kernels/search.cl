@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Prepares rays for the tests against boxes and triangles.
 //
-// Invariant: boxes only cull, and never a triangle that the triangle test would accept. The hit is
-// therefore the same for every tree, for every traversal order and without a tree.
+// Invariant: boxes never cull a triangle that the triangle test would accept. The hit is therefore
+// the same for every tree, for every traversal order and without a tree.
 //
 // To ensure this, the host grows each box by BVH_SLACK times its largest coordinate. slabs_of moves
 // the ray's origin by BVH_SLACK times the origin's largest coordinate, forward for near planes and
@@ -12,8 +12,8 @@
 #define CLRT_SEARCH_CL
 #include "ray.cl"
 
-// z is the ray's longest axis. The shear turns the ray parallel to it. x and y are the two axes
-// that follow z cyclically.
+// z is the axis of the direction's largest component. The shear makes the ray parallel to this
+// axis. x and y are the two axes that follow z cyclically.
 typedef struct {
     UInt x, y, z;
 } ShearAxes;
@@ -49,9 +49,9 @@ typedef struct {
     Real3 inverse, near_offset, far_offset;
 } Slabs;
 
-// Raises a component of the direction to at least 2^-30 of the largest one (docs/numerics.md, B8).
-// The inverses are then finite if the largest component exceeds 2^-96. Shorter directions are
-// unusable.
+// Raises the magnitude of a direction's component to `smallest`, which is 2^-30 of the largest one
+// (docs/numerics.md, B8). The inverses are then finite if the largest component exceeds 2^-96.
+// is_searchable rejects shorter directions.
 static inline Real slab_direction(Real direction, Real smallest)
 {
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
@@ -77,23 +77,23 @@ typedef struct {
     const Tracer *tracer;
     const Ray *ray;
     Slabs slabs;
-    Real limit; // distance of the nearest sphere, or the end of a shadow ray
+    Real limit; // distance of the nearest sphere, or the ray's end if it hits no sphere
     Real tie;   // rounding may exchange two triangles whose distances differ by this or less
     ShearAxes axes;
     Shear shear;
     Real3 backward; // minus the origin, in the order of the axes
 } Search;
 
-// Prepares the tests against boxes. `limit` is the distance of the nearest hit so far, which is no
-// triangle.
+// Prepares the tests against boxes. `limit` is as in Search, so the spheres must already have been
+// tested.
 static inline void search_boxes(Search *search, const Tracer *tracer, const Ray *ray, Real limit)
 {
     search->tracer = tracer;
     search->ray = ray;
     search->slabs = slabs_of(ray->origin, ray->direction);
     search->limit = limit;
-    // triangle_depth_error is at most 54 u (far + 1), as corners are at most 1 (B4). The longest
-    // axis has the smallest inverse.
+    // triangle_depth_error is at most 54 u (o + 1) for the origin's largest coordinate o, because
+    // corners are at most 1 (B4). The axis z of the shear has the smallest inverse.
     const Real3 inverse = magnitudes(search->slabs.inverse);
     const Real unit = UNIT_ROUNDOFF * min(min(inverse.x, inverse.y), inverse.z);
     search->tie = 128.0f * unit * (largest_component(ray->origin) + 1.0f);
@@ -125,7 +125,7 @@ static inline Real search_behind(const Search *search)
 
 // Returns the distance beyond which no triangle precedes the best hit. By nearness, a triangle may
 // precede the best hit although its t is larger by up to `tie` (order.cl). The box of a small
-// triangle can be narrower than this, so boxes must not be culled at the best distance itself.
+// triangle can be narrower than `tie`, so boxes must not be culled at the best distance itself.
 static inline Real search_reach(const Search *search, const Hit *best)
 {
     return best->t + search->tie;

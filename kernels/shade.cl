@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes the color of a surface under the point lights, without reflections. Its shader is
-// silhouette, matte or Blinn-Phong (Blinn, "Models of light reflection for computer synthesized
+// Computes the color of a surface under the point lights, without reflections. The surface's shader
+// is silhouette, matte or Blinn-Phong (Blinn, "Models of light reflection for computer synthesized
 // pictures", 1977).
 #ifndef CLRT_SHADE_CL
 #define CLRT_SHADE_CL
@@ -10,10 +10,10 @@
 // that 0 * sum is never a NaN.
 #define BRIGHTEST ((Real)(1e30f))
 
-// Returns the highlight (n.h)^shininess. If shininess is an integer up to 1024, this is a product.
-// Otherwise, it is exp(shininess * log(n.h)), where 1 - n.h is computed from |n - h| without
-// cancellation. At shininess 1e6, this has an error of 5e-5, and pow of the rounded dot product
-// would have an error of 0.14.
+// Returns the highlight (n.h)^shininess. If shininess is an integer up to 1024, integer_power
+// computes it. Otherwise, the highlight is exp(shininess * log(n.h)), and 1 - n.h is computed from
+// |n - h| without cancellation. At shininess 1e6, the error is then 5e-5. With pow of the rounded
+// dot product, the error would be 0.14.
 static inline Real highlight(const MaterialLanes *material, Real3 normal, Real3 half_vector)
 {
     const Mask is_integer = material->exponent != 0xffffffffu;
@@ -37,7 +37,7 @@ static inline Real3 half_vector_of(const Surface *surface, Real3 toward_light)
 
 // A light as seen from a surface.
 typedef struct {
-    Real3 position, toward; // toward the light: unit
+    Real3 position, toward; // toward: unit vector to the light
     float intensity;
     Real cosine;
     Mask faces; // the shading normal and the face both face the light
@@ -64,7 +64,7 @@ static inline LightSample sample_light(const Tracer *tracer, uint index, const S
 }
 
 // Returns the shadow ray. It starts at the surface, because hits near a ray's start are the most
-// precise. Light then leaks through no edge of a closed shape, at any distance. If shadow rays
+// precise. Light from any distance then leaks through no edge of a closed shape. If shadow rays
 // started at the light, packets would be 2 % faster in small scenes and slower in large scenes.
 static inline Ray ray_to_light(const Tracer *tracer, const Surface *surface,
                                const LightSample *light)

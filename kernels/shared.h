@@ -19,8 +19,8 @@ typedef uint64_t ulong;
 #define CLRT_SAME_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type);
 #endif
 
-// The id that stands for no primitive. Spheres have the first ids, in file order, and triangles the
-// next, in file order.
+// The id that stands for no primitive. Spheres have the first ids and triangles the following ids,
+// both in file order.
 #define NOTHING 0xffffffffu
 
 // The number of entries in the traversal stack. Depth-first descent keeps one pending sibling per
@@ -29,19 +29,20 @@ typedef uint64_t ulong;
 #define BVH_MAX_DEPTH  62
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
-// Boxes grow and origins move by this factor of their largest coordinate, which is 256 units of
-// 2^-24. A triangle that triangle.inc.cl accepts is within 22 units of the ray (B8 of
+// Boxes grow and origins move by this factor of their largest coordinate. The factor is 256 units
+// of 2^-24. A triangle that triangle.inc.cl accepts is within 22 units of the ray (B8 of
 // docs/numerics.md), and the slab arithmetic adds 4 (B9). If division is only accurate to 2.5 ulp,
 // these become 34 and 8.
 //
-// A hit can be behind the ray's start, by its error bound of at most 54 units, and by
-// search_behind, which is 256 units of the origin. The 256 count as 128, because a box there has
-// the origin's coordinates, and both move. The sum is at most 34 + 8 + 54 + 128 = 224. search_reach
-// (search.cl) covers hits beyond the best one. In measurements, doubling the slack costs nothing.
+// A hit can be behind the ray's start by at most 54 units for the error of its distance, plus 256
+// units of the origin (search_behind). A box there has the origin's coordinates. Both move, so each
+// needs only 128 of the 256 units. The sum is at most 34 + 8 + 54 + 128 = 224. search_reach
+// (search.cl) covers hits beyond the best one. In measurements, doubling the slack costs no time.
 #define BVH_SLACK 0x1p-16f
 
-// The margin of the box around all primitives, in units of its largest coordinate. The kernels add
-// it once more in units of the box's distance. Rays outside hit nothing (docs/numerics.md, B17).
+// The margin of the box around all primitives, as a fraction of its largest coordinate. Kernels add
+// the same fraction of the box's largest coordinate relative to the eye. Rays outside hit nothing
+// (docs/numerics.md, B17).
 #define SKY_SLACK 0x1p-12f
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG } Shader;
@@ -81,8 +82,8 @@ CLRT_SAME_SIZE(SphereData, 48)
 // A triangle for the intersection test. The array is in leaf order. The host sorts the corners by
 // their coordinates, so triangles with the same three corners store the same bits, regardless of
 // the corners' order in the file. Every kernel computes t from only the ray and these bits, by the
-// same operations, so a ray hits such triangles at equal t. The flags only decide whether it hits
-// them at all, and the lowest id wins.
+// same operations, so a ray hits such triangles at equal t. The flags only decide whether the ray
+// hits a triangle at all. Among the triangles that the ray hits, the lowest id wins.
 typedef struct {
     float a[3];
     uint id;
@@ -99,9 +100,8 @@ CLRT_SAME_SIZE(TriangleData, 48)
 #define TRIANGLE_MARKS     (TRIANGLE_TWO_SIDED | TRIANGLE_REVERSED)
 
 // A triangle's shading word is the index of its CornerNormals, or NOTHING if the triangle is flat.
-// If the word has this flag, it is the index of the triangle's CornerColors instead. These contain
-// a
-// second shading word, which has no flag.
+// If any other word has this flag, its other bits are the index of the triangle's CornerColors.
+// These contain a second shading word, which is an index of CornerNormals or NOTHING.
 #define TRIANGLE_COLORED 0x80000000u
 
 // Vertex normals of a smooth triangle, in the stored order of its corners. Their lengths weight the
@@ -114,7 +114,7 @@ CLRT_SAME_SIZE(CornerNormals, 48)
 // Vertex colors of a triangle, in the stored order of its corners. They replace the diffuse color.
 typedef struct {
     float colors[3][3];
-    uint shading; // without TRIANGLE_COLORED
+    uint shading; // index of CornerNormals, or NOTHING
 } CornerColors;
 CLRT_SAME_SIZE(CornerColors, 40)
 
@@ -135,8 +135,8 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // Refinement lists the pixels' centers in squares of this side, so that neighbors share packets.
 #define PACKET_SIDE 4
 
-// The number of children of a wide node, and of triangles in a block. Their floats fill a vector of
-// 256 bits.
+// The largest number of children in a wide node, and of triangles in a block. One float for each
+// fills a vector of 256 bits.
 #define WIDE 8
 
 // An inner node of the wide tree, with its children's boxes side by side. One instruction tests a
@@ -186,10 +186,10 @@ typedef struct {
     float ambient;
     uint width, height; // of the whole picture, in pixels
     uint samples;       // per pixel and axis
-    uint max_level;     // rays of this level return the background
+    uint max_level;     // the most rays in a path; further rays return the background
     uint tile_x, tile_y, tile_width, tile_height;
     uint light_count, sphere_count, triangle_count;
-    uint uses_bvh;         // zero tests every triangle
+    uint uses_bvh;         // 0: every triangle is tested
     float low[3], high[3]; // a box around all primitives, with a margin (SKY_SLACK)
 } FrameData;
 CLRT_SAME_SIZE(FrameData, 152)
@@ -259,8 +259,8 @@ typedef enum {
 } TallyKind;
 
 // The first hit of the ray through a pixel's center, and data on the path from there. Kernels write
-// it only if --aov requests channels. Without a hit, depth is INFINITY, the indices are NOTHING and
-// all other members are zero.
+// PathData only if --aov requests channels. Without a hit, `depth` is INFINITY, `primitive` and
+// `material` are NOTHING, and all other members are zero.
 typedef struct {
     float point[3];
     float depth;     // along the camera's axis
@@ -273,15 +273,14 @@ typedef struct {
 } PathData;
 CLRT_SAME_SIZE(PathData, 48)
 
-// A ray of rays.cl: origin + t * direction. A ray that starts on a triangle or sphere has this
-// primitive's id, and for triangles also the index.
+// A ray of rays.cl: origin + t * direction.
 typedef struct {
     float origin[3];
     float limit; // the largest t of a hit; below 0 for no ray
     float direction[3];
     uint own;       // id of the primitive it starts on, or NOTHING
     uint own_index; // index of that primitive if it is a triangle, else NOTHING
-    float doubt;    // of certify_rays.cl: bound on the distance between origin and the exact start
+    float doubt;    // for certify_rays.cl: bound on the distance from origin to the exact start
 } RayData;
 CLRT_SAME_SIZE(RayData, 40)
 
@@ -294,9 +293,9 @@ typedef struct {
 } HitData;
 CLRT_SAME_SIZE(HitData, 8)
 
-// The record of each ray of a path for explanations of pixels. It holds LEVEL_VALUES numbers of the
-// kernel's precision and LEVEL_WORDS words. For each light, LIGHT_VALUES and LIGHT_WORDS follow.
-// Vectors take three entries.
+// clrt explain has a record for each ray of a path. It holds LEVEL_VALUES numbers of the kernel's
+// precision and LEVEL_WORDS words. For each light, LIGHT_VALUES numbers and LIGHT_WORDS words
+// follow. Vectors take three entries.
 typedef enum {
     LEVEL_ORIGIN = 0,
     LEVEL_DIRECTION = 3,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Finds the blocks of pixels in which no camera ray hits anything, by two separating planes: sides
-// of the box around all primitives, and sides of the pyramid of the block's rays. The rays of an
-// orthographic camera fill a prism instead.
+// Finds the blocks of pixels in which no camera ray hits anything. Two kinds of separating planes
+// are tested: sides of the box around all primitives, and sides of the pyramid of the block's rays.
+// The rays of an orthographic camera fill a prism instead.
 //
-// Invariant: a block that may hit something is never sky (docs/numerics.md, B17).
+// Invariant: a block with a ray that may hit something is never sky (docs/numerics.md, B17).
 
 // The range of a block's rays, in half samples from the picture's center (camera.cl).
 typedef struct {
@@ -36,9 +36,9 @@ static inline bool leave_box(const FrameData *frame, const RayRange *range)
     return max(up, down) > SKY_SLACK * size;
 }
 
-// Returns whether the box is outside one of the four planes through the rays at a side of the
-// block. In perspective, the planes contain the eye and turn with their place in the picture. In
-// orthographic pictures, they move.
+// Returns whether the box is outside one of the four planes that bound the block's rays. In
+// perspective, the planes contain the eye, and their normals depend on the block's position. In
+// orthographic pictures, the normals are constant and the planes are shifted.
 static inline bool pass_box(const FrameData *frame, const RayRange *range)
 {
     const float *right = frame->camera.right_step, *down = frame->camera.down_step;
@@ -55,7 +55,7 @@ static inline bool pass_box(const FrameData *frame, const RayRange *range)
         const float ahead = down[i] * right[j] - down[j] * right[i];
         const float low = frame->low[axis] - frame->camera.eye[axis];
         const float high = frame->high[axis] - frame->camera.eye[axis];
-        // The inward normals of the left, right, upper and lower plane.
+        // The inward normals of the left, right, upper and lower planes.
         const float4 normal = (float4)(across, -across, -along, along) + turn * ahead;
         const float4 shift = move * ahead * forward[axis];
         height += max(low * normal, high * normal) + shift;

@@ -28,7 +28,7 @@ static inline TwoFloat two_sum_ordered(Real a, Real b)
     return (TwoFloat){sum, b - (sum - a)};
 }
 
-// Returns a number of the scene. It is stored as two floats, which fit into one double.
+// Returns a number of the scene, which is stored as two floats. Their sum fits into one double.
 static inline TwoFloat two_stored(Real high, Real low)
 {
     return CLRT_FP64 ? two_sum_ordered(high, low) : (TwoFloat){high, low};
@@ -127,9 +127,9 @@ static inline TwoFloat3 two_stepped(TwoFloat3 f, Real step, Real3 d)
                        two_add(f.z, two_scale(s, d.z))};
 }
 
-// Returns the discriminant divided by |d|^2, which is radius^2 minus the squared distance between
-// the center and the line. s only needs to be near the foot of the perpendicular, because the last
-// term corrects its error.
+// Returns the discriminant divided by |d|^2. This is radius^2 minus the squared distance between
+// the center and the line. `s` only needs to be near the foot of the perpendicular, because the
+// last term corrects the error of `s`.
 static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, TwoFloat rr)
 {
     const TwoFloat3 foot = two_stepped(f, s, d);
@@ -139,8 +139,8 @@ static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, Tw
 
 // Returns |f|^2 - radius^2, which is the product of the origin's distances to both walls along the
 // line through the center. At height 1 over a sphere of radius 1e9, squares of 48 bits would cause
-// an error of 6e-6. The largest component z of f is therefore used in the product (z - radius) (z +
-// radius).
+// an error of 6e-6. For the largest component z of f, z^2 - radius^2 is therefore computed as
+// (z - radius) (z + radius).
 static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 {
     const Mask z_first = fabs(f.z.high) >= max(fabs(f.x.high), fabs(f.y.high));
@@ -152,10 +152,10 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
     return two_add(two_add(two_square(x), two_square(y)), beyond).high;
 }
 
-// Returns whether plain floats already prove that the line misses the sphere. The error of this
-// test is below 16 units of rounding of the squares of all lengths (B15), and the test allows 64
-// units. Most spheres then need no exact test. If all rays tested three spheres exactly, this would
-// take half of a picture's time.
+// Returns whether plain Reals already prove that the line misses the sphere. The error of this test
+// is at most 16u times the sum of all squared lengths (B15), and the test allows 64u. Most spheres
+// then need no exact test. If all rays tested three spheres exactly, this would take half of a
+// picture's time.
 static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center =
@@ -190,8 +190,8 @@ static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, 
     return is_near && discriminant >= 0.0f ? t : INFINITY;
 }
 
-// Returns the hit point at t. The point on the ray is projected onto the sphere, so that its error
-// is one rounding for any radius.
+// Returns the hit point at t. The ray's point at t is projected onto the sphere, so the result's
+// error is one rounding for any radius.
 static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Real t, Real3 *normal)
 {
     const TwoFloat3 q = two_stepped(sphere_to_origin(sphere, origin), t, d);
@@ -207,8 +207,8 @@ static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Re
                     two_add(on.z, sphere->center.z).high);
 }
 
-// Returns the distance for a ray that starts on this sphere, whose near root is zero. The ray hits
-// the far wall if the chord is longer than the origin's error and than 128u of the radius.
+// Returns the distance to the far wall for a ray that starts on this sphere, or INFINITY. The near
+// root is zero. The chord must be longer than the origin's error, and than 128u times the radius.
 static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A hit -> a surface, which is the point and its normals, and the rays that leave the surface. The
-// point is interpolated on the triangle or projected onto the sphere, so its error does not grow
-// with the distance traveled (Pharr, Jakob and Humphreys, "Physically based rendering", 4th
-// edition, section 6.8).
+// Computes the surface at a hit, which is a point with normals, and the rays that leave the
+// surface. The point is interpolated on the triangle or projected onto the sphere, so its error
+// does not grow with the distance traveled (Pharr, Jakob and Humphreys, "Physically based
+// rendering", 4th edition, section 6.8).
 //
 // New rays start at the point. The side of a triangle's plane on which the point lies decides
 // whether a new ray may stop on the triangle (triangle.inc.cl). No offset is necessary, so contacts
@@ -16,7 +16,7 @@
 //    course's renderers (docs/scenes.md) start shadow rays slightly off the surface with the same
 //    effect: the face blocks a light behind it. A sphere seen from inside keeps its outward normal,
 //    as in the course. Its inner face and its normal never face the same light, so it stays unlit.
-//  - A reflected ray that the shading normal sends into the face is mirrored out at the face.
+//  - If the shading normal sends a reflected ray into the face, the ray is mirrored at the face.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
 #include "intersect.cl"
@@ -39,8 +39,8 @@ static inline Mask has_length(Real3 v)
     return largest_component(v) > 0.0f;
 }
 
-// Returns the normal of the triangle's plane. A triangle whose corners are on a line has none, and
-// a ray hits it only by rounding. Its normal is toward_viewer.
+// Returns the normal of the triangle's plane. If the corners are on a line, there is no plane, and
+// a ray hits the triangle only by rounding. The result is then toward_viewer.
 static inline Real3 triangle_face(const Corners *corners, Real3 toward_viewer)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -66,8 +66,8 @@ static inline Real3 triangle_normal(const Tracer *tracer, UInt normals, Real3 we
     return choose3(is_smooth && has_length(normal), normal, face);
 }
 
-// Sets the surface's color from the vertex colors, by the weights of the corners. Rounding can make
-// a weight slightly negative.
+// Interpolates the surface's color from the vertex colors. Rounding can make a weight slightly
+// negative, so the color is clamped.
 static inline void note_color(const Tracer *tracer, Surface *surface, UInt colors, Real3 weights)
 {
     surface->colored = colors != NOTHING;
@@ -102,7 +102,7 @@ static inline View view_along(const Corners *corners, Real3 origin, Real3 direct
     return view;
 }
 
-// The same for rays that share their axes. A constant z leaves no selection of components.
+// Returns the same for rays with the same axes. If z is a constant, no components are selected.
 static inline View view_along_one(const Corners *corners, Real3 origin, Real3 direction, uint z)
 {
     const ShearAxes axes = {(UInt)((z + 1) % 3), (UInt)((z + 2) % 3), (UInt)(z)};
@@ -161,14 +161,14 @@ static inline Surface triangle_surface(const Tracer *tracer, const Ray *ray, con
 
 // Returns whether a ray that hits the sphere comes from outside. sphere_distance uses the same
 // sphere_power to choose between the near and the far wall. The result is therefore right even for
-// a grazing ray, for which rounding may turn the normal away.
+// a grazing ray, although rounding may turn the normal away from this ray.
 static inline Mask comes_from_outside(const Sphere *sphere, const Ray *ray, const Hit *hit)
 {
     const TwoFloat3 f = sphere_to_origin(sphere, ray->origin);
     return ray->own != hit->id && sphere_power(f, sphere->radius) > 0.0f;
 }
 
-// A sphere's normal points outward even from inside, as in the course.
+// A sphere's normal points outward even if the ray comes from inside, as in the course.
 static inline Surface sphere_surface(const Tracer *tracer, const Ray *ray, const Hit *hit)
 {
     const Sphere sphere = fetch_sphere(tracer, hit->index);
@@ -208,8 +208,8 @@ static inline Surface choose_surface(Mask first, const Surface *a, const Surface
                      b->color};
 }
 
-// Fills the lanes outside `met` with the hit of a lane in `met`. Their results are discarded, but
-// they must read valid memory.
+// Fills the lanes outside `met` with the hit of a lane in `met`. Results in the filled lanes are
+// discarded, but these lanes must read valid memory.
 static inline Hit hit_everywhere(const Hit *hit, Mask met)
 {
     Hit filled = *hit;
@@ -229,7 +229,7 @@ static inline Surface surface_at(const Tracer *tracer, const Ray *ray, const Hit
     }
     const Mask on_sphere = met && hit->id < tracer->frame->sphere_count;
     const Mask on_triangle = met && hit->id >= tracer->frame->sphere_count;
-    if (CLRT_LANES == 1) { // GPUs need 14 fewer registers than for both surfaces
+    if (CLRT_LANES == 1) { // on GPUs, this takes 14 fewer registers than both surfaces
         if (CLRT_SPHERES && any_lane(on_sphere))
             return sphere_surface(tracer, ray, hit);
         return triangle_surface(tracer, ray, hit);
@@ -257,7 +257,7 @@ static inline Real3 direction_from(Real3 point, const Heading *heading)
     return heading->is_place ? difference(heading->to, point) : heading->to;
 }
 
-// The plane in which a ray starts, and the side to which it leaves.
+// The triangle on which a ray starts, and the side to which the ray leaves.
 typedef struct {
     Corners corners;
     Mask to_front;
@@ -267,7 +267,7 @@ static inline Leaving leaving_from(const Tracer *tracer, const Surface *surface,
 {
     Leaving leaving;
     Corners corners = {surface->a, surface->b, surface->c};
-    if (CLRT_GPU) // b and c would take 18 registers between the surface's rays
+    if (CLRT_GPU) // keeping b and c between the surface's rays would take 18 registers
         corners = fetch_corners(tracer, known ? surface->index : (UInt)(0));
     const Real3 ab = difference(corners.b, corners.a), ac = difference(corners.c, corners.a);
     leaving.corners = corners;
@@ -284,8 +284,8 @@ static inline Mask passes(const Leaving *leaving, Real3 point, Real3 direction)
     return edges_contain(&view.edges) && (leaving->to_front ? !from_front : from_front);
 }
 
-// A ray that almost lies in its triangle's plane can miss the triangle from every start. It is
-// lifted toward the face's normal, by 2^-8, 2^-4 and 1 of its length.
+// A ray that almost lies in its triangle's plane can miss the triangle from every start. Such a ray
+// is lifted by 2^-8, 2^-4 or 1 times the face's normal, until it passes through the triangle.
 static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 direction,
                                      Real3 face, Mask misses)
 {
@@ -299,9 +299,9 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
 
 // Returns the start of a ray near an edge. Rounding may have put the surface point outside its
 // triangle, beyond the neighbor that should stop the ray. While the ray's line misses the triangle,
-// the start moves toward the triangle's middle. Its distances from the surface point are
-// UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, and end at the middle. A reflected ray that
-// still misses its triangle is lifted.
+// the start moves toward the triangle's middle. The start's distance from the surface point is
+// UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, but at most the middle's distance. If a
+// reflected ray still misses its triangle, the ray is lifted.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
                                      Real sine, Mask near_edge)
 {
@@ -327,7 +327,7 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
 // Returns the start of a ray that leaves the surface, and may lift the ray's direction. The ray's
 // line should pass through the surface's triangle. Rounding can prevent this only near edges: a
 // point with coordinates up to 1 is off by some units of rounding, and along the plane the line is
-// off by this error divided by the sine (docs/numerics.md, B14).
+// off by this error divided by the sine of its angle to the plane (docs/numerics.md, B14).
 static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Heading *heading,
                                Real sine, Mask active)
 {
@@ -338,9 +338,9 @@ static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Hea
     return point_inside(tracer, surface, heading, sine, near_edge);
 }
 
-// Returns the reflected ray. An interpolated normal can send it into the surface that it leaves.
-// Such a ray is mirrored out at the face. Its direction then still changes continuously with the
-// normal.
+// Returns the reflected ray. An interpolated normal can send a ray into the surface that it leaves.
+// This ray is mirrored at the face and leads outward again. Its direction then still changes
+// continuously with the normal.
 static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Mask active)
 {
     const Real cosine = dot_product(surface->normal, surface->toward_viewer);

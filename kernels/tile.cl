@@ -3,7 +3,7 @@
 // requested.
 #include "sky.cl"
 
-// The packets of a beam, side by side.
+// The columns of packets in a beam, and the beam's size in pixels.
 #define BEAM_COLUMNS (PACKETS == 1 ? 1 : 2)
 #define BEAM_WIDTH   (PACKET_WIDTH * BEAM_COLUMNS)
 #define BEAM_HEIGHT  (PACKET_HEIGHT * (PACKETS / BEAM_COLUMNS))
@@ -22,7 +22,7 @@ static inline void store_row(global float *pixels, float4 red, float4 green, flo
     vstore4((float4)(blue.z, red.w, green.w, blue.w), 2, pixels);
 }
 
-// Stores the packet if it is entirely inside the tile. Returns whether it is.
+// Stores the packet and returns true if it is entirely inside the tile.
 static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 *color,
                               global float *pixels)
 {
@@ -94,8 +94,8 @@ static NOT_INLINE void render_beam(const Tracer *tracer, uint2 beam, const Outpu
                      i == 0 ? tracer->tally : &none, output);
 }
 
-// Renders a tile. pixels receives tile_width * tile_height colors of three floats, top row first.
-// tallies receives TALLY_KINDS counts per pixel, if statistics are compiled in. The range of
+// Renders a tile. `pixels` receives tile_width * tile_height colors of three floats, top row first.
+// `tallies` receives TALLY_KINDS counts per pixel, if statistics are compiled in. The range of
 // work-items is padded to whole work-groups.
 kernel void render_tile(TRACER_ARGUMENTS, global float *pixels, global uint *tallies)
 {

@@ -11,7 +11,7 @@
 // integer.
 #define LEAST_WHOLE ((Real)(1ul << SIGNIFICAND_BITS))
 
-// Returns a color as a rounded number of steps of 2^-32. PoCL's rint takes 20 instructions.
+// Returns a color in steps of 2^-32, rounded to integers. PoCL's rint would take 20 instructions.
 static inline Real in_steps(Real color)
 {
     const Real steps = clamp_to_one(color) * 0x1p32f;
@@ -27,7 +27,7 @@ static inline Real3 in_steps3(Real3 color)
 typedef struct {
     Real3 color;   // so far
     Real weight;   // of the next ray's color in the sample's color
-    Mask met;      // lanes whose last ray hit; surface and material are valid there
+    Mask met;      // lanes whose last ray has hit; there, surface and material are valid
     Mask reflects; // lanes with a next ray
     Surface surface;
     MaterialLanes material;
@@ -52,7 +52,7 @@ static inline void paths_start(Paths *paths, uint number, Ray ray)
     path->reflects = ray.active;
 }
 
-// Starts a single packet's path.
+// Starts the paths of a single packet. The other packets have no rays.
 static inline void paths_start_one(Paths *paths, Ray ray)
 {
     Ray none = ray;
@@ -103,9 +103,9 @@ static inline bool paths_begin(const Tracer *tracer, const Paths *paths)
     return any && tracer->frame->max_level > 0;
 }
 
-// Sets the next rays after paths_step. Returns false if all paths have ended. As the last call in a
-// loop, it takes 11 VGPRs fewer on gfx1100 than as the first call, mostly because shading then
-// keeps no old rays.
+// Sets the next rays after paths_step. Returns false if all paths have ended. A loop that calls
+// this function last takes 11 fewer VGPRs on gfx1100 than a loop that calls it first, mostly
+// because shading then keeps no old rays.
 static inline bool paths_continue(const Tracer *tracer, Paths *paths)
 {
     return paths->level < tracer->frame->max_level && aim_rays(tracer, paths);
@@ -133,7 +133,7 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
     hash_lanes(tracer->tally, number, path->met, surface_word(tracer->frame, &path->surface));
 }
 
-// Follows the ray of each lane that has one, up to its surface.
+// Follows the ray of each lane that has one, up to the surface that it hits.
 static inline void paths_step(const Tracer *tracer, Paths *paths)
 {
     paths->level++;
@@ -157,7 +157,7 @@ static inline void path_add(Path *path, Real3 shaded)
     path->weight = path->met ? reflected : path->weight;
 }
 
-// Adds the surfaces' own colors. shaded receives these colors where rays have hit.
+// Adds the surfaces' own colors to the paths. `shaded` receives them in lanes whose ray has hit.
 static inline void paths_shade(const Tracer *tracer, Paths *paths, Real3 shaded[PACKETS])
 {
     Lighting lighting[PACKETS];
@@ -178,7 +178,7 @@ static inline Real3 path_color(const Tracer *tracer, const Path *path)
     return sum3(path->color, scaled3(path->weight, background));
 }
 
-// Traces started paths to their ends and returns their colors in steps of 2^-32.
+// Traces started paths to their ends, and stores their colors in steps of 2^-32.
 static inline void trace(const Tracer *tracer, Paths *paths, Real3 colors[PACKETS])
 {
     for (bool any = paths_begin(tracer, paths); any; any = paths_continue(tracer, paths)) {

@@ -13,8 +13,8 @@
 // TriangleTest, Meeting and SurfaceRay. The second inclusion must rename these types by macros.
 #include "vector.inc.cl"
 
-// The shear that turns the ray into the axis z. z is the longest axis of the direction; x and y
-// follow in cyclic order.
+// The shear that turns the ray into the axis z. z is the axis of the direction's largest component;
+// x and y follow in cyclic order.
 typedef struct {
     Real shear_x, shear_y, inverse_z, direction_z;
 } Shear;
@@ -28,7 +28,7 @@ typedef struct {
     Real u, v, w, determinant;
 } Edges;
 
-// Shears corners given relative to the ray's origin, with components in the order of the shear.
+// Shears corners. Their components are relative to the ray's origin and in the shear's order.
 static inline Corners OVERLOAD corners_sheared(const Corners *relative, const Shear *shear)
 {
     Corners s = *relative;
@@ -62,17 +62,17 @@ static inline Mask OVERLOAD edges_contain(const Edges *edges)
 }
 
 // Returns whether an edge function counts as positive. If the ray meets the edge from p to q
-// exactly, the ray is moved by an infinitely small distance along x, and by an even smaller one
-// along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
+// exactly, the ray counts as moved by an infinitely small distance along x, and by an even smaller
+// one along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
 static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
 {
     const Mask beside = p.y > q.y || (p.y == q.y && q.x > p.x);
     return edge > 0.0f || (edge == 0.0f && beside);
 }
 
-// Returns whether the triangle owns the ray. If the ray passes through an edge or vertex, an odd
-// number of the triangles there own the ray if it crosses their surface, and otherwise an even
-// number.
+// Returns whether the triangle owns the ray, and thus counts as crossed (crossings.cl). If the ray
+// crosses a surface at an edge or vertex, an odd number of the triangles there own the ray. If the
+// ray only touches the surface, an even number of them own the ray.
 static inline Mask OVERLOAD edges_own(const Corners *sheared, const Edges *edges)
 {
     const Real3 a = sheared->a, b = sheared->b, c = sheared->c;
@@ -104,9 +104,8 @@ static inline Real OVERLOAD triangle_depth_error(const Corners *s)
     return 18.0f * UNIT_ROUNDOFF * (depth + across);
 }
 
-// Returns whether the hit is so close to the origin that only rounding may decide whether it is in
-// front of or behind the origin. Coordinates are at most 1, so the error of the depth is at most
-// 2^-17 (B4).
+// Returns whether rounding could decide if the hit is in front of the origin or behind it.
+// Coordinates are at most 1, so the error of the depth is at most 2^-17 (B4).
 static inline Mask OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
 {
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
@@ -141,9 +140,9 @@ typedef struct {
 } Meeting;
 
 // Returns the distances, and whether surface_ray_distance must decide. `marks` contains the
-// triangles' flags. One-sided triangles do not stop rays on their inner side. All triangles are
-// near for rays that leave a surface, but only those within rounding of the eye for rays from the
-// eye.
+// triangles' flags. One-sided triangles do not stop rays on their inner side. For rays that leave a
+// surface, all triangles count as near. For rays from the eye, triangles are near only if they are
+// within rounding of the eye.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {
@@ -164,10 +163,11 @@ static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt m
     return met;
 }
 
-// Returns a point's height over the triangle's front, multiplied by the normal's length. Returns
-// zero if rounding could change the sign. Near a triangle, this height is far more precise than the
-// depth of a ray from afar. The error bound adds the errors of the products, of the normal and of
-// the point. The point's error is `blur` units of rounding of its coordinates.
+// Returns a point's height over the triangle's plane, times the normal's length. The height is
+// positive in front, and zero if rounding could change its sign. Near a triangle, this height is
+// far more precise than the depth of a ray from afar. The error bound adds the errors of the
+// products, of the normal and of the point. The point's error is `blur` units of rounding of its
+// coordinates.
 static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, float blur)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -198,15 +198,15 @@ typedef struct {
 // Returns the distance at which the ray stops on a triangle, or INFINITY if it passes. t is the
 // triangle's distance, with an error of at most `error`.
 //
-// Near the ray's start, t is only rounding, and the neighbors of every point would reflect and
-// shadow it. The ray therefore stops only if its surface point is certainly on the side from which
-// the ray comes. On the inner side, which only two-sided triangles show, convex neighbors meet this
-// condition too. There, t must also be certainly positive, except for the eye, which is on no
-// surface. If the light is on a triangle, within the error of t, this triangle does not shadow the
-// ray.
+// Near the ray's start, t is only rounding error. If t decided there, the start's neighbors would
+// wrongly stop shadow and reflected rays. The ray therefore stops only if its surface point is
+// certainly on the side of the triangle from which the ray comes. On the inner side of two-sided
+// triangles, convex neighbors also meet this condition. There, t must also be certainly positive,
+// except for rays from the eye, which is on no surface. If the light is closer to a triangle than
+// the error of t, this triangle does not shadow the ray.
 //
-// in_doubt receives the lanes whose rays may pass only because of rounding. In a valley, rounding
-// can also put the start beyond the neighbor that stops the ray.
+// `in_doubt` receives the lanes whose rays may pass by mistake, because of rounding. In a valley,
+// rounding can also put the start beyond the neighbor that stops the ray.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Mask *in_doubt)
 {

@@ -43,8 +43,8 @@ static inline Real OVERLOAD largest_component(Real3 v)
     return max(max(fabs(v.x), fabs(v.y)), fabs(v.z));
 }
 
-// Returns the distance at which a ray enters a box, given the distances to the planes by which it
-// enters the three slabs. A ray that starts inside enters at 0.
+// Returns the distance at which a ray enters a box, given the distances at which it enters the
+// three slabs. A ray that starts inside enters at 0.
 static inline Real OVERLOAD entry_distance(Real3 near)
 {
     return max(max(near.x, near.y), max(near.z, (Real)(0.0f)));

@@ -53,8 +53,8 @@ static inline float8 plane_distances(global const float *planes, const Real *inv
                (float8)(lane_real(offset, lane)));
 }
 
-// Returns the children whose boxes the lane's ray enters before `reach`. Stores the distances at
-// which the ray enters in *entry.
+// Returns the children whose boxes the lane's ray enters before `reach`. *entry receives the
+// distances at which the ray enters the boxes.
 static inline int8 children_hit(global const BvhWide *node, const Search *search,
                                 const NearPlanes *planes, uint lane, float reach, float8 *entry)
 {
@@ -109,7 +109,7 @@ static inline Wide3 block_corner_relative(global const TriangleBlock *block, uin
                    block_row(block, corner, ray->axes[2]) + ray->backward[2]};
 }
 
-// A triangle's position. index counts the triangles of all blocks.
+// A triangle's position. `index` counts the slots of all blocks.
 typedef struct {
     global const TriangleBlock *block;
     uint place, index;
@@ -125,8 +125,8 @@ static inline Wide3 splat3(const Real3 *v, uint lane)
     return (Wide3){lane_real(&v->x, lane), lane_real(&v->y, lane), lane_real(&v->z, lane)};
 }
 
-// Returns the triangles that stop the lane's ray. The ray's line hits all given triangles within
-// rounding of its start.
+// Returns the triangles that stop the lane's ray. The ray's line must hit all given triangles
+// within rounding of the ray's start.
 static NOT_INLINE int8 block_neighbors(const Search *search, uint lane, uint first, uint triangles,
                                        uint from_back)
 {
@@ -140,7 +140,7 @@ static NOT_INLINE int8 block_neighbors(const Search *search, uint lane, uint fir
     return stops;
 }
 
-// Returns stop_distances for a block and the ray of a lane.
+// Returns the same as stop_distances (accept.cl), for a lane's ray and all triangles of a block.
 static inline float8 block_distances(const BlockPlace *start, const Search *search, uint lane,
                                      const WideTriangleTest *test, float reach)
 {
@@ -166,7 +166,7 @@ static inline float8 block_distances(const BlockPlace *start, const Search *sear
     return met.near ? near : met.clear;
 }
 
-// Tests a block's triangles against the lane's ray. Returns whether its hit changed.
+// Tests a block's triangles against the lane's ray. Returns whether the ray's hit changed.
 static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search *search, uint lane,
                                           Hit *hits)
 {
@@ -194,8 +194,8 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     return changed;
 }
 
-// Returns whether nodes and blocks probably exceed a cache of 1 MB. Single rays then prefetch,
-// which makes smaller scenes 7 % slower.
+// Returns whether nodes and blocks probably exceed a cache of 1 MB. Only then do single rays
+// prefetch, because prefetching makes smaller scenes 7 % slower.
 static inline bool exceeds_cache(const Tracer *tracer)
 {
     return tracer->frame->triangle_count >= 30000;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The traversal stack of the wide tree. The children of a node that a ray hits are pushed in the
-// order of their entry distances, the farthest first.
+// The traversal stack of the wide tree. The children that a ray hits are pushed in the order of
+// their entry distances, the farthest first.
 //
-// Processors cannot predict which children a ray hits and which is nearest, so every branch on this
+// Processors cannot predict which children a ray hits and in which order, so every branch on this
 // would be slow. A sorting network has no branches (Batcher, "Sorting networks and their
 // applications", 1968). Compared with insertion sort, it saves 17, 10 and 1 % of the time for
 // pictures of a million, 122 thousand and 6 thousand triangles.
@@ -18,7 +18,7 @@
 
 // The children of a node are adjacent, the nearest on top.
 typedef struct {
-    uint order[WIDE_STACK_SIZE]; // as made by entry_order
+    uint order[WIDE_STACK_SIZE]; // results of entry_order
     uint child[WIDE_STACK_SIZE];
     uint count;
 } WideStack;
@@ -34,7 +34,7 @@ static inline uint lowest_bit(uint bits)
 
 // Returns the entry distances as integers that sort in reverse order. The bits of nonnegative
 // floats sort like the floats. Children that are not hit come last. The lowest bits hold the
-// child's index, which shortens the distance by less than 2^-20 of itself.
+// child's index. This shortens the distance by less than 2^-20 of its value.
 static inline uint8 entry_order(float8 entry, int8 met)
 {
     const uint8 place = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
@@ -99,8 +99,8 @@ static inline uint4 sorted_four(uint4 v)
     return (uint4)(low.s0, high.s1, low.s2, high.s3);
 }
 
-// Sorts the children that are hit. Only one node in twenty has more than four of them. Four or
-// fewer are first moved together, so that half a network sorts them.
+// Sorts the children that are hit. They first move to the front, so that half a network can sort up
+// to four of them. Only one node in twenty has more.
 static inline uint8 orders_sorted(uint8 order, uint met)
 {
     typedef int Register __attribute__((vector_size(32)));

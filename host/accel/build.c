@@ -7,9 +7,9 @@
 // the ranges of different nodes never overlap. An explicit stack holds the pending nodes, so no
 // recursion overflows.
 //
-// Invariant: a split depends only on the node's triangles, their order and the node's depth. Each
-// side keeps the order of its triangles. The tree is therefore the same for every number of
-// threads.
+// Invariant: a node's triangles, their order, the node's depth and the tree's settings and size
+// determine the split and the order of the triangles on each side. The tree is therefore the same
+// for every number of threads.
 #include "accel/build.h"
 
 #include <assert.h>

@@ -6,8 +6,8 @@
 #include "accel/bvh_tree.h"
 #include "accel/triangles.h"
 
-// Boxes as a vector of low planes and a vector of negated high planes. The union of two boxes is
-// then one minimum per vector. No plane is -0, so the order of unions does not matter.
+// A box is stored as a vector of low planes and a vector of negated high planes. The union of two
+// boxes is then one minimum per vector. No plane is -0, so the order of unions does not matter.
 
 #ifdef __SSE__
 #include <xmmintrin.h>

@@ -11,11 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Processes one mesh object at a time. Threads process chunks of its triangles.
+// The following functions process one mesh object at a time. Threads share its triangles.
 
 typedef struct {
     const Mesh *mesh;
-    uint32_t material;      // with TRIANGLE_TWO_SIDED if the object is
+    uint32_t material;      // with TRIANGLE_TWO_SIDED if the triangles are two-sided
     const uint8_t *orders;  // the object's section of Triangles::orders
     TriangleLook *looks;    // the object's section of FlatScene::looks
     CornerNormals *normals; // its section of FlatScene::normals; NULL for flat shading

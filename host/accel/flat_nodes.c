@@ -11,8 +11,9 @@
 //
 // One thread collapses the tree, and then all threads fill the blocks.
 //
-// Invariant: a stored box contains all triangles below it, grown by BVH_SLACK. The kernels
-// therefore never cull a triangle that their triangle test would accept (kernels/search.cl).
+// Invariant: a stored box contains the triangles below it and a margin of BVH_SLACK around them.
+// The kernels therefore never cull a triangle that their triangle test would accept
+// (kernels/search.cl).
 #include "accel/flat_nodes.h"
 
 #include <stdlib.h>
@@ -241,7 +242,8 @@ static int largest_part(const Part *parts, uint32_t count)
     return largest;
 }
 
-// Opens parts[0] and the resulting parts repeatedly. Returns the number of parts.
+// Opens parts[0] and then the largest resulting parts, until the node is full or can_open allows no
+// more. Returns the number of parts.
 static uint32_t gather_children(const Bvh *bvh, Part parts[WIDE])
 {
     uint32_t count = 1;

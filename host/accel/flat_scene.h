@@ -38,5 +38,5 @@ typedef struct {
     const Normalization *normalization; // of the scene
     NodeLayout layout;
     ThreadPool *pool;  // NULL for the caller's thread only
-    bool is_two_sided; // all meshes are; otherwise, each object decides
+    bool is_two_sided; // all meshes are two-sided; otherwise, each object's two_sided decides
 } FlatSource;

@@ -21,7 +21,7 @@
 
 #define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
 
-// Returns the environment with which this process was started; an empty one if /proc is missing.
+// Returns the environment with which this process was started, or an empty one if /proc is missing.
 // Reading environ would be unsafe, because OpenCL drivers call setenv in other threads. The result
 // points into bytes. The caller frees both.
 static char **environment_at_start(File *bytes, Error *cause)
@@ -96,7 +96,8 @@ int child_end(ChildProcess *child)
     return status;
 }
 
-// Waits for data or for the end of the data (CHILD_DONE), or until the deadline (CHILD_LATE).
+// Waits for data or the end of the data, and then returns CHILD_DONE. Returns CHILD_LATE at the
+// deadline.
 static ChildFate await(int socket, double deadline)
 {
     for (;;) {

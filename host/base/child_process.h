@@ -13,7 +13,7 @@ typedef struct {
     int socket; // to the child
 } ChildProcess;
 
-// Starts the program words[0] with the words before NULL as arguments. Its standard output is the
+// Starts the program words[0]. The words up to a NULL are its arguments. Its standard output is the
 // socket, and its standard input and error are /dev/null. Its environment is the one with which
 // this process was started. Any thread may call child_spawn, even while another thread changes the
 // environment. On failure, returns false and stores the reason without a file name in *cause.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The first cause of a failure, as one sentence for the user. Functions that fail return false or
-// NULL, and fill an Error. Programming errors assert. After a function failed to make, open or read
-// a value, the caller need not free the value, but may. Headers state the exceptions.
+// NULL, and fill an Error. Assertions catch programming errors. If a function fails to make, open
+// or read a value, the caller may free the value, but need not. Headers state the exceptions.
 #pragma once
 
 #include <stdbool.h>

@@ -38,9 +38,9 @@ typedef struct {
 // Replaces all characters that are not printable ASCII, because a terminal could interpret them.
 void foreign_make_printable(char *text, size_t size, char substitute);
 
-// Runs clrt-foreign with `words` as its arguments, of which the last ones may be NULL, and collects
-// its output. On failure, returns false and stores the reason in *cause, without the name of the
-// file. The caller frees stream.
+// Runs clrt-foreign and collects its output. Its arguments are `words`, and the last words may be
+// NULL. On failure, returns false and stores the reason in *cause, without the name of the file.
+// The caller frees stream.
 #define FOREIGN_WORDS 3
 bool foreign_run(File *stream, const ForeignReader *reader, const char *const words[FOREIGN_WORDS],
                  Error *cause);

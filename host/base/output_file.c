@@ -59,8 +59,8 @@ static bool take_file(int file)
 }
 
 // Creates and locks an empty file with an unused name. suffix points into name and receives the end
-// of the name. Returns the open file, or -1 on failure. open gives the file the usual permissions,
-// while mkstemp would make it private.
+// of the name. Returns the open file, or -1 on failure. open() gives the file the usual
+// permissions, while mkstemp() would make it private.
 static int make_file(char *suffix, const char *name)
 {
     char boot[BOOT_DIGITS + 1];

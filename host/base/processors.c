@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds the number of processors that the process may use: the affinity mask, limited by the quotas
-// of control groups. Containers use such quotas. Every call queries the system, because affinity
-// and quotas can change while a process runs.
+// Finds the number of processors that the process may use: the size of the affinity mask, limited
+// by the quotas of control groups. Containers use such quotas. Every call queries the system,
+// because affinity and quotas can change while a process runs.
 #include "base/processors.h"
 
 #include <math.h>
@@ -13,9 +13,9 @@
 
 // In cgroup version 2, /proc/self/cgroup has one line "0::/path", and each group has a file
 // cpu.max. In version 1, each controller has a line such as "4:cpu,cpuacct:/path", and each group
-// has a file for the quota and one for the period. In a container, the path may not exist below the
-// mount, because the mount begins at the container's group. The search therefore reads every parent
-// folder up to the mount.
+// has a file for the quota and one for the period. In a container, the path can be missing below
+// the mount, because the mount begins at the container's group. The search therefore reads every
+// parent folder up to the mount.
 
 #define PATH_SIZE 4096
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each thread_pool_run of several tasks is a generation. Its workers and the caller's thread take
-// task numbers from a common counter until none is left. The call returns when no worker is busy.
+// Each call of thread_pool_run with several tasks is a generation. The pool's workers and the
+// caller's thread take task numbers from a common counter until none is left. The call returns when
+// no worker is busy.
 //
 // Generations often follow each other closely, and waking a thread takes long. Idle workers
 // therefore first poll for the next generation, and then sleep.
@@ -39,7 +40,7 @@ static void take_tasks(ThreadPool *pool)
     }
 }
 
-// Waits until the generation is not `known` any more, and returns its number.
+// Waits until the generation's number differs from `known`, and returns the new number.
 static uint32_t await_generation(ThreadPool *pool, uint32_t known)
 {
     for (int look = 0; look < LOOKS_FOR_WORK; look++) {

@@ -20,11 +20,11 @@ void thread_pool_close(ThreadPool *pool);
 // finished. `work` must not use the pool.
 void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, void *context);
 
-// Processes elements first to end - 1.
+// Processes the elements from `first` to `end` - 1.
 typedef void ThreadPoolPart(void *context, uint32_t first, uint32_t end);
 
-// Divides elements 0 to count - 1 into ranges of `part` elements, of which the last may be shorter.
-// Calls `work` for each range, as thread_pool_run does for tasks.
+// Divides the elements 0 to count - 1 into ranges of `part` elements. The last range may be
+// shorter. Calls `work` for each range, as thread_pool_run does for tasks.
 void thread_pool_share(ThreadPool *pool, uint32_t count, uint32_t part, ThreadPoolPart *work,
                        void *context);
 

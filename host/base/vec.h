@@ -97,8 +97,8 @@ static inline Vec3 vec3_normalize(Vec3 a)
 }
 
 // Return the sine and cosine of degrees, which must be below 1e9 in magnitude. The error is at most
-// 2 ulp, and results at multiples of 90 are exact. They replace the C library's functions, whose
-// last bits differ between processors with and without fma and would change the camera.
+// 2 ulp, and results at multiples of 90 are exact. The C library's functions would change the
+// camera, because their last bits differ between processors with and without fma.
 double sine_of_degrees(double degrees);
 double cosine_of_degrees(double degrees);
 

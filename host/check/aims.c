@@ -18,13 +18,14 @@
 #define FACING_FROM_CLOSE 0.01
 
 // A ray misses its aim by at most LENGTH_ERROR times its length plus COORDINATE_ERROR times the
-// aim's largest coordinate. With correctly rounded division, triangle.inc.cl accepts hits within 22
-// * 2^-24 of the ray (BVH_SLACK in shared.h). Rounding directions and aims to float adds to this.
+// aim's largest coordinate. With correctly rounded division, triangle.inc.cl accepts hits whose
+// distance from the ray is at most 22 * 2^-24 of the largest coordinate relative to the ray's start
+// (BVH_SLACK in shared.h). Rounding directions and aims to float adds to this.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 
 // An aim divides its edge at this fraction, measured from the point with the lower index. The
-// coordinates of the aim are then rounded, which they might not be for 1/2.
+// coordinates of the aim are then rounded. With 1/2, they might be exact.
 #define EDGE_PART 0.4
 
 // The distance between an open edge and the aim beyond it, in radii of the mesh. Rounding errors

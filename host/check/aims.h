@@ -8,7 +8,8 @@
 // from its eye, gets a ray that starts near it.
 //
 // Invariant: a ray is cast only if every triangle around its aim faces the origin so clearly that
-// rounding cannot carry the ray past them. Every miss is therefore a leak.
+// rounding cannot carry the ray past these triangles. In a closed mesh, every miss is therefore a
+// leak.
 #pragma once
 
 #include "mesh/edges.h"
@@ -52,8 +53,8 @@ typedef struct {
 bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error);
 void aims_free(Aims *aims);
 
-// Both functions store rays that reach their aims at t = 1, and the index of each ray's aim in
-// targets. They return the number of rays, which is at most aims->count.
+// Both functions store rays, which reach their aims at t = 1. They store the index of each ray's
+// aim in targets. They return the number of rays, which is at most aims->count.
 size_t aims_shoot_from_afar(Aims *aims, RayData *rays, uint32_t *targets);
 size_t aims_shoot_from_close(Aims *aims, RayData *rays, uint32_t *targets);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counts the faults of meshes by their edges, and duplicate meshes, spheres and lights. Sorting
-// makes duplicates adjacent.
+// Finds the faults of meshes from their edges. Counts duplicate meshes, spheres and lights by
+// sorting, which makes duplicates adjacent.
 #include "check/census.h"
 
 #include "base/array.h"

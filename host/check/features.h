@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> the sizes of its finest details, measured in steps between floats. A detail of few steps
-// is distorted by rounding. The sizes are measured both in the file's coordinates and in normalized
+// Mesh -> the sizes of its finest details, measured in steps between floats. Rounding distorts a
+// detail of few steps. The sizes are measured both in the file's coordinates and in normalized
 // coordinates.
 #pragma once
 
@@ -21,7 +21,7 @@ typedef struct {
     bool holds_floats;    // floats represent every coordinate exactly
     MeshFault flat;       // triangles without area: three corners on a line
     double extent;        // largest side of the mesh's bounds
-    double offset;        // largest coordinate of the bounds' center
+    double offset;        // largest coordinate of the bounds' center, in magnitude
 } Features;
 
 Features features_of(const Mesh *mesh, const Normalization *normalization);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Turns counts and measurements into findings with texts. The check fails on faults that can cause
-// holes or wrong pixels: values that are not finite, triangles without area, duplicates, and leaks
-// of closed meshes. Other findings may be intended by the author of the scene.
+// Turns counts and measurements into findings with texts. The check fails if the scene cannot be
+// drawn, or has faults that can cause holes or wrong pixels: values that are not finite, triangles
+// without area, duplicates other than lights, and leaks of closed meshes. Other findings may be
+// intended by the author of the scene.
 #include "check/findings.h"
 
 #include "scene/camera.h"
@@ -18,13 +19,13 @@ typedef struct {
 } EnclosedEyes;
 
 // A mesh contains a point if the signed solid angles of its triangles, seen from the point, add up
-// to more than half of the sphere (Van Oosterom and Strackee, "The Solid Angle of a Plane
-// Triangle", 1983).
+// to more than half of the sphere in magnitude (Van Oosterom and Strackee, "The Solid Angle of a
+// Plane Triangle", 1983).
 
 #define TAU 6.283185307179586477
 
-// A mesh is out of view only if its corners are farther from the center than this many half
-// pictures. The margin above 1 exceeds rounding errors.
+// The distance from the picture's center beyond which a corner is out of view, in units of half the
+// picture's side. The margin above 1 exceeds rounding errors.
 #define MARGIN 1.001
 
 static Vec3 seen_from(Vec3 eye, const Mesh *mesh, uint32_t vertex)
@@ -96,14 +97,15 @@ static EnclosedEyes enclosed_eyes_find(const Scene *scene, const Census *census)
     return first;
 }
 
-// Returns the coordinate along an edge of the picture, in units of the picture's half side.
+// Returns a point's coordinate along a side of the picture, in units of half the side.
 static double across(Vec3 point, const float half_step[3], uint32_t side)
 {
     const Vec3 step = vec3_of_floats(half_step);
     return vec3_dot(point, step) / (vec3_dot(step, step) * side);
 }
 
-// Returns whether all corners of a box are behind the eye or beyond one edge of the picture.
+// Returns whether all corners of a box are behind the eye, or all are beyond the same edge of the
+// picture.
 static bool is_outside(const CameraData *camera, const Vec3 corners[8], const Scene *scene)
 {
     bool all[5] = {true, true, true, true, true};
@@ -144,8 +146,8 @@ static bool is_out_of_view(const Scene *scene, const Normalization *normalizatio
 // than this, the change is visible.
 #define FEW_STEPS 16.0
 
-// Advice on short edges blames the mesh's offset or the scene's size only if it is more than this
-// many times as large as the mesh.
+// Advice on short edges blames the mesh's offset or the scene's size only if the offset or size
+// exceeds the mesh's size by this factor.
 #define MUCH 4.0
 
 static const struct {

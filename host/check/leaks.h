@@ -16,7 +16,7 @@ typedef struct {
     size_t rays;   // rays cast; some aims got two
     size_t hidden; // aims behind other parts of the mesh
     MeshFault
-        leaks; // rays that passed through; `first` is the number in the file of a triangle there
+        leaks; // rays that passed through; `first` is a triangle there, numbered as in the file
 } LeakCount;
 
 typedef struct {

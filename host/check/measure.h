@@ -8,7 +8,7 @@
 // Measures the meshes of check->scene without a device.
 bool check_measure(Check *check, Error *error);
 
-// Casts rays at the meshes, after check_measure. If this fails, check has no leaks.
+// Casts rays at the meshes, after check_measure. On failure, check->leaks is NULL.
 bool check_trace(Check *check, Session *session, Error *error);
 
 // Releases the measurements and the findings.

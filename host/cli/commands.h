@@ -10,7 +10,7 @@
 
 #include <stdio.h>
 
-// A command that traces. The command reads the scene that the options name into *scene. The caller
+// A command that traces. If the command reads a scene, it stores the scene in *scene. The caller
 // has opened the session's cache, and frees the scene afterwards.
 typedef ExitCode TracingCommand(const Options *options, Session *session, Scene *scene,
                                 Error *error);
@@ -37,7 +37,7 @@ TracingCommand explain_pixel;
 // options name a device or fp64.
 TracingCommand check_scene;
 
-// clrt devices: prints the OpenCL devices as `clinfo -l` does, or writes versioned JSON.
+// clrt devices: lists the OpenCL devices as `clinfo -l` does, as versioned JSON, or both.
 ExitCode device_report_write(const Options *options, Error *error);
 
 // Checks the scene for commands other than check. With --bad-geometry fail, fails if there are
@@ -45,8 +45,8 @@ ExitCode device_report_write(const Options *options, Error *error);
 // triangles, unless --quiet is given.
 bool check_geometry(const Options *options, const Scene *scene, Error *error);
 
-// clrt compare: reports the differences of two pictures, and draws them if the options name an
-// output.
+// clrt compare: reports the differences of two pictures. If the options name an output, also draws
+// a map of the differences.
 ExitCode compare_files(const Options *options, Error *error);
 
 // clrt merge: joins the parts of a picture.
@@ -55,10 +55,10 @@ ExitCode merge_parts(const Options *options, Error *error);
 // clrt convert: writes a scene or mesh as scene text with binary PLY meshes, or as one PLY mesh.
 ExitCode convert_scene(const Options *options, Error *error);
 
-// The files of a run are those of the command line and, after the scene is read, those of the
-// scene.
+// The files of a run are the files that the command line names and, after the scene is read, the
+// scene's files.
 
-// Adds every file that the options name, and the files of scene unless it is NULL.
+// Adds to plan every file that the options name, and the files of scene unless scene is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
 
 // Fails if an output would replace an input or another output. main calls it before any work.

@@ -59,8 +59,8 @@ static bool read_line(int file, char line[LINE_SIZE])
     return next == '\n';
 }
 
-// Finds the mapped file that contains place. Returns its name without folders, in line, or NULL.
-// Reads /proc, because dladdr takes locks that the crashed thread may hold.
+// Finds the mapped file that contains the address `place`. Returns its name without folders, stored
+// in `line`, or NULL. Reads /proc, because dladdr takes locks that the crashed thread may hold.
 static const char *file_at(uintptr_t place, char line[LINE_SIZE])
 {
     const int maps = open("/proc/self/maps", O_RDONLY | O_CLOEXEC);

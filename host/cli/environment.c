@@ -18,8 +18,9 @@ static bool is_named(const char *entry, const char *name, size_t length)
     return strncmp(entry, name, length) == 0 && entry[length] == '=';
 }
 
-// Removes the variable whose name has this length, and adds entry unless it is NULL. The first
-// element of each array points to the previous array, so that leak checkers can reach all arrays.
+// Removes the variable whose name is the first `length` bytes of `name`, and adds `entry` unless it
+// is NULL. The first element of each array points to the previous array, so that leak checkers can
+// reach all arrays.
 static int replace(const char *name, size_t length, char *entry)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Formats --help with names on the left and wrapped texts on the right. --help shows a text of the
-// table of options up to the first semicolon. The man page shows the whole text.
+// Formats --help with names on the left and wrapped texts on the right. --help shows the help text
+// of an option or command up to the first semicolon. The man page shows the whole text.
 #include "cli/commands.h"
 
 #include "cli/options/option.h"

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 // Limits PoCL's threads to count. If count is 0, the limit is processors_usable(), because PoCL
-// ignores the quotas of control groups, and the user's environment variables take precedence. PoCL
+// ignores the quotas of control groups. The user's environment variables then take precedence. PoCL
 // 3.1 and 6.0 read different variables.
 static void limit_threads(uint32_t count)
 {

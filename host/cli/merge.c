@@ -18,7 +18,7 @@ typedef struct {
     const Options *options;
     Framebuffer framebuffer; // empty if `joins` is true
     Layers layers;
-    Provenance provenance; // the first part's, with the devices of all parts
+    Provenance provenance; // of the first part, but with the devices of all parts
     StoredTiles first;     // settings of the first part that can be opened
     const char *first_path;
     const char **paths; // by part, NULL for a missing part; the array is owned
@@ -54,7 +54,7 @@ static const char *mismatch_of(const Merging *merging, const StoredTiles *tiles,
     return stored_tiles_has(image, &merging->layers) ? NULL : "other channels";
 }
 
-// Adds the part's device and driver unless another part has the same.
+// Appends the names of the part's device and driver to the texts that do not contain them yet.
 static void note_device(Merging *merging, const StoredImage *image)
 {
     for (int kind = STORED_DEVICE; kind <= STORED_DRIVER; kind++) {
@@ -152,7 +152,7 @@ static bool is_checked_part(const Merging *merging, const StoredTiles *tiles, co
 }
 
 // In the first pass, checks the part and records its tiles. A part that cannot be opened counts as
-// missing. In the second pass, copies its tiles, unless the file has changed since the first pass.
+// missing. In the second pass, copies the part's tiles, and fails if the file has changed.
 static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *error)
 {
     ExrFile file;

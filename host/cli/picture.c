@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // clrt SCENE -o FILE: renders a scene file to picture files. The steps of a picture are to resume
-// an earlier run, draw the colors, certify them, measure their error, draw the channels, and write
+// an earlier run, draw the colors, certify them, draw the channels, measure the error, and write
 // the file.
 #include "cli/commands.h"
 

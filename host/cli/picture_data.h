@@ -7,7 +7,7 @@
 #include "jobs/resume.h"
 #include "session/channels.h"
 
-// A picture's reference, and their difference.
+// A picture's reference, and the picture's difference from it.
 typedef struct {
     Framebuffer picture; // empty without --reference
     uint32_t samples;    // per pixel; 0 until the difference is measured
@@ -16,7 +16,7 @@ typedef struct {
     double seconds;
 } MeasuredReference;
 
-// A picture in progress. The frames of a film use one Picture in succession.
+// A picture in progress. All frames of a run use one Picture in succession.
 typedef struct {
     const Options *options;
     Session *session;
@@ -25,7 +25,7 @@ typedef struct {
     const char *path;       // of the output file
     uint32_t view;          // from 1
     double turned;          // the turntable's angle in degrees
-    double truncation;      // bound on the error of colors that max_level causes
+    double truncation;      // a bound on the error that max_level causes in colors
     Framebuffer framebuffer;
     Framebuffer film; // all frames of an animated file, in a column; empty for other files
     MeasuredReference reference;

@@ -4,7 +4,7 @@
 
 #include "cli/picture_data.h"
 
-// Appends the channel of each pixel's error, which is the largest difference of its colors from the
+// Appends the error channel. The error of a pixel is the largest difference of its colors from the
 // reference. Does nothing if there is no reference, if the file's format has no channels, or if
 // --aov lists the channel.
 void reference_name_layer(const Options *options, Layers *layers);

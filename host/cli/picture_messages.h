@@ -10,8 +10,8 @@ void picture_warn_of_goal(const Options *options);
 // Prints a note if the parts have so few tiles that their times may differ much.
 void picture_warn_of_few_tiles(const Options *options, const RenderSettings *settings);
 
-// With --verbose, prints which of several pictures begins and, with --resume, how many of its
-// tiles were finished before.
+// With --verbose, prints which frame begins or, for a picture with --resume, how many of its tiles
+// were finished before.
 void picture_print_beginning(const Picture *picture);
 
 // On a terminal, prints the file's name, the picture's size and the seconds since picture->moment.

@@ -10,7 +10,7 @@
 // Before stop_wait_for_tiles, a signal ends the process with a message and status 128 + its number.
 void stop_watch(void);
 
-// Callers call this before they render the first tile. From then on, the first signal only sets the
+// Must be called before the first tile is rendered. Afterwards, the first signal only sets the
 // result of stop_signal.
 void stop_wait_for_tiles(void);
 

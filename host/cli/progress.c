@@ -27,7 +27,7 @@ Progress progress_begin(bool silent)
     return progress;
 }
 
-// A stage that takes less time than this is not shown.
+// Loading is shown only if it takes longer than this.
 #define QUICK_MICROSECONDS 500000
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -41,7 +41,7 @@ static struct {
     bool is_shown;
 } stage;
 
-// Rewrites the line. Returns false if all stages of the series have ended.
+// Rewrites the line, or returns false if all stages of the series have ended.
 static bool show_line(uintptr_t series, unsigned seconds)
 {
     pthread_mutex_lock(&lock);
@@ -92,8 +92,8 @@ void progress_show_loading(bool begins)
     show("loading the scene", show_slow, begins);
 }
 
-// Estimates the remaining time from the tiles drawn by this process, because tiles of an earlier
-// run took no time.
+// Estimates the remaining time from the tiles drawn by this process. Tiles of an earlier run are
+// left out, because this process spent no time on them.
 static void print_progress(Progress *progress, const RenderProgress *render)
 {
     const double elapsed = clock_seconds() - progress->start;

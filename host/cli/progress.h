@@ -4,8 +4,8 @@
 
 #include "session/session.h"
 
-// The context of an observer that prints the progress of tracing on standard error, and stops it
-// after a signal.
+// The context of an observer that prints the progress of tracing on standard error, and stops
+// tracing after a signal.
 typedef struct {
     bool silent;
     bool terminal;    // standard error is a terminal, so one line is rewritten
@@ -19,11 +19,11 @@ Progress progress_begin(bool silent);
 // Returns whether standard error is a terminal that can rewrite lines.
 bool progress_on_terminal(void);
 
-// Implements Cache::announce for terminals. Shows a line with the elapsed seconds, and clears it at
-// the end of the last build.
+// Implements Cache::announce for terminals. Shows a line with the elapsed seconds while kernels are
+// compiled.
 void progress_show_compiling(bool begins);
 
-// Does the same while a scene is loaded and its tree is built, unless this takes less than 0.5 s.
+// Does the same while a scene is loaded or its tree is built, unless this takes less than 0.5 s.
 void progress_show_loading(bool begins);
 
 // Implements RenderObserver::tile_done; context is a Progress. Returns false after a signal.

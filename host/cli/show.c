@@ -13,7 +13,7 @@
 #include <string.h>
 
 // The seconds that the process waits for its worker thread after the window is closed. The thread
-// may be compiling, and PoCL's files must not be removed during this time.
+// may be compiling, and PoCL's files must not be removed while it compiles.
 #define PATIENCE 10
 
 void show_write_keys(FILE *stream)

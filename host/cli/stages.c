@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs the stages from options and a scene file to a session that is ready to draw. All commands
-// that trace use them.
+// that trace use them, except that the window has its own stages.
 #include "cli/stages.h"
 
 #include "base/clock.h"
@@ -14,8 +14,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// The default side of a part's tiles. They are smaller than the tiles of a whole picture. Each part
-// then has more tiles, and all parts take about the same time.
+// The default side of a part's tiles. The tiles of a part are smaller than the tiles of a whole
+// picture. Each part then has more tiles, and all parts take about the same time.
 #define PART_TILE 64
 
 double stage_lap(double *moment)
@@ -43,9 +43,9 @@ static void show_loading(const Options *options, bool begins)
         progress_show_loading(begins);
 }
 
-// The name in messages of a scene on standard input. It has no slash, so paths of meshes are
-// relative to the current folder. In the library, "-" is an ordinary file name, because only the
-// program reads standard input.
+// Messages call a scene on standard input by this name. The name has no slash, so paths of meshes
+// are relative to the current folder. In the library, "-" is an ordinary file name, because only
+// the program reads standard input.
 #define INPUT_NAME "standard input"
 
 bool stage_read(Scene *scene, const Options *options, Error *error)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The stages from the command line to a session that is ready to draw. Commands call those that
-// they need, in this order.
+// The stages from the command line to a session that is ready to draw. Commands call the stages
+// that they need, in the order of this file.
 #pragma once
 
 #include "cli/options/options.h"
@@ -13,7 +13,7 @@ typedef struct {
 // Returns the seconds since *moment, and sets *moment to the current time.
 double stage_lap(double *moment);
 
-// Returns the settings of the session that the options describe.
+// Returns the session settings that the options describe.
 SessionSettings stage_settings(const Options *options);
 
 // Sets the session's settings, and starts a thread that opens the device.

@@ -49,7 +49,7 @@ bool compared_images_check(ComparedImages *compared, Error *error)
     return true;
 }
 
-// Adds a pixel to the maximum and the counts. Returns the pixel's sum of squared differences.
+// Updates the maximum and the counts for a pixel. Returns the pixel's sum of squared differences.
 static double add_pixel(Difference *difference, const ComparedImages *compared, size_t pixel)
 {
     double squares = 0, largest = 0;
@@ -127,7 +127,7 @@ bool difference_picture_make(Framebuffer *picture, const ComparedImages *compare
     return true;
 }
 
-// The following functions parse limits. Reports use the same names.
+// The following functions parse limits. Reports use the same names of limits.
 
 const char *const limit_names[LIMIT_KINDS] = {"rmse", "max", "psnr", "share1", "share4", "hits"};
 

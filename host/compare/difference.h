@@ -19,7 +19,7 @@ typedef struct {
     double rmse;
     double maximum;
     uint32_t maximum_x, maximum_y, maximum_color; // of the maximum, or of the first of equal ones
-    uint64_t off_by_1, off_by_4;                  // pixels that differ by more than 1/255 and 4/255
+    uint64_t off_by_1, off_by_4;                  // pixels that differ by more than 1/255; 4/255
     bool has_hits;                                // both files have the channel of first hits
     uint64_t wrong_hits;                          // pixels with different first hits
 } Difference;
@@ -71,7 +71,7 @@ bool limits_parse(Limits *limits, const char *text, Error *cause);
 extern const char *const limit_names[LIMIT_KINDS];
 
 // Returns the measured value to which the limit applies. Returns NAN if the files lack the channel
-// that it needs.
+// that the limit needs.
 double limit_measured(LimitKind kind, const Difference *difference);
 
 // Returns whether the measured value is within the limit. A missing value is outside every limit.

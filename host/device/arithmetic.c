@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Runs the operations on which all pictures depend on a device, and compares the results with the
-// host's. The table holds operands for which common faults give other bits than IEEE 754: wrong
-// rounding, contracted products, flushed denormals and conversions that truncate.
+// host's. The table holds operands for which common faults give other bits than IEEE 754. These
+// faults are wrong rounding, contracted products, flushed denormals and conversions that truncate.
 //
-// program.c appends this test's kernel to the first program that a process compiles, because a
-// separate program would take PoCL another 0.5 s. A program from the cache needs no test, because
-// the device has passed the test with the same driver and options.
+// If a process compiles its first program, program.c appends this test's kernel, because a separate
+// program would take PoCL another 0.5 s. If the first program is from the cache, no program needs
+// the test, because the device has passed it with the same driver and options.
 #include "device/arithmetic.h"
 
 #include "device/buffer.h"

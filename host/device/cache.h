@@ -4,7 +4,7 @@
 // all, so processes need no lock to read them.
 //
 // PoCL also keeps files of its own. PoCL 3.1 loses builds if several processes share these files.
-// The executable therefore gives PoCL a private folder, which it removes at the end
+// The executable therefore gives PoCL a private folder, and removes the folder at the end
 // (cache_private.h).
 #pragma once
 
@@ -16,7 +16,7 @@
 #define CACHE_KEY_SIZE  33
 
 typedef struct {
-    char folder[CACHE_PATH_SIZE]; // holds KEY.bin files and possibly private folders; "" if unknown
+    char folder[CACHE_PATH_SIZE]; // holds KEY.bin files and possibly private folders; "" for none
     char private_folder[CACHE_PATH_SIZE]; // PoCL's files; "" if PoCL chooses its own folder
     int private_lock;                     // keeps other processes from removing private_folder
     uint64_t settings; // hash of the environment variables that change what PoCL compiles

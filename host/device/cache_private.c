@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes PoCL's private folder. The folder is named clrt-HOST-XXXXXX and contains a file that the
-// process keeps locked. A folder with an unlocked file belongs to a process that was killed, and
-// the next process removes it. The name contains the host, because locks of other hosts can be
+// process keeps locked. A folder with an unlocked file belongs to a process that was killed. The
+// next process removes the folder. The name contains the host, because locks of other hosts can be
 // invisible on network file systems. The library does not link this file, because the library never
 // changes the environment.
 #include "device/cache_private.h"
@@ -55,8 +55,8 @@ static void lock_path(char path[PRIVATE_SIZE], const char *folder)
     snprintf(path, PRIVATE_SIZE, "%s" LOCK_NAME, folder);
 }
 
-// Returns whether the lock still has its name. Its link count would not show this, because network
-// file systems rename an open file instead of removing it.
+// Returns whether the lock's file still has its name. Its link count would not show this, because
+// network file systems rename an open file instead of removing it.
 static bool has_lock(const char *folder)
 {
     char path[PRIVATE_SIZE];
@@ -86,7 +86,7 @@ static void write_prefix(char prefix[PREFIX_SIZE])
 // Removes the private folder at path if its process has ended. This may also remove the empty
 // folder of a process that has not locked it yet. That process then makes another (make_private).
 // The lock is the first file in a folder. If a folder has other files but no lock, its process has
-// ended. A network file system then kept a file that was still open, under another name.
+// ended. A network file system can leave such a folder, because it only renames an open file.
 static void remove_abandoned(const char *path)
 {
     struct stat status;
@@ -114,8 +114,8 @@ static void remove_all_abandoned(const char *base)
         closedir(folder);
 }
 
-// Makes a folder and locks it. If another process removes the folder before it is locked, makes
-// another.
+// Makes a folder and locks it. If another process removes the folder before it is locked, tries
+// again.
 static bool make_private(Cache *cache, const char *base)
 {
     char prefix[PREFIX_SIZE];

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A private folder for PoCL's files. Only the program has one.
+// A private folder for PoCL's files. The executable has one, but the library has none.
 #pragma once
 
 #include "device/cache.h"
 
 // Opens the cache and sets POCL_CACHE_DIR to a private folder. The private folder is in the cache's
 // folder. If that folder is not writable or has no free space, the private folder is in $TMPDIR or
-// /tmp. Without a private folder, PoCL lists no device. Removes what other processes left of
-// theirs. Only main may call cache_open, before the first OpenCL call.
+// /tmp. Without a private folder, PoCL lists no device. Also removes private folders of processes
+// that were killed. Only main may call cache_open, before the first OpenCL call.
 void cache_open(Cache *cache);
 
 // Removes the private folder. No OpenCL object may be in use.

@@ -17,7 +17,7 @@ typedef struct {
     char platform[256];          // name of the OpenCL platform
     char name[256];              // as the driver reports it
     char version[256];           // version of the driver
-    char platform_version[256];  // with PoCL, names its LLVM too
+    char platform_version[256];  // with PoCL, also the version of LLVM
     cl_ulong largest_allocation; // bytes
     cl_uint compute_units;
     bool is_cpu;

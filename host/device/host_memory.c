@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps buffers that the OpenCL implementation has allocated on the host, and keeps the last freed.
+// Maps buffers that the OpenCL implementation allocates on the host. Keeps the last freed buffers.
 #include "device/host_memory.h"
 
 #include "base/array.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Two outputs of three launches in flight.
+// The number of kept buffers: two outputs for each of three launches in flight.
 #define KEPT 6
 
 struct HostPool {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Memory into which a device copies results. For devices that are not CPUs, the OpenCL
-// implementation allocates it, because only such memory is copied at full speed and without making
-// the host wait. Locking its pages takes 0.4 ms per megabyte and unlocking 0.1 ms (NVIDIA H200), so
-// a pool keeps the last freed memory for its next user.
+// implementation allocates the memory. Copies into other memory are slower and make the host wait.
+// Locking the pages takes 0.4 ms per megabyte and unlocking 0.1 ms (NVIDIA H200), so a pool keeps
+// the last freed memory for the next user.
 #pragma once
 
 #include "device/cl_status.h"
@@ -22,8 +22,8 @@ HostPool *host_pool_make(cl_context context, cl_command_queue queue, Error *erro
 // pool may be NULL. None of its memory may be in use.
 void host_pool_free(HostPool *pool);
 
-// Allocates `size` uninitialized bytes, without a pool by malloc. After a failure, host_memory_free
-// has nothing to free.
+// Allocates `size` uninitialized bytes. If pool is NULL, the memory is ordinary. After a failure,
+// host_memory_free has nothing to free.
 bool host_memory_make(HostMemory *memory, HostPool *pool, size_t size, Error *error);
 
 // No copy into the memory may be in flight.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernels of a device, each made once. Kernels with the same entry->source share a program. A
-// kernel is made without a scene.
+// The kernels of a device, each made once. Kernels share a program if their source and their
+// options, choice and traits are the same. A kernel needs the traits of a scene, but not its data.
 #pragma once
 
 #include "device/launch.h"
@@ -16,7 +16,7 @@ typedef struct {
     Program *program;
     cl_kernel handle;
     double seconds;    // time spent on making the kernel
-    bool was_compiled; // by an earlier process, according to the cache
+    bool was_compiled; // the cache already had the program
 } Kernel;
 
 typedef struct {
@@ -36,7 +36,7 @@ typedef struct {
 // Returns the kernel for spec, or NULL. The kernel belongs to the set.
 const Kernel *kernel_set_get(KernelSet *set, const KernelSpec *spec, Error *error);
 
-// Returns whether the set or the cache has the program of the kernel for spec.
+// Returns whether the set has the kernel for spec, or the cache has its program.
 bool kernel_set_has(const KernelSet *set, const KernelSpec *spec);
 
 #define KERNEL_ARGUMENTS 6

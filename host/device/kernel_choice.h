@@ -20,12 +20,12 @@ typedef enum {
 typedef struct {
     KernelFamily family;
     NodeLayout nodes;
-    uint32_t lanes; // vector width of the kernels: 4, 8 or 16; 0 lets the target decide
+    uint32_t lanes; // vector width: 4, 8 or 16; 0: the kernels choose it (kernels/lanes.cl)
     Precision precision;
 } KernelChoice;
 
 typedef enum {
-    KERNEL_AUTO,  // packets if kernel_suits_packets, otherwise KERNEL_PAIR
+    KERNEL_AUTO,  // packets for fp32 if kernel_suits_packets, otherwise KERNEL_PAIR
     KERNEL_PAIR,  // single rays, pair nodes
     KERNEL_WIDE,  // single rays, wide nodes
     KERNEL_PACKET // packets, wide nodes
@@ -38,8 +38,8 @@ typedef struct {
     Precision precision;
 } KernelRequest;
 
-// Returns whether the request's members fit together. The number of lanes must be possible, only
-// wide nodes have lanes, and fp64 excludes wide nodes.
+// Returns whether the request's members fit together. Forms with wide nodes allow 0, 4, 8 or 16
+// lanes, but not fp64. Other forms require 0 lanes.
 bool kernel_is_valid(const KernelRequest *request);
 
 KernelChoice kernel_choose(const KernelRequest *request, const Device *device);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// On CPUs, a launch is one tile. A GPU needs more work-items than a tile has, because each compute
-// unit runs thousands at once. But a GPU that also draws a display freezes it during a launch, and
-// drivers end launches of several seconds. The size of launches therefore follows the time of the
-// previous launch.
+// On CPUs, a launch is one tile, or CPU_ITEMS work-items of a list. A GPU needs more work-items
+// than a tile has, because each compute unit runs thousands at once. But a GPU cannot update its
+// display during a launch, and drivers end launches of several seconds. The size of launches
+// therefore follows the time of the previous launch.
 #include "device/launch.h"
 
 #define PAIR_SIDE      8
@@ -18,8 +18,8 @@
 #define UNIT_ITEMS 8192
 #define ITEMS_MOST (1U << 20)
 
-// The intended time of a launch. Its pixels may cost three times as much as those of the launch
-// before, and still take less than 0.1 s.
+// The intended time of a launch. Even if its pixels cost three times as much as the pixels of the
+// previous launch, the launch takes less than 0.1 s.
 #define LAUNCH_SECONDS 0.03
 
 static uint32_t smaller(uint32_t a, uint32_t b)
@@ -27,7 +27,7 @@ static uint32_t smaller(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
-// Stores an almost square group of a power of two of work-items.
+// Stores an almost square group. Its number of work-items is a power of two.
 static void fit_group(const LaunchFacts *facts, uint32_t group[2])
 {
     uint32_t size = GPU_GROUP;

@@ -11,12 +11,12 @@ typedef struct {
     bool is_wide; // the kernel has wide nodes, so a work-item renders a block of pixels
     uint32_t compute_units;
     uint32_t group_limit;    // the most work-items of the kernel's groups; 0 if unknown
-    uint32_t group_multiple; // groups of this size fill the device's registers; 0 if unknown
+    uint32_t group_multiple; // group sizes should be multiples of this; 0 if unknown
 } LaunchFacts;
 
 typedef struct {
     uint32_t group[2]; // work-items, along x and y
-    uint32_t items;    // the most work-items of a launch, on GPUs also the most pixels
+    uint32_t items;    // the most work-items of a launch; on GPUs, also its most pixels
     bool is_paced;     // launches must be short, and may contain several tiles or part of a tile
 } LaunchShape;
 
@@ -26,6 +26,6 @@ LaunchShape launch_shape(const LaunchFacts *facts);
 // samples.
 uint32_t launch_first_items(const LaunchShape *shape, double samples);
 
-// Returns the work-items of the next launch, from 1 to shape->items. The last launch should have
-// had `items` items. It had `done` items, at least 1, and took `seconds`.
+// Returns the work-items of the next launch, from 1 to shape->items. The previous launch could have
+// up to `items` items. It had `done` items, at least 1, and took `seconds`.
 uint32_t launch_next_items(const LaunchShape *shape, uint32_t items, uint32_t done, double seconds);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Builds a program from a binary in the cache or, if the cache has none, from source.
+// Builds a program from a binary in the cache or, without a usable binary, from source.
 // docs/devices.md lists the times.
 //
-// Invariant: the key contains every input of the compiler. These are the source, the options, the
-// device, the versions of its driver and platform, and PoCL's environment variables. Equal keys
-// therefore stand for equal programs.
+// Invariant: the key of a cached program contains every input of the compiler. These are the
+// source, the options, the device, the versions of its driver and platform, and PoCL's environment
+// variables. Equal keys therefore stand for equivalent programs.
 #include "device/program.h"
 
 #include "base/array.h"
@@ -30,16 +30,17 @@ static const KernelEntry *entry_of(const ProgramSource *source)
     return source->entry != NULL ? source->entry : &none;
 }
 
-// In fp64, the state of a ray does not fit into registers. Inlined as a whole, the kernel of
-// certainty also takes NVIDIA's compiler (580.159) three times as long, and it then decides some
-// pixels wrongly.
+// Returns whether the program gets the options for GPUs. In fp64, a ray's state does not fit into
+// registers. If all functions are inlined, NVIDIA's compiler (580.159) also takes three times as
+// long for the kernel of certainty, and the kernel then decides some pixels wrongly.
 static bool is_for_gpu(const ProgramSource *source)
 {
     return !source->device->is_cpu && source->choice.precision == PRECISION_FP32;
 }
 
-// With at most 96 registers instead of 168, an H200 runs almost twice as many work-items at once,
-// which wait for memory in turn. Pictures take 8 to 23 % less time (docs/devices.md).
+// With at most 96 registers instead of 168, an H200 runs almost twice as many work-items at once.
+// More of them can then run while others wait for memory. Pictures take 8 to 23 % less time
+// (docs/devices.md).
 static const char *register_limit(const ProgramSource *source)
 {
     const bool is_limited = source->device->limits_registers && is_for_gpu(source);

@@ -12,14 +12,14 @@ extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
 // A kernel function, defined by the file that launches it. A new kernel first runs with an empty
-// frame, with 0 for each number and with buffers of 64 bytes, all of whose bits are 1.
+// frame, with 0 for each number and with buffers of 64 bytes whose bits are all 1.
 typedef struct {
     const char *name;
-    const char *source;    // compiled after kernel_source, as in other entries; NULL without any
+    const char *source;    // compiled after kernel_source; entries may share it; NULL without any
     const char *options;   // compiler options; NULL without any
-    const char *arguments; // after those of the scene: 'b' for a buffer, 'n' for a number
+    const char *arguments; // after the frame and scene: 'b' for a buffer, 'n' for a number
     cl_uint dimensions;    // of the work-items
-    uint32_t group;        // work-items of a work-group; 0 for those of Kernel::launch
+    uint32_t group;        // work-items of a CPU's work-group; 0 for those of Kernel::launch
 } KernelEntry;
 
 typedef struct {
@@ -40,8 +40,8 @@ typedef struct {
     bool arithmetic_is_exact; // the device needs no test
 } ProgramSource;
 
-// Tests the device's arithmetic and builds the program from source. The error message contains the
-// compiler's log.
+// Builds the program from source and, unless arithmetic_is_exact, tests the device's arithmetic. If
+// the build fails, the error message contains the compiler's log.
 bool program_build(Program *program, const ProgramSource *source, Error *error);
 
 // A function that runs a program's kernels for the first time.
@@ -55,11 +55,11 @@ typedef struct {
 bool program_make(Program *program, const ProgramSource *source, const FirstRun *first,
                   Error *error);
 
-// Returns whether the cache has a file for the program, which an earlier process compiled.
+// Returns whether the cache has a file for the program.
 bool program_is_compiled(const ProgramSource *source);
 
-// Writes the binary of an unsaved program to its cache. PoCL takes 0.4 to 0.8 s to make it, because
-// it also compiles the kernels for work-groups of any size.
+// Writes the binary of an unsaved program to its cache. PoCL takes 0.4 to 0.8 s to make the binary,
+// because PoCL then also compiles the kernels for work-groups of any size.
 void program_save(Program *program);
 
 // Saves and releases the program.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Explainer and a pixel -> the explanation as text or JSON.
+// A pixel -> the explanation of its color as text or JSON.
 #pragma once
 
 #include "image/image_file.h"

@@ -45,7 +45,7 @@ static void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard)
         setrlimit(resource, &both);
 }
 
-// Raises the soft limit by `more`, but not to the hard limit.
+// Raises the soft limit by `more`, but keeps it below the hard limit.
 static void raise_limit(__rlimit_resource_t resource, uint64_t more)
 {
     struct rlimit now;
@@ -86,8 +86,8 @@ static rlim_t smaller(rlim_t a, rlim_t b)
     return a < b ? a : b;
 }
 
-// Limits the memory beyond what is mapped already to at most 3/4 of the machine's, because other
-// processes need some. Forbids threads.
+// Allows at most 3/4 of the machine's memory in addition to the memory that is already mapped,
+// because other processes need some. Forbids threads.
 void limits_take_model(void)
 {
     const rlim_t machine = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE);

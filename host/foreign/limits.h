@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The limits of this process. They make hostile files fail early, but they confine nothing. If a
-// file takes over a library, it can do everything that the user may do. Only root can raise the
-// limits again.
+// The limits of this process. They make hostile files fail early, but they are no sandbox. A file
+// that takes over a library acts with the user's permissions. Only root can raise the hard limits
+// again.
 #pragma once
 
 #include <stdint.h>
@@ -14,7 +14,7 @@ void limits_take(void);
 // Limits memory, and forbids threads. limits_allow_file raises the limit of memory for each file.
 void limits_take_model(void);
 
-// Adds memory and processor time for a file of a model with this size, up to the overall limits.
+// Adds memory and processor time for a model's file of this size, up to the hard limits.
 void limits_allow_file(uint64_t bytes);
 
 // Adds processor time for a picture file of this size, and limits memory to what decoders need.

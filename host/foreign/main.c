@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program clrt-foreign. `clrt-foreign MODEL` reads a model by Assimp. `clrt-foreign PICTURE
-// FORMAT MODULE` reads a picture by OpenImageIO. Both write records (base/foreign.h) to standard
+// The program clrt-foreign. `clrt-foreign MODEL` reads a model with Assimp. `clrt-foreign PICTURE
+// FORMAT MODULE` reads a picture with OpenImageIO. Both write records (base/foreign.h) to standard
 // output. Only clrt and its library run this program.
 #include "foreign/limits.h"
 #include "foreign/picture.h"

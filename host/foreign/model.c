@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the model by Assimp, and sends its files, its parts and a note about omitted parts.
+// Reads the model with Assimp, and sends its files, its parts and a note about omitted data.
 #include "foreign/model.h"
 
 #include "foreign/parts.h"

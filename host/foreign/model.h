@@ -6,6 +6,6 @@
 
 #include <stdio.h>
 
-// Sends all records except FOREIGN_FAILURE. Returns false and the reason if the file has no model
-// or the receiver is gone.
+// Sends all records of a model except FOREIGN_FAILURE. Returns false and the reason if the model
+// cannot be read or the receiver is gone.
 bool model_send(FILE *stream, Files *files, Error *error);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Walks Assimp's tree of nodes, multiplies their matrices in fp64, and sends each mesh in the
 // coordinates of the whole file. Identity matrices are not applied, so that coordinates keep their
-// bits. If a matrix mirrors, the order of corners is reversed, so that fronts stay fronts.
+// bits. If a matrix mirrors, the order of corners is reversed, so that front faces stay front
+// faces.
 #include "foreign/parts.h"
 
 #include "base/limits.h"
@@ -11,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// clrt renders two colors and an exponent of a material. They are sent as Assimp returns them, and
-// the receiver clamps them.
+// clrt renders two colors and an exponent of a material. The specular color is multiplied by its
+// strength. The values are not clamped here, because the receiver clamps them.
 
 static bool find_color(const struct aiMaterial *material, const char *key, float color[3])
 {
@@ -207,8 +208,8 @@ static void copy_colors(const Sender *sender, const struct aiMesh *mesh)
         memcpy(colors[i], &mesh->mColors[0][i], sizeof *colors); // without the alpha at the end
 }
 
-// Returns whether all corners of a face are vertices of its mesh, because Assimp does not check
-// this for all formats.
+// Returns whether all corners of a face are vertices of its mesh. Assimp does not check this for
+// all formats.
 static bool is_within(const struct aiFace *face, size_t vertex_count)
 {
     for (size_t corner = 0; corner < face->mNumIndices; corner++)
@@ -272,8 +273,8 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
     return *number - 1;
 }
 
-// Reserves memory for `count` more vertices. If the part has normals or gets some now, the normals
-// of vertices without any are zero.
+// Reserves memory for `count` more vertices. If the part has normals or gets some now, vertices
+// without a normal get a zero vector as their normal.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals, bool has_colors)
 {
     Mesh *mesh = &sender->part.mesh;

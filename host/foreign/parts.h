@@ -13,7 +13,7 @@ typedef struct {
     bool is_textured; // the color of a part has a texture, which clrt does not render
 } PartCounts;
 
-// Sends every part after its material. keeps_normals is false for formats whose normals are those
-// of the facets, because the corners determine them.
+// Sends every part after its material. keeps_normals is false for formats that store normals of
+// facets, because the corners determine these normals.
 bool parts_send(FILE *stream, const struct aiScene *scene, bool keeps_normals, PartCounts *counts,
                 Error *error);

@@ -36,7 +36,7 @@ bool polygons_check_scene(const struct aiScene *scene, Error *error)
     return check(&polygons, error);
 }
 
-// Returns the position after the line that begins here. A backslash continues a line.
+// Returns the position after the line that starts at `begin`. A backslash continues a line.
 static size_t line_end(const File *file, size_t begin)
 {
     for (size_t i = begin; i < file->size; i++)

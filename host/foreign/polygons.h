@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rejects models whose polygons have so many corners that Assimp would read them for minutes.
+// Rejects models whose polygons have so many corners that Assimp would take too long.
 #pragma once
 
 #include "base/file.h"

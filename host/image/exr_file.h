@@ -10,8 +10,8 @@
 #include <openexr.h>
 #include <stdio.h>
 
-// The side, in pixels, of a whole picture's tiles. The tiles of a part have the size of --tune
-// tile.
+// The side, in pixels, of a whole picture's tiles. A part's tiles have the size that --tune tile
+// sets.
 #define EXR_TILE 64
 
 typedef struct {
@@ -31,9 +31,8 @@ void exr_file_close(ExrFile *file);
 // the end of the file, or has fewer bytes than its pixels need.
 bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk_info_t *tile);
 
-// Reads tile->packed_size compressed bytes and verifies their checksum. Tiles stored without
-// compression have none. scratch has room for tile->unpacked_size bytes. Returns false if the tile
-// is damaged.
+// Reads tile->packed_size bytes and verifies the checksum. A tile stored without compression has no
+// checksum. scratch has room for tile->unpacked_size bytes. Returns false if the tile is damaged.
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
                    unsigned char *scratch);
 

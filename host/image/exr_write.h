@@ -6,8 +6,8 @@
 #include "image/image_settings.h"
 
 // Writes the header of a whole picture of this size, even if the file will contain only the tiles
-// of a part. The caller then writes the table of the tiles' positions and the tiles. Returns false
-// if writing fails. The caller ends the context with exr_finish in both cases.
+// of a part. The caller then writes the table of tile positions, and the tiles. Returns false if
+// writing fails. The caller ends the context with exr_finish in both cases.
 bool exr_write_begin(exr_context_t *context, const ImageSettings *settings, uint32_t width,
                      uint32_t height, FILE *stream);
 

@@ -20,7 +20,7 @@ void framebuffer_free(Framebuffer *framebuffer);
 #define FRAMEBUFFER_HASH_SIZE 33
 void framebuffer_hash(const Framebuffer *framebuffer, char hash[FRAMEBUFFER_HASH_SIZE]);
 
-// The type of a channel, whose values have 32 bits: floats or unsigned integers.
+// The name and type of a channel. Its values are floats or unsigned integers of 32 bits.
 typedef struct {
     const char *name; // the channel's name in the file; borrowed
     bool is_integer;

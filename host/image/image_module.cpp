@@ -33,7 +33,7 @@ void describe_origin(OIIO::ImageSpec &spec, const ImageModulePicture &picture)
 }
 
 // Sets the frame rate of an animation. OpenImageIO 2.5 applies a rate only to the writer's next
-// file.
+// file. The code therefore first opens and closes a file in memory.
 void set_frame_rate(OIIO::ImageOutput &output, OIIO::ImageSpec &spec)
 {
     spec.attribute("FramesPerSecond", 20.0f);
@@ -63,7 +63,7 @@ bool write_frames(OIIO::ImageOutput &output, const OIIO::ImageSpec &whole,
     return ok;
 }
 
-// Writes the picture and closes the writer, even after a failure, while its target still exists.
+// Writes the picture. Closes the writer even after a failure, while its target still exists.
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {

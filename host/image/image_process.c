@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lets clrt-foreign read a file by OpenImageIO. It sends a picture or a message, and the code here
-// validates both.
+// Runs clrt-foreign, which reads a file with OpenImageIO. clrt-foreign sends a picture or a
+// message, and the code here validates both.
 #include "image/image_process.h"
 
 #include "base/foreign.h"
@@ -48,7 +48,7 @@ static bool take_head(StoredImage *image, const File *stream, uint64_t most, Err
     return stored_image_check_size(image, most, cause);
 }
 
-// Moves the values to the start of the stream's memory, which becomes the image's.
+// Moves the values to the start of the stream's memory, and gives that memory to the image.
 static void take_values(StoredImage *image, File *stream, size_t size)
 {
     memmove(stream->bytes, stream->bytes + stream->size - size, size);

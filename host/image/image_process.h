@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens the module that contains OpenImageIO. Reads picture files with the module in clrt-foreign,
-// because the files may be hostile.
+// Opens the module that contains OpenImageIO. Picture files may be hostile, so clrt-foreign reads
+// them with this module in a separate process.
 #pragma once
 
 #include "image/image_module.h"

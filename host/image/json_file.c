@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes JSON objects by Jansson, writes them, and prints texts that name their fields.
+// Makes JSON objects with Jansson, writes them, and prints templates that name their fields.
 #include "image/json_file.h"
 
 #include "base/output_file.h"

@@ -45,7 +45,7 @@ typedef struct {
             sizeof((const JsonField[]){__VA_ARGS__}) / sizeof(JsonField))
 json_t *json_of(const JsonField *fields, size_t count);
 
-// Returns a whole report, which begins with the versions of its schema and of clrt.
+// Returns a whole report: the versions of its schema and of clrt, and the given fields.
 #define REPORT(schema, ...)                                                                        \
     JSON(FIELD("schema", json_integer(schema)), FIELD("version", CLRT_VERSION), __VA_ARGS__)
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes and reads PNG by libpng, row by row. libpng converts every kind of PNG to red, green and
-// blue. It reports faults by a longjmp to write_picture or read_picture. The jump ends all
-// functions
-// that these two have called, so those functions own no memory.
+// blue. libpng reports faults by a longjmp to write_picture or read_picture. The jump ends all
+// functions that these two have called, so the called functions must own no memory.
 #include "image/png_file.h"
 
 #include <errno.h>
@@ -27,7 +26,7 @@ typedef struct {
     unsigned char *row; // the current row, 8 bits per channel
 } PngSource;
 
-// libpng's fault handlers. Its error pointer is an Error.
+// The fault handlers for libpng. libpng's error pointer points to an Error.
 static void take_fault(png_structp png, png_const_charp reason)
 {
     error_set(png_get_error_ptr(png), "%s", reason);
@@ -112,7 +111,7 @@ bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *setting
 }
 
 // The largest size of a text or profile in a PNG file, in bytes after decompression, and the
-// largest number of them.
+// largest number of texts and profiles.
 #define CHUNK_SIZE_MAX  1000000
 #define CHUNK_COUNT_MAX 64
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks, allocates and converts pictures read from files. A file's numbers are checked before any
-// memory is allocated.
+// Checks, allocates and converts pictures read from files. A picture's size is checked before
+// memory for its values is allocated.
 #include "image/stored_image.h"
 
 #include <stdlib.h>

@@ -56,7 +56,7 @@ typedef struct {
 } TileJoin;
 
 // Fills bytes with the tile's head and compressed data. Returns false if the tile is damaged, or if
-// its size differs from that of the first pass. The size of the picture's last tile is not
+// its size differs from its size in the first pass. The size of the picture's last tile is not
 // compared.
 static bool read_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {

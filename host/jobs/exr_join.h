@@ -16,7 +16,7 @@ typedef struct {
     atomic_int write_error; // the errno of a failed write; 0 without one
 } ExrJoin;
 
-// Allocates starts for the whole picture, of which file is a part. The caller frees starts.
+// Allocates join->starts for the picture of which `file` has a part. The caller frees the array.
 bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error);
 
 // First pass: records the sizes of the part's tiles. Fails if a tile is missing.

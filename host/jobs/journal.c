@@ -122,8 +122,8 @@ bool journal_read(Journal *journal, void *bytes, size_t size)
     return false;
 }
 
-// Fills the new file, which is locked and does not have the journal's name yet, with the records
-// read.
+// Copies the records read so far into the new file. The file is locked, but does not have the
+// journal's name yet.
 static bool fill_file(Journal *journal, FILE *stream, Error *error)
 {
     const long end = ftell(journal->stream);

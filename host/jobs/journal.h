@@ -5,8 +5,8 @@
 // and cannot resume.
 //
 // Each record has its number, its size and a checksum. A killed process may leave an incomplete
-// record. Reading therefore stops at the first record that does not match, and journal_claim drops
-// the rest.
+// record. Reading therefore stops at the first record that is incomplete or damaged, and
+// journal_claim drops the rest.
 //
 // Two processes must not append to one journal. A lock prevents this on one machine, but not on
 // every network file system. journal_claim therefore copies the records into a new file under the
@@ -30,15 +30,15 @@ typedef struct {
 } Journal;
 
 // Opens the journal at path for reading, or creates one with this key. Fails if the journal has
-// another key or another process has it open.
+// another key, or if another process has locked the journal.
 bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Error *error);
 
 // Reads the next record, which must have size bytes. Returns false at the end or at a damaged
 // record. All records must be read before journal_claim.
 bool journal_read(Journal *journal, void *bytes, size_t size);
 
-// Replaces the journal by a new file with the records read. journal_add requires this call. A
-// process on another machine that has lost its lock writes to the old file, and cannot change the
+// Replaces the journal by a new file with the records read. journal_add requires this call. If
+// a process on another machine has lost its lock, it writes to the old file and cannot change the
 // new one.
 bool journal_claim(Journal *journal, Error *error);
 

@@ -133,7 +133,7 @@ static bool restore_tiles(Resume *resume, const Provenance *own, RenderSettings 
         return false;
     read_journal(resume, settings, framebuffer);
     if (settings->ready_tiles == 0 && !restore_stored(resume, own, settings, framebuffer, error)) {
-        journal_close(&resume->journal, true); // it has no tiles
+        journal_close(&resume->journal, true); // the journal has no tiles
         return false;
     }
     const bool ok = journal_claim(&resume->journal, error);

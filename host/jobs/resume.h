@@ -20,7 +20,7 @@ typedef struct {
 // Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees it.
 char *resume_journal_name(const char *output_path, Error *error);
 
-// Prepares to resume the picture at path. If is_exr, the picture's own file contains tiles too.
+// Prepares to resume the picture at path. If is_exr, that file can contain finished tiles too.
 // Fails if the file exists and is not a regular file.
 bool resume_prepare(Resume *resume, const char *path, bool is_exr, Error *error);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene -> the measurements and findings of `clrt check`. They own copies of everything that they
-// need, so the scene may change afterwards.
+// A scene -> the measurements and findings of `clrt check`. The result owns copies of everything
+// that it needs, so the scene may change afterwards.
 #include "check/measure.h"
 #include "library/handles.h"
 

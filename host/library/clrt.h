@@ -33,7 +33,7 @@ CLRT_API const char *clrt_version(void);
 
 // The reasons for failed calls. Values 2 to 4 are also exit statuses of `clrt`.
 typedef enum {
-    CLRT_STOPPED = 1,  // the caller's progress function stopped the picture
+    CLRT_STOPPED = 1,  // the caller's progress function stopped the call
     CLRT_ARGUMENT = 2, // an argument is invalid
     CLRT_SCENE = 3,    // the scene cannot be read, stored or drawn
     CLRT_DEVICE = 4    // no device, or a device failure
@@ -59,7 +59,8 @@ typedef enum {
     CLRT_UP_MINUS_Z
 } ClrtUp;
 
-// Settings for mesh files. Scene files contain these settings, so for them all members must be 0.
+// Settings for mesh files. Scene files contain these settings themselves, so all members except
+// `size` must be 0 for scene files.
 typedef struct {
     size_t size;
     ClrtUp up;
@@ -135,8 +136,8 @@ CLRT_API bool clrt_scene_add_colored_light(ClrtScene *scene, const double positi
                                            double intensity, const double color[3],
                                            ClrtError *error);
 
-// Adds a light that is infinitely far away. direction points toward it and must not be zero; its
-// length has no effect. The other arguments are those of clrt_scene_add_colored_light.
+// Adds a light that is infinitely far away. direction points toward the light and must not be zero;
+// its length has no effect. The other arguments are as in clrt_scene_add_colored_light.
 CLRT_API bool clrt_scene_add_sun(ClrtScene *scene, const double direction[3], double intensity,
                                  const double color[3], ClrtError *error);
 
@@ -252,8 +253,8 @@ typedef struct {
 //
 // The library stores compiled kernels with checksums in the subfolder clrt of $POCL_CACHE_DIR,
 // $XDG_CACHE_HOME or ~/.cache. It compiles damaged kernels again. PoCL stores files of its own in
-// $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl. If it cannot write them, it finds no
-// device. A lock protects these files while several processes compile.
+// $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl. If PoCL cannot write these files, it
+// finds no device. A lock protects them while several processes compile.
 CLRT_API ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *error);
 
 // Frees the renderer. Stores its kernels if they are new, which takes up to a second. Accepts NULL.
@@ -261,9 +262,10 @@ CLRT_API void clrt_renderer_free(ClrtRenderer *renderer);
 
 // Pictures
 
-// The type of a callback that runs in the caller's thread after every finished tile. It returns
-// whether to continue. It must not free the renderer or use it for another call. Channels, and each
-// pass of a goal or reference, may count their own tiles, so tiles_done may start again from 1.
+// A callback that runs in the caller's thread after every finished tile or part of the rays. It
+// returns whether to continue. It must not free the renderer or use it for another call. Channels,
+// and each pass of a goal or reference, may count their own tiles, so tiles_done may start again
+// from 1.
 typedef bool ClrtProgress(void *user, uint64_t tiles_done, uint64_t tiles);
 
 // A channel: values for each pixel besides its color. Later versions will not extend this struct.
@@ -284,13 +286,13 @@ typedef struct {
 CLRT_API uint32_t clrt_channel_count(void);
 CLRT_API bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError *error);
 
-// The results of a call besides its pixels. All counts are those of the colors, not of channels.
+// The results of a call besides its pixels. All counts refer to the colors, not to channels.
 typedef struct {
     size_t size;
     uint32_t width, height; // of the drawn pixels
     uint32_t samples;       // per pixel and axis; 1 with a goal
     uint32_t max_level;     // rays of this level see only the background
-    double truncation;      // bound on the error of every color that max_level causes
+    double truncation;      // bound on the error that max_level causes in any color
     bool goal_missed; // the error is above its goal, or the first pass took longer than `seconds`
     double error, error_bound; // with a goal: estimate of the RMSE, and its 95 % upper bound
     uint64_t sample_count;     // samples taken
@@ -307,10 +309,10 @@ typedef struct {
 // With this max_level, even camera rays see only the background.
 enum { CLRT_LEVEL_NONE = -1 };
 
-// A request for a picture. The zero value draws the scene's first view as `clrt SCENE -o FILE`.
-// At most one of contrast, error and seconds is above 0: the picture's goal. A goal decides where
-// to take samples, so it excludes `samples`, a crop, a tile size and the channels boxtests,
-// tritests and certainty.
+// A request for a picture. The zero value draws the scene's first view as `clrt SCENE -o FILE`
+// does. At most one of contrast, error and seconds may be above 0. It is the picture's goal. A goal
+// decides where to take samples, so it excludes `samples`, a crop, a tile size and the channels
+// boxtests, tritests and certainty.
 typedef struct {
     size_t size;
     uint32_t width, height;                      // in pixels, each at most 131072; 0: the scene's
@@ -325,7 +327,7 @@ typedef struct {
     double seconds;    // adds samples for this time; at most 1e6
     int32_t max_level; // rays of this level see the background; at most 1000; 0: the scene's, or
                        // chosen by error; CLRT_LEVEL_NONE: camera rays see the background
-    double truncation; // if above 0: the smallest max_level whose error is at most this
+    double truncation; // above 0: selects the smallest max_level whose error is at most this
     uint32_t reference_samples; // per pixel of clrt_reference; even, at most 65536; 0 means 256
 
     uint32_t tile_width, tile_height; // the unit of progress; changes no bit; 0 means 128
@@ -362,16 +364,16 @@ CLRT_API void clrt_hash(const float *rgb, uint32_t width, uint32_t height, char 
 
 // Rays
 
-// This value stands for no primitive, mesh or triangle.
+// This value means that there is no primitive, mesh or triangle.
 #define CLRT_NOTHING 0xffffffffu
 
 // Rays origin + t * direction. A ray hits primitives at t in [near, far]. It hits triangles from
-// both sides, unless one_sided is set. Rays whose numbers are not finite, or whose direction is
-// shorter than 1e-300 or longer than 1e300, hit nothing.
+// both sides, unless one_sided is set. Rays hit nothing if their origin, direction or near is not
+// finite, if their far is NaN, or if their direction is shorter than 1e-300 or longer than 1e300.
 //
 // `starts` names the primitive on which each ray starts. The ray does not hit this primitive again,
 // except a sphere from inside. If the ray's near is 0, clrt also moves its origin onto the plane of
-// the triangle, and the ray passes neighbors that touch its origin within rounding. The call then
+// the triangle, and the ray passes neighbors that only rounding puts in its way. The call then
 // fails if the origin is farther than 2^-15 from the plane, in the units of clrt_trace.
 typedef struct {
     size_t size;
@@ -402,23 +404,23 @@ typedef struct {
     size_t room;      // entries per ray in the other arrays, at most 1048576
 
     // Only for clrt_trace, on devices with doubles.
-    uint8_t *certain; // 1 if rounding cannot have changed the primitive, or that there is none
+    uint8_t *certain; // 1 if rounding cannot have changed the primitive or the absence of a hit
 } ClrtHits;
 
 // Finds each ray's nearest hit. At equal distances, the lowest id counts, so the order of triangles
-// changes the hit but not its distance. A ray's results depend only on the ray and the scene, and
-// not on the batch, the threads or the device. A ray through an edge or vertex of a closed mesh
+// can change the hit, but not its distance. A ray's results depend only on the ray and the scene,
+// and not on the batch, the threads or the device. A ray through an edge or vertex of a closed mesh
 // hits the mesh.
 //
 // These statements are exact for the scene in the units in which clrt traces it. clrt centers the
 // scene in double precision, scales it by a power of two so that the longest side of the box around
 // all triangles is in [1, 2), and rounds coordinates to float. If an origin has a coordinate above
-// 4 and the scene has no spheres, the origin first moves along the ray toward the box. In these
-// units, the error of a distance is at most 18 * 2^-24 times the distance of the triangle's
-// farthest corner from the origin, measured along the longest axis of the direction.
+// 4 in magnitude and the scene has no spheres, the origin first moves along the ray toward the box.
+// In these units, the error of a distance is at most 18 * 2^-24 times the distance of the
+// triangle's farthest corner from the origin, measured along the longest axis of the direction.
 //
-// A ray is certain if exact arithmetic on the caller's doubles and on the stored floats hits the
-// same primitive. Rays through edges, and rays to almost equal distances, are uncertain.
+// A certain ray hits the same primitive in exact arithmetic, both on the caller's doubles and on
+// the stored floats. Rays through edges, and rays to almost equal distances, are uncertain.
 CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                          const ClrtHits *hits, ClrtError *error);
 
@@ -433,11 +435,11 @@ CLRT_API bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, con
 
 // Stores in inside[i] whether the ray's origin is inside the meshes, which must be closed. An
 // origin is inside if its ray crosses an odd number of triangles. The result does not depend on the
-// direction, except for origins within rounding of a surface. Directions of NULL are fastest.
+// direction, except for origins within rounding of a surface. NULL directions are fastest.
 CLRT_API bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                             uint8_t *inside, ClrtError *error);
 
-// Stores in occluded[i] whether clrt_trace would find a hit of ray i.
+// Stores in occluded[i] whether clrt_trace would find a hit for ray i.
 CLRT_API bool clrt_occluded(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                             uint8_t *occluded, ClrtError *error);
 
@@ -461,15 +463,15 @@ typedef struct {
 typedef struct {
     size_t size;
     char path[1024]; // of the mesh's file; empty without one
-    bool closed;     // every edge has two triangles that face one side, and parts share edges
+    bool closed;     // each edge has two triangles, oriented alike; no parts meet only at points
     bool inside_out; // the mesh is closed, and its fronts face inwards
     uint64_t triangle_count, vertex_count, edge_count;
     uint64_t unused_vertices;                // vertices that no triangle uses
     uint64_t repeated_vertices;              // used vertices at the position of an earlier one
     double shortest_edge, lowest_height;     // in the scene's units
     double shortest_steps, lowest_steps;     // the same, in spacings of the traced floats
-    uint64_t aim_count, aimed_at, ray_count; // edges and points, those that got rays, and the rays
-    uint64_t hidden, leaks;                  // aims behind other parts; rays that passed through
+    uint64_t aim_count, aimed_at, ray_count; // aims, such as edges; aims with rays; rays cast
+    uint64_t hidden, leaks;                  // aims hidden by other parts; rays through the mesh
 } ClrtCheckedMesh;
 
 typedef struct {
@@ -482,7 +484,7 @@ typedef struct {
     char text[320]; // one message without a final period
 } ClrtFinding;
 
-// Store the facts of the check, of a mesh and of a finding, both numbered from 0.
+// Store facts of the check, of a mesh, or of a finding. Meshes and findings are numbered from 0.
 CLRT_API bool clrt_check_get_info(const ClrtCheck *check, ClrtCheckInfo *info, ClrtError *error);
 CLRT_API bool clrt_check_get_mesh(const ClrtCheck *check, uint32_t number, ClrtCheckedMesh *mesh,
                                   ClrtError *error);
@@ -533,7 +535,7 @@ typedef enum {
     CLRT_LIGHT_BEHIND,     // the surface's normal faces away from the light
     CLRT_LIGHT_REACHES,    // the point receives light
     CLRT_LIGHT_BLOCKED,    // a primitive is between the point and the light
-    CLRT_LIGHT_BEHIND_FACE // the triangle itself faces away, although its normal does not
+    CLRT_LIGHT_BEHIND_FACE // the triangle faces away, although the shading normal does not
 } ClrtLightState;
 
 typedef struct {
@@ -549,7 +551,7 @@ typedef struct {
 } ClrtExplainedLight;
 
 // These functions fill a struct with a part of the explanation. place contains the numbers of the
-// sample, the ray and the light, from 0.
+// sample, the ray and the light, as far as the part needs them. All numbers start at 0.
 CLRT_API bool clrt_explanation_get_pixel(const ClrtExplanation *explanation,
                                          ClrtExplainedPixel *pixel, ClrtError *error);
 CLRT_API bool clrt_explanation_get_sample(const ClrtExplanation *explanation, uint32_t place,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks a request for a picture by the session's rules, and words the messages about faults.
+// Checks a request for a picture by the session's rules, and makes the messages about faults.
 #include "library/drawing.h"
 
 #include <stdio.h>

@@ -22,7 +22,7 @@ typedef struct {
 } Drawing;
 
 // Checks the arguments and marks the renderer as busy. The caller has set renderer and handle. On
-// success, the caller calls drawing_end later.
+// success, the caller must call drawing_end later.
 bool drawing_begin(Drawing *drawing, const ClrtPicture *picture, ClrtError *error);
 void drawing_end(Drawing *drawing);
 

@@ -22,7 +22,7 @@ __attribute__((format(printf, 3, 4))) bool check_fail(ClrtError *error, ClrtFaul
 bool check_fail_for(ClrtError *error, ClrtFault fault, const Error *cause);
 
 // Return false with CLRT_ARGUMENT if the argument is invalid. `what` is its name in messages.
-// Vector components are in [-most, most], colors in [0, 1].
+// Vector components must be in [-most, most], and colors in [0, 1].
 bool check_given(ClrtError *error, const char *what, const void *pointer);
 bool check_number(ClrtError *error, const char *what, double number, double low, double high);
 bool check_vector(ClrtError *error, const char *what, const double vector[3], double most);
@@ -32,8 +32,8 @@ bool check_color(ClrtError *error, const char *what, const double color[3]);
 // missing members become zero. If it is longer, its additional members must be zero.
 bool check_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size);
 
-// Copies a filled struct of `size` bytes into the given struct, as far as the given struct has its
-// members. Fails as check_struct does.
+// Copies a filled struct of `size` bytes into the given struct, without the members that the given
+// struct lacks. Fails as check_struct does.
 bool fill_struct(ClrtError *error, const char *what, void *given, const void *filled, size_t size);
 
 struct ClrtScene {
@@ -48,7 +48,7 @@ bool scene_handle_changed(ClrtScene *scene, bool ok, const Error *cause, ClrtErr
 // Fails with CLRT_ARGUMENT if the scene has no material with this number.
 bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtError *error);
 
-// Fails with CLRT_ARGUMENT if the camera is invalid.
+// Converts the camera to *viewpoint. Fails with CLRT_ARGUMENT if the camera is invalid.
 bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, ClrtError *error);
 
 // Fails with CLRT_ARGUMENT if the scene has no view with this number, from 1.
@@ -64,7 +64,7 @@ struct ClrtRenderer {
     uint64_t state;                 // ClrtScene::state of the session's scene; 0 without a scene
 };
 
-// Checks the arguments and marks the renderer as busy. On success, the caller calls
+// Checks the arguments and marks the renderer as busy. On success, the caller must call
 // renderer_handle_end later.
 bool renderer_handle_begin(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);
 void renderer_handle_end(ClrtRenderer *renderer);

@@ -3,7 +3,7 @@
 
 #include "library/given_ray.h"
 
-// The rays of a beam, the sides of their blocks, and the longest rows.
+// The rays of a beam, the largest height of a block, and the bounds of a row's length.
 #define BEAM_RAYS   64
 #define BLOCK_ROWS  8
 #define LEAST_WIDTH 16
@@ -15,7 +15,7 @@ static Vec3 step_after(const ClrtRays *rays, size_t index)
     return vec3_sub(vec3_add(b.origin, b.direction), vec3_add(a.origin, a.direction));
 }
 
-// Returns whether the row that starts with `step` ends at the ray.
+// Returns whether a row ends at the ray. `step` leads from the first ray of the row to the second.
 static bool ends_row(const ClrtRays *rays, size_t index, Vec3 step)
 {
     return vec3_dot(step_after(rays, index), step) < 0;
@@ -39,8 +39,8 @@ typedef struct {
     size_t left, top, width, height;
 } Rectangle;
 
-// Appends the numbers of the rectangle's rays to the order, which has `filled` numbers. Returns
-// their new count.
+// Appends the numbers of the rectangle's rays to the order, which has `filled` numbers. Returns the
+// new count of numbers.
 static size_t append(uint32_t *order, size_t filled, size_t grid_width, Rectangle part)
 {
     for (size_t y = part.top; y < part.top + part.height; y++)

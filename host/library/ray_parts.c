@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Callers pass rays and read hits in fp64 and in scene coordinates. The device receives rays
-// and returns hits in float and in normalized coordinates. A ray's direction is scaled by a power
-// of two until its largest component is in [1, 2), so the device's t stays in float's range. A far
+// Callers pass rays and read hits in fp64 and in scene coordinates. The device receives rays and
+// returns hits in float and in normalized coordinates. A ray's direction is scaled by a power of
+// two so that its largest component is in [1, 2). The device's t then stays in float's range. A far
 // origin first advances to a cube around the scene, because rounding it to float would move the ray
 // too far.
 //
@@ -15,13 +15,13 @@
 #include <string.h>
 
 // Half the side of the cube to which far origins advance. An origin is far if a coordinate exceeds
-// 2 * CUBE. The coordinates of all triangles are within 1.
+// 2 * CUBE in magnitude. All triangles are within [-1, 1] on each axis.
 #define CUBE 2.0
 
 // The largest distance of a ray's start from the plane of its triangle.
 #define OFF_PLANE 0x1p-15
 
-// Beyond this distance from the frame's origin, rays hit nothing (is_searchable in intersect.cl).
+// Rays that start beyond this distance from the normalized origin hit nothing (intersect.cl).
 #define FARTHEST 0x1p45
 
 typedef struct {
@@ -46,7 +46,8 @@ static double entry_of_axis(double origin, double direction)
     return direction == 0 ? -INFINITY : (-copysign(CUBE, direction) - origin) / direction;
 }
 
-// Returns the t at which the ray enters the cube; below 0 if the ray starts inside or moves away.
+// Returns the t at which the ray's line enters the cube, if the line hits it. The t is below 0 if
+// the ray starts inside the cube or moves away from it.
 static double cube_entry(Vec3 origin, Vec3 direction)
 {
     return fmax(fmax(entry_of_axis(origin.x, direction.x), entry_of_axis(origin.y, direction.y)),
@@ -74,8 +75,8 @@ static double sum_of(Vec3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-// Returns the power of two that scales a size from [1e-300, 1e300] into [1, 2). This replaces ilogb
-// and scalbn, which with fmax took 15 % of a call's processor time.
+// Returns the power of two that scales a size from [1e-300, 1e300] into [1, 2). The bit operations
+// replace ilogb and scalbn. Together with fmax, those took 15 % of a call's processor time.
 static double power_to_one(double size)
 {
     uint64_t bits;
@@ -86,7 +87,7 @@ static double power_to_one(double size)
     return power;
 }
 
-// Moves a point along the ray. Adds the sizes of both parts to *sizes.
+// Moves a point along the ray. Adds the sizes of the step and of the new point to *sizes.
 static void advance(Vec3 *origin, Vec3 direction, double t, double *sizes)
 {
     const Vec3 way = vec3_scale(direction, t);
@@ -94,8 +95,8 @@ static void advance(Vec3 *origin, Vec3 direction, double t, double *sizes)
     *sizes += sum_of(way) + sum_of(*origin);
 }
 
-// Stores a ray's direction, its limit and the rounding of doubles as its doubt, and returns its
-// normalized origin. A ray that can hit nothing gets a limit below 0.
+// Stores a ray's direction and its limit, and a bound on the rounding of doubles as its doubt.
+// Returns the ray's normalized origin. A ray that can hit nothing gets a limit below 0.
 static Vec3 convert(const Entry *entry, const GivenRay *given)
 {
     const double largest = largest_of(given->direction);
@@ -124,8 +125,8 @@ static Vec3 convert(const Entry *entry, const GivenRay *given)
     return origin;
 }
 
-// Moves the start of a ray onto the plane of its triangle. Stores its distance from the plane in
-// *off. Returns false if the distance is too large.
+// Moves the start of a ray onto the plane of its triangle. Stores the signed distance of the start
+// from the plane in *off. Returns false if the distance is too large.
 static bool move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle, double *off)
 {
     const FaceCorners corners = corners_of(&scene->triangles, triangle);
@@ -135,8 +136,8 @@ static bool move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle
     return fabs(*off) <= OFF_PLANE;
 }
 
-// Returns whether the ray starts on a primitive. If near is not 0, the ray only skips the
-// primitive.
+// Returns whether the ray starts on a primitive. If near is not 0, the ray starts elsewhere and
+// only skips the primitive.
 static bool is_on_surface(const GivenRay *given)
 {
     return given->own != NOTHING && given->near == 0;
@@ -198,9 +199,9 @@ static Vec3 sphere_center(const SphereData *sphere)
     return vec3_add(vec3_of_floats(sphere->center), vec3_of_floats(sphere->center_low));
 }
 
-// Returns the weights of the second and third corner at the point where the ray's line crosses the
+// Stores the weights of the second and third corner at the point where the ray's line crosses the
 // triangle's plane (Moeller and Trumbore, JGT 2(1) 1997). If the point is outside the triangle, the
-// weights are moved into it.
+// weights are clamped to the triangle.
 static void weights_at(double weights[2], const FaceCorners *corners, Vec3 origin, Vec3 direction)
 {
     const Vec3 ab = vec3_sub(corners->at[1], corners->at[0]);
@@ -314,7 +315,7 @@ static void store_surfaces(const RayPart *part, const RayScene *scene, const Hit
         }
 }
 
-// A loop for each array takes half the time of one loop that decides about the arrays for each hit.
+// Separate loops take half the time of a single loop that checks for each hit which arrays to fill.
 void ray_part_store(const RayPart *part, const ClrtRenderer *renderer, const HitData *found,
                     const ClrtHits *hits)
 {

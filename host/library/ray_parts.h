@@ -11,21 +11,22 @@
 typedef struct {
     RayData rays[PART_RAYS];
     double starts[PART_RAYS], units[PART_RAYS]; // the caller's t = starts + units * the device's t
-    uint32_t sequence[PART_RAYS]; // the order in which fill takes the rays (ray_grid_order)
+    uint32_t sequence[PART_RAYS]; // order in which ray_part_fill takes rays (ray_grid_order)
     uint32_t order[PART_RAYS];    // by entry: the ray's number in the part
     size_t first, count;          // of the batch's rays
-    size_t room;                  // hits of each ray
-    size_t on_surface;            // number of the last entries, whose rays start on primitives
+    size_t room;                  // hits stored for each ray
+    size_t on_surface;            // the rays of the last on_surface entries start on primitives
 } RayPart;
 
 // Fills part->rays with the batch's rays [first, first + count). Fails if a ray starts on a
-// primitive that does not exist or is too far from its origin.
+// primitive that does not exist or is too far from the ray's origin.
 bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *rays,
                    ClrtError *error);
 
-// Replaces the places of triangles by those in another layout of the scene.
+// Replaces the indices of the triangles on which rays start by their indices in another layout of
+// the scene.
 void ray_part_move(RayPart *part, const RayScene *scene);
 
-// Stores the hits of the entries, `room` of each, in the caller's arrays.
+// Stores the hits, part->room of each entry, in the caller's arrays.
 void ray_part_store(const RayPart *part, const ClrtRenderer *renderer, const HitData *found,
                     const ClrtHits *hits);

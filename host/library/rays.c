@@ -36,8 +36,8 @@ static size_t part_rays(const RayResults *results)
     return most < PART_RAYS ? most : PART_RAYS;
 }
 
-// Casts first the rays that start anywhere, then the rays that start on primitives. All rays that
-// find crossings start anywhere.
+// Casts the rays that start on no primitive, then the rays that start on one. RAYS_CROSSED treats
+// all rays alike.
 static bool cast(Batch *batch, RayQuery query, const RayScene *scene, HitData *hits, Error *error)
 {
     const RayPart *part = &batch->part;
@@ -68,7 +68,7 @@ static bool trace_part(Batch *batch, Error *error)
     return cast(batch, RAYS_CERTAIN, &renderer->certain_rays, batch->certain, error);
 }
 
-// Marks the room beyond the crossings of each ray as unused.
+// Marks the entries beyond each ray's crossings as unused.
 static void clear_unused(Batch *batch)
 {
     const size_t room = batch->part.room;
@@ -130,7 +130,7 @@ static bool trace_parts(Batch *batch, ClrtError *error)
     return true;
 }
 
-// Opens a caster and takes the scene in the layout of its kernel.
+// Opens the query's caster, and compiles the scene in the layout of the caster's kernel.
 static bool prepare_query(const Batch *batch, RayQuery query, RayScene *scene, Error *error)
 {
     Session *session = &batch->renderer->session;

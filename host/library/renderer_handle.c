@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes and frees a ClrtRenderer: a session for the caller's settings. A scene is passed to the
-// session when it is first drawn.
+// Makes and frees a ClrtRenderer: a session for the caller's settings. Calls that draw or cast rays
+// pass the scene to the session. Also lists the devices.
 #include "library/handles.h"
 #include "session/request.h"
 

@@ -112,8 +112,8 @@ typedef struct {
     size_t mask;        // slots minus one; the number of slots is a power of two
 } Table;
 
-// Copies a position for hashing. Adding 0.0 turns negative zero into zero, so that both have the
-// same bits.
+// Copies a position for hashing. Adding 0.0 turns negative zero into zero, so that both zeros have
+// the same bits.
 static void copy_position(const Mesh *mesh, uint32_t vertex, double position[3])
 {
     for (int axis = 0; axis < 3; axis++)

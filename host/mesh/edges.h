@@ -4,10 +4,10 @@
 // A file's vertices reveal little about a surface. STL repeats each vertex for each triangle, and
 // other files repeat vertices along texture seams. Vertices at equal positions are therefore merged
 // into one point. An edge is a pair of points, and may have any number of triangles. A fan is a set
-// of triangles around a point that are connected across edges.
+// of triangles that share a point and are connected across edges.
 //
-// Invariant: points, edges and fans are numbered by their lowest vertex or corner, so the results
-// do not depend on hashing or sorting.
+// Invariant: points, edges and fans are ordered by their vertices or corners, so the results do not
+// depend on hashing or sorting.
 #pragma once
 
 #include "base/error.h"
@@ -64,8 +64,8 @@ typedef struct {
     uint32_t *parents; // by corner: a lower corner of the same fan, or the corner itself
 } Fans;
 
-// Makes each corner a fan of its own. edges_make must have succeeded for the mesh. The caller frees
-// the parents.
+// Makes one fan for each corner. edges_make must have succeeded for the mesh. The caller frees the
+// parents.
 bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error);
 
 // Joins the fans of two triangles at one of their common points.

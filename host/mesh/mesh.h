@@ -32,8 +32,8 @@ typedef struct {
     ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
     MeshFault equal_corners; // removed triangles with two equal corners
     MeshFault lost_corners;  // removed triangles with a bad position
-    // Vertices with bad positions, and vertices with bad components of the normal. Both became
-    // zero. Only tolerant readers accept such vertices.
+    // Vertices with bad positions, and vertices with bad components of the normal. Bad positions
+    // and bad components became zero. Only tolerant readers accept such vertices.
     MeshFault bad_positions, bad_normals;
 } Mesh;
 
@@ -47,7 +47,8 @@ void mesh_add_bounds(const Mesh *mesh, BoundingBox *box);
 // Returns the box of all vertices that triangles use.
 BoundingBox mesh_bounds(const Mesh *mesh);
 
-// Returns the direction from a vertex to another. It has length 1, or is zero if both coincide.
+// Returns the direction from a vertex to another. It has length 1, or is zero if the vertices
+// coincide.
 Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to);
 
 // Removes triangles with two equal corners or a NaN position, and lists them in mesh->dropped. Then
@@ -66,8 +67,7 @@ void mesh_drop_colors(Mesh *mesh);
 // Frees the mesh's memory and leaves a valid empty mesh.
 void mesh_free(Mesh *mesh);
 
-// The following declarations turn meshes upright whose up axis is not z, the default of clrt's
-// cameras.
+// The following declarations turn meshes so that z points up, as clrt's cameras assume by default.
 
 // The axis of a file's coordinates that points up.
 typedef enum {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Joins the corners of triangles into fans across smooth edges, and makes one vertex per fan. Its
-// normal is the mean of the faces' normals, weighted by the faces' angles at the vertex (Thuermer
-// and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). With these weights, the
-// triangulation of a flat face does not change normals.
+// Joins the corners of triangles into fans across smooth edges, and makes one vertex per fan. The
+// vertex's normal is the mean of the faces' normals, weighted by the faces' angles at the vertex
+// (Thuermer and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). With these
+// weights, the triangulation of a flat face does not change normals.
 #include "mesh/normals.h"
 
 #include "base/array.h"
@@ -13,15 +13,15 @@
 #include <string.h>
 
 // The following functions choose the crease angle of a mesh. The faces of a smooth shape usually
-// meet at small angles, and an angle is rarer the larger it is. Technical shapes have chamfers and
-// edges, so some larger angles are frequent.
+// meet at small angles, and larger angles are rarer. Technical shapes have chamfers and edges, so
+// some larger angles are frequent.
 
 // Meshes with fewer edges are too small for statistics.
 #define EDGES_LEAST 1000
 
 #define ROUND_CREASE_DEGREES 70 // for smooth shapes
 
-// The cosines of the largest angle of each window.
+// The cosine of each window's largest angle.
 static const double ends[ANGLE_WINDOWS] = {
     0.99619469809174555, 0.98480775301220806, 0.96592582628906829, 0.93969262078590838,
     0.90630778703664996, 0.86602540378443865, 0.81915204428899178, 0.76604444311897804,
@@ -84,14 +84,15 @@ double crease_of_angles(const EdgeAngles *angles)
 // Edges with more faces are sharp. This limits the number of pairs of faces at an edge.
 #define EDGE_FACES_MOST 8
 
-// Rounding must not separate coplanar faces at 0 degrees or opposite faces at 180 degrees.
+// Rounding must not separate coplanar faces if the crease angle is 0 degrees, or opposite faces if
+// it is 180 degrees.
 #define COSINE_SLACK 0x1p-40
 
 // The sum of the sines of a sliver's angles is about this or less. Rounded coordinates can turn the
 // normal of a sliver by any angle.
 #define SINE_LEAST 0x1p-20
 
-// Sums of normals shorter than this are zero, because only rounding errors are left of normals that
+// Sums of normals shorter than this count as zero, because they are rounding errors of normals that
 // cancel each other.
 #define SUM_LEAST 0x1p-40
 
@@ -215,7 +216,7 @@ static bool have_same_color(const Mesh *mesh, uint32_t vertex, uint32_t other)
            memcmp(mesh->colors[vertex], mesh->colors[other], sizeof *mesh->colors) == 0;
 }
 
-// Gives a corner its own vertex in four cases. The file has a normal for the corner; the corner's
+// Gives a corner its own vertex in four cases: the file has a normal for the corner; the corner's
 // color differs from the fan's; the fan's mean normal is zero; or the mean differs from the face's
 // normal by more than the crease angle, as at the tip of a cone.
 static bool split_corners(Smoothing *smoothing, Error *error)

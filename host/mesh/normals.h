@@ -10,14 +10,14 @@
 // The crease angle of `normals smooth` without an angle, and of most lone mesh files.
 #define CREASE_DEGREES 33
 
-// Returns whether every corner of a triangle has a normal.
+// Returns whether every corner of every triangle has a normal.
 bool mesh_has_all_normals(const Mesh *mesh);
 
 // Computes a normal of length 1 for each used vertex that lacks one: the mean normal of the faces
 // around the vertex, weighted by their angles. Vertices at one position count as one.
 //
-// Edges stay sharp if the normals of their faces differ by more than crease_degrees, which is from
-// 0 to 180, or CREASE_BY_SHAPE. No computed normal differs by more than crease_degrees from the
+// Edges stay sharp if the normals of their faces differ by more than crease_degrees, which is in
+// [0, 180] or CREASE_BY_SHAPE. No computed normal differs by more than crease_degrees from the
 // normal of its triangle. Corners of triangles that are nearly lines get no normal.
 //
 // If a normal is missing, new vertices replace all vertices. The triangles keep their order. Equal
@@ -29,7 +29,7 @@ bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error);
 #define ANGLE_WINDOW_DEGREES 5
 #define ANGLE_WINDOWS        15
 
-// The edges of meshes by the angle between the normals of their two faces. Window i counts angles
+// The number of edges by the angle between the normals of their two faces. Window i counts angles
 // from 5 * i up to 5 * i + 5 degrees.
 typedef struct {
     size_t edges; // all edges of two faces
@@ -39,10 +39,10 @@ typedef struct {
 // Adds an edge between two faces with these normals, of length 1.
 void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b);
 
-// Adds all edges of the mesh.
+// Adds all edges of the mesh that have two faces.
 bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error);
 
 // Returns 70 degrees for the edges of a smooth shape, such as a scan. Coarse places of such shapes
-// have larger angles than CREASE_DEGREES. Returns CREASE_DEGREES if many edges may be meant to be
-// sharp.
+// have larger angles than CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose edges may
+// be meant to be sharp.
 double crease_of_angles(const EdgeAngles *angles);

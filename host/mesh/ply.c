@@ -5,8 +5,8 @@
 // A file may list its faces before its vertices. Triangles with equal corners are therefore dropped
 // in a last step.
 //
-// Invariant: no count or index of the file is used before it is checked against the file's size and
-// the vertex count.
+// Invariant: no count of the file is used before it is checked against the file's size, and no
+// index before it is checked against the vertex count.
 #include "mesh/ply.h"
 
 #include "mesh/ply_header.h"
@@ -139,8 +139,8 @@ static bool read_polygon(Loader *loader, const PlyProperty *property, int64_t le
 }
 
 // Reads a list of triangle strips. Three consecutive corners form a triangle, and the index -1 ends
-// a strip. Every second triangle of a strip is reversed. This happens because corners at odd
-// positions are kept in last[1], and the others in last[0].
+// a strip. Every second triangle lists its first two corners in reverse order, because last[1]
+// keeps the strip's corners 1, 3, 5 and so on, and last[0] keeps the others.
 static bool read_strips(Loader *loader, const PlyProperty *property, int64_t length)
 {
     int64_t last[2] = {0, 0}, corner, held = 0;
@@ -193,7 +193,7 @@ static bool allocate_vertices(Loader *loader)
                                   loader->reader.error);
 }
 
-// Returns the smallest size of an element in bytes, which it has if its lists are empty.
+// Returns the size in bytes of an element with empty lists, the smallest possible size.
 static size_t smallest_size(const PlyReader *reader, PlyProperties properties)
 {
     size_t size = 0;

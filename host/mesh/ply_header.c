@@ -185,16 +185,16 @@ static bool check_property(const Parser *parser, const PlyProperty *property, Pl
     return true;
 }
 
-// Returns whether the property can be a color. The types of other integers do not show which number
-// is the brightest.
+// Returns whether the property can be a color. Other integer types do not show which value is the
+// brightest.
 static bool has_color_type(const PlyProperty *property)
 {
     return !property->is_list && (property->type == PLY_UINT8 || property->type == PLY_UINT16 ||
                                   property->type >= PLY_FLOAT32);
 }
 
-// Stores the property's role. Fails if an earlier property of the element has this role, unless it
-// is PLY_UNUSED.
+// Stores the property's role. Fails if an earlier property of the element has this role, unless the
+// role is PLY_UNUSED.
 static bool find_role(const Parser *parser, PlyElement *element, PlyWord name,
                       PlyProperty *property)
 {

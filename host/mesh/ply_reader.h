@@ -58,7 +58,7 @@ size_t ply_reader_value_size(const PlyReader *reader, PlyType type);
 // count from the file before they allocate memory or loop.
 bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size);
 
-// Read the next value. ply_reader_read_integer accepts only integer types.
+// Read the next value. ply_reader_read_integer requires an integer type.
 bool ply_reader_read_number(PlyReader *reader, PlyType type, double *value);
 bool ply_reader_read_integer(PlyReader *reader, PlyType type, int64_t *value);
 
@@ -67,6 +67,6 @@ bool ply_reader_skip_values(PlyReader *reader, PlyType type, int64_t count);
 
 bool ply_reader_is_space(char character);
 
-// Returns a component of a color, in [0, 1]. The largest integer of the type stands for 1. Clamps
-// other numbers; NaN becomes zero.
+// Returns a component of a color, in [0, 1]. The largest integer of an integer type stands for 1.
+// Clamps floats to [0, 1]; NaN becomes zero.
 float ply_reader_color(PlyType type, double value);

@@ -12,8 +12,8 @@
 typedef struct {
     char text[HEADER_SIZE];
     size_t length;
-    bool is_double; // the positions are
-    bool is_byte;   // the colors are
+    bool is_double; // positions are doubles
+    bool is_byte;   // colors are bytes
 } Header;
 
 static bool holds_floats(const Mesh *mesh)

@@ -11,12 +11,12 @@
 // The number of new samples of a subdivided cell.
 #define NEW_SAMPLES (GROUP_CELLS - 1)
 
-// The bisection of a seam stops at this fraction of the threshold. The fraction is small, because
-// halving an interval takes only one sample. Subdividing a cell takes eight.
+// A seam is bisected until its contrast is at most this fraction of the threshold. The fraction is
+// small, because halving takes one sample, and subdividing a cell takes eight.
 #define SEAM_PART 0.17f
 
-// The list of a pass contains eight samples for each new group, in the order of the groups. One
-// sample for each seam that needs one follows.
+// A pass lists eight samples for each new group, in the order of the groups, and then one sample
+// for each listed seam.
 
 #define GROUPS_OF_TASK 512
 
@@ -131,7 +131,7 @@ static bool trace_pixels(Adaptive *adaptive, const RenderObserver *observer, Err
     return ok;
 }
 
-// Traces new groups and listed seams, pass by pass, until there are no more of either.
+// Traces new groups and listed seams, pass by pass, until neither groups nor seams remain.
 static bool refine(Adaptive *adaptive, SeamSearch *search, float threshold,
                    const RenderObserver *observer, Error *error)
 {

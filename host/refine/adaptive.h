@@ -3,9 +3,9 @@
 // are thin. The idea is from Whitted, "An improved illumination model for shaded display", 1980.
 //
 // Each pixel is the root of a tree of cells (refine_tree.h). A cell is subdivided if its color
-// differs too much from a neighbor's (contrast.h). It is also subdivided if a triangle or sphere
-// crosses it that may be too thin for the samples (thin_parts.h). Inside subdivided pixels,
-// bisection locates edges with fewer samples than further subdivision (seam.h).
+// differs too much from a neighbor's (contrast.h). It is also subdivided if it touches a triangle
+// or sphere that samples may miss (thin_parts.h). Inside subdivided pixels, bisection locates edges
+// with fewer samples than further subdivision (seam.h).
 //
 // A pass selects all its cells before it traces any of them, so that the samples form one large
 // list for the device.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Threads list the cells to subdivide, each for its own range of pixels or groups. One thread then
+// Threads list the cells to subdivide, in one list per range of pixels or groups. One thread then
 // subdivides the listed cells, range by range.
 #include "refine/contrast.h"
 
@@ -21,9 +21,9 @@ typedef struct {
     CutList *lists;                  // of each range
 } Marking;
 
-// Sets the limits by level. Color differences between pixels count twice, because different
-// surfaces may have similar colors by chance. Differences inside pixels count half, because seams
-// locate the edges there.
+// Sets the limits by level. Color differences of whole pixels count twice, because different
+// surfaces may have similar colors by chance. Differences of smaller cells count half, because
+// seams locate the edges there.
 static void set_limits(Marking *marking)
 {
     float fraction = 1;
@@ -129,7 +129,7 @@ static bool cut_list(RefineTree *tree, const CutList *list, Error *error)
     return true;
 }
 
-// The elements to mark, in parallel ranges of `part` elements.
+// The rows of pixels, or the groups, to examine. Threads call `mark` for ranges of `part` of them.
 typedef struct {
     uint32_t count, part;
     ThreadPoolPart *mark;

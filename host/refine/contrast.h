@@ -4,18 +4,18 @@
 //
 // The threshold limits the possible error of the pixel's color. A small cell covers less of the
 // pixel than a large one, so it may differ more from its neighbors. A difference between a small
-// and a large cell may therefore require that only the large cell is subdivided.
+// and a large cell may therefore exceed only the large cell's limit.
 //
-// Invariant: cells are subdivided in the order of their ranges, by one thread. The groups therefore
-// have the same numbers for every number of threads.
+// Invariant: cells are subdivided in the order of their ranges, by one thread. The indices of
+// groups therefore do not depend on the number of threads.
 #pragma once
 
 #include "base/thread_pool.h"
 #include "refine/thin_parts.h"
 
 // A rule by which cells are selected. A cell's contrast is its largest color difference from a
-// neighbor, multiplied by the cell's fraction of the pixel. It is doubled for neighbors in
-// different pixels, and halved for neighbors in one pixel.
+// neighbor, multiplied by the cell's fraction of the pixel. The contrast of a whole pixel is
+// doubled, and the contrast of a smaller cell is halved.
 typedef struct {
     const ThinParts *thin_parts;
     float threshold; // cells with more contrast are subdivided

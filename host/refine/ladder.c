@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The rounds of an error or time goal. A round has two steps: strata_raise raises the fractions of
-// some strata, and ladder_advance moves the pixels that these fractions select up by one rung. The
-// changes of their colors correct the strata's estimates for the next round.
+// The rounds of an error or time goal. A round has two steps. strata_raise raises the fractions of
+// some strata. ladder_advance then selects pixels by these fractions and moves them up by one rung.
+// The changes of the pixels' colors correct the strata's estimates for the next round.
 //
 // ladder_advance lists the selected pixels in a fixed order, traces their samples, and records the
 // pixels' changes in this order. Floating-point sums therefore do not depend on threads.
@@ -30,7 +30,7 @@ uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel)
     return rung == 0 ? 1 : 1 + ladder_samples[rung];
 }
 
-// Allocates all arrays as one, because only large arrays get huge pages.
+// Allocates the arrays of fixed size as one, because only large arrays get huge pages.
 static bool make_arrays(Ladder *ladder, Error *error)
 {
     PixelRequests *requests = &ladder->requests;
@@ -232,7 +232,8 @@ bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
 #define ROUNDS_MOST 300
 
 // A round should take at most PART_OF_ROUND of the remaining time, or all of it if less than
-// PART_OF_LAST of the budget remains. If less than PART_UNSPENT remains, no further round starts.
+// PART_OF_LAST of the budget remains. If less than PART_UNSPENT of the budget remains, no further
+// round starts.
 #define PART_OF_ROUND 0.5
 #define PART_OF_LAST  0.2
 #define PART_UNSPENT  0.03

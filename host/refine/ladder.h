@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Refines a picture for error and time goals. Each pixel climbs a ladder of samples: its center,
 // then 4, 8, 16 ... 1024 points of its own sequence. Statistics of similar pixels decide how many
-// pixels advance, and hashes of pixel positions decide which.
+// pixels advance, and hashes of pixel positions decide which ones.
 //
 // An error goal needs an honest estimate of the error. A pixel's own samples estimate its error
 // badly: samples that all miss a detail agree with each other. Therefore some pixels of each kind
 // advance even if they look finished, and their changes measure the error of the others
 // (ladder_strata.h).
 //
-// The steps of a round are ladder_choice.c (which pixels), ladder_requests.c (their samples) and
-// ladder.c (their new strata). ladder_entry.c places the pixels on rung 0.
+// The steps of ladder_advance are in ladder_choice.c (which pixels), ladder_requests.c (their
+// samples) and ladder.c (their new strata). ladder_entry.c places the pixels on rung 0.
 //
 // Invariant: with an error goal, choices depend only on sums of samples, which are added in a fixed
 // order. The picture therefore depends neither on the order of work nor on the device.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Each pixel has a chance on each rung: a hash of the pixel and the rung. A stratum's fraction is a
-// limit on chances, and the pixels below it are selected. They leave the stratum, so a higher limit
-// later selects only other pixels.
+// Each pixel has a random number in [0, 1) on each rung: a hash of the pixel and the rung. Pixels
+// whose number is below their stratum's fraction are selected. They leave the stratum, so a higher
+// fraction later selects only other pixels.
 //
 // Selected pixels are listed block by block, because rays of nearby pixels traverse the tree
 // together. With lists in row order, pictures took 3 to 10 % longer.
 //
 // Invariant: the list depends only on the strata, their fractions and the pixels' positions. Each
-// thread fills its own part of the list.
+// row of blocks has its own part of the list.
 #include "refine/ladder_choice.h"
 
 #include <math.h>
@@ -36,8 +36,8 @@ uint64_t ladder_hash(uint32_t pixel, uint64_t seed)
 }
 
 // Converts the strata's fractions into limits. If a stratum's fraction and pixels have not
-// changed, it has no new pixel to select. Skipping it avoids most hashes. Returns false if no
-// stratum selects pixels.
+// changed, it has no new pixel to select. Skipping these strata avoids most hashes. Returns false
+// if no stratum selects pixels.
 static bool set_limits(Choosing *choosing)
 {
     bool is_any = false;
@@ -61,7 +61,7 @@ static bool is_selected(const Choosing *choosing, uint32_t pixel)
            ladder_hash(pixel, RUNG_SEED + strata_rung(stratum)) >> (64 - HASH_BITS) < limit;
 }
 
-// Appends the selected pixels among first to end - 1. Returns the end of the list.
+// Appends each selected pixel from `first` to `end` - 1. Returns the end of the list.
 static uint32_t *choose_run(const Choosing *choosing, uint32_t first, uint32_t end,
                             uint32_t *chosen)
 {
@@ -71,8 +71,8 @@ static uint32_t *choose_run(const Choosing *choosing, uint32_t first, uint32_t e
     return chosen;
 }
 
-// Returns whether any pixel in a row of a block may be selected. Most rows have the strata of an
-// earlier row; *rejected holds the strata of the latest row without selection.
+// Returns whether any pixel in a row of a block may be selected. Many rows have the same strata, so
+// *rejected holds the strata of the latest row for which the result was false.
 static bool row_selects(const Choosing *choosing, const uint8_t strata[CHOICE_SIDE],
                         uint64_t *rejected)
 {

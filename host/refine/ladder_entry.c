@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Assigns each pixel to a stratum of rung 0 by its bend, and by whether a thin part touches it.
-// One pass over small areas of the picture, which stay in the cache, does all this. Each row of
-// areas sums the features of its pixels in order, and one thread then adds the rows' sums in
-// order. The result therefore does not depend on threads.
+// Assigns each pixel to a stratum of rung 0 by its bend, by the bends nearby, and by whether a thin
+// part touches it. The picture is processed in small areas, which stay in the cache. The features
+// of a row of areas are summed in order, and one thread then adds the rows' sums in order. The
+// result therefore does not depend on threads.
 #include "refine/ladder_entry.h"
 
 #include "refine/thin_parts.h"
@@ -13,8 +13,8 @@
 #include <string.h>
 
 // The bend of a pixel is the largest |2 c - a - b|, where c is a channel of the pixel, and a and b
-// are this channel of two opposite neighbors in the row, the column or a diagonal. Pairs of
-// neighbors partly outside of the picture do not count.
+// are this channel of two opposite neighbors in the row, the column or a diagonal. Pairs with a
+// neighbor outside of the picture do not count.
 
 // The size of an area without its margin of RADIUS pixels on each side.
 #define AREA_WIDTH  60
@@ -45,7 +45,7 @@ static float larger(float one, float other)
 }
 
 // The distances of neighbors, in floats of a picture's array. A distance of 0 makes the pixel its
-// own neighbor, and pairs of such neighbors do not add to its bend.
+// own neighbor on both sides, which adds nothing to its bend.
 typedef struct {
     ptrdiff_t right, down;
 } Neighbors;
@@ -55,7 +55,8 @@ static inline float bend_along(const float *color, ptrdiff_t step)
     return fabsf(2 * *color - color[-step] - color[step]);
 }
 
-// Measures the bends of up to AREA_WIDTH + 2 * RADIUS pixels of a row, which have equal neighbors.
+// Measures the bends of up to AREA_WIDTH + 2 * RADIUS pixels of a row. Their distances to neighbors
+// must be equal.
 static void measure_pixels(const float *colors, Neighbors next, uint32_t count, float *bends)
 {
     float most[3 * (AREA_WIDTH + 2 * RADIUS)];
@@ -68,7 +69,7 @@ static void measure_pixels(const float *colors, Neighbors next, uint32_t count, 
         bends[i] = larger(larger(most[3 * i], most[3 * i + 1]), most[3 * i + 2]);
 }
 
-// Measures the bends of pixels first to end - 1 of row y.
+// Measures the bends of the pixels `first` to `end` - 1 of row y.
 static void measure_row(const Framebuffer *picture, uint32_t y, uint32_t first, uint32_t end,
                         float *bends)
 {
@@ -98,7 +99,7 @@ static void measure_area(const Framebuffer *picture, Area *area)
                     &area->bends[y + RADIUS - area->top][RADIUS - before]);
 }
 
-// Fills nearby with the largest bends of the 5 x 5 pixels around each pixel of a row.
+// Fills `nearby` with the largest bend among the 5 x 5 pixels around each pixel of a row.
 static void spread_bends(const Area *area, uint32_t row, float nearby[AREA_WIDTH])
 {
     float columns[AREA_WIDTH + 2 * RADIUS] = {0};
@@ -144,7 +145,7 @@ static void enter_row(const Entering *entering, const Area *area, uint32_t row, 
     count_run(entries, latest, count - start, features);
 }
 
-// Enters the pixels of one row of areas.
+// Assigns the pixels of one row of areas to strata.
 static void enter_rows(void *context, uint32_t top, uint32_t end)
 {
     const Entering *entering = context;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A pixel's samples are points of a Sobol sequence, scrambled by a hash of the pixel. If a pixel is
-// divided into 2^k equal rectangles whose sides are powers of two, each of them holds one of the
-// first 2^k points. The samples of a higher rung therefore lie in the gaps of the lower rungs. The
-// kernel adds the samples in fixed point, so sums are exact in any order.
+// divided into 2^k equal rectangles whose sides are powers of two, each rectangle holds one of the
+// first 2^k points. The new samples of a higher rung therefore lie in the gaps between the earlier
+// samples. The kernel adds the samples in fixed point, so sums are exact in any order.
 //
-// Centers are requested in blocks of PACKET_SIDE x PACKET_SIDE pixels, which form packets.
+// Centers are requested in blocks of PACKET_SIDE x PACKET_SIDE pixels, so neighbors share packets.
 #include "refine/ladder_requests.h"
 
 #include <math.h>
@@ -14,8 +14,8 @@
 #define BLOCKS_OF_TASK 256
 
 // Coordinate x of a point is the bit-reversed index of the point. The bits of y are sums of
-// binomial coefficients modulo 2. Both are linear over GF(2), so point `first + i` is point `first`
-// XOR point `i`. This function computes point `first`; the kernel computes point `i`.
+// binomial coefficients modulo 2. Both coordinates are linear over GF(2), so point `first + i` is
+// point `first` XOR point `i`. This function computes point `first`; the kernel computes point `i`.
 PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples, uint64_t hash)
 {
     uint32_t x = 0, y = 0, y_bits = LADDER_GRID / 2;

@@ -21,23 +21,23 @@ typedef struct {
     uint32_t count;                 // requests in the list
 } PixelRequests;
 
-// Returns a request for samples first to first + samples - 1 of a pixel. samples is 4 or
-// REQUEST_SAMPLES, and first is a multiple of samples. The sample positions are points of the
-// two-dimensional Sobol sequence, XORed with the low bits of hash (Sobol, "On the distribution of
-// points in a cube and the approximate evaluation of integrals", 1967).
+// Returns a request for the samples `first` to `first` + `samples` - 1 of a pixel. `samples` is 4
+// or REQUEST_SAMPLES, and `first` is a multiple of `samples`. The sample positions are points of
+// the two-dimensional Sobol sequence, XORed with the low bits of hash (Sobol, "On the distribution
+// of points in a cube and the approximate evaluation of integrals", 1967).
 PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples,
                            uint64_t hash);
 
 // Returns false if the observer has stopped a trace.
 bool pixel_requests_are_whole(const PixelRequests *requests);
 
-// Traces the requests and stores their sums. If the observer stops the trace, some are missing.
+// Traces the requests and stores their sums. If the observer stops it, some sums are missing.
 bool pixel_requests_trace(PixelRequests *requests, Error *error);
 
 // Renders a picture of the frame's size with one sample at each pixel's center.
 bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, Error *error);
 
-// Computes the mean color of the samples. Their number is a power of two.
+// Computes the mean color of the samples. `samples` must be a power of two.
 void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3]);
 
 // Returns the variance of the samples' colors, averaged over the channels.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Pixels that have advanced are the controls of their stratum (ladder_strata.h defines the other
+// Pixels that have advanced from a stratum are its controls (ladder_strata.h defines the other
 // terms). The estimate for a stratum blends its controls' errors with a prior: the mean feature
 // times the rung's change per unit of feature. Pixels that look flat may hide detail that no sample
-// hit. The feature in a prior therefore has a minimum, which is larger near contrast, where most
-// hidden detail was found. With one minimum for all strata, errors reached 1.3 times the goal on
-// tiled floors.
+// hit. The feature in a prior therefore has a minimum. The minimum is larger near contrast, because
+// most hidden detail was found there. With one minimum for all strata, errors reached 1.3 times the
+// goal on tiled floors.
 #include "refine/ladder_strata.h"
 
 #include <math.h>
 
-// A pixel is bent if its bend, the second difference of its color, exceeds BENT.
+// A pixel is bent if its bend (ladder_entry.c) exceeds BENT, or if a thin part touches it.
 #define BENT 0.05
 
 // Weights of the priors, in pixels.
@@ -21,8 +21,8 @@
 #define FIRST_RATIO  0.5
 
 // The least feature in a prior, as a fraction of the rung's largest mean feature. On rung 0,
-// LEAST_THIN applies to THIN_CLASS, LEAST_NEAR near contrast, and LEAST_FAR elsewhere.
-// LEAST_SAMPLED applies to rung 1. Detail that n samples missed covers about 1/n of a pixel, so the
+// THIN_CLASS has LEAST_THIN, strata near contrast have LEAST_NEAR, and all others have LEAST_FAR.
+// Rung 1 has LEAST_SAMPLED. Detail that n samples missed covers about 1/n of a pixel, so the
 // fraction falls from rung to rung. With a constant fraction, the estimates rose again above 64
 // samples.
 #define LEAST_THIN    1
@@ -30,26 +30,27 @@
 #define LEAST_FAR     0.05
 #define LEAST_SAMPLED 0.05
 
-// Mirrors may show detail that no other pixel sees, with a contrast of at most the reflectivity.
-// With mirrors, the fractions of flat pixels are therefore at least these values times the squared
-// reflectivity. Without these minimums, 6 % of pictures of dots behind the eye and a perfect mirror
-// had errors above 1.1 times the goal.
+// Mirrors may show detail that no other pixel shows, with a contrast of at most the reflectivity.
+// LEAST_FAR and LEAST_SAMPLED therefore grow to at least these values times the squared
+// reflectivity. Otherwise, 6 % of pictures in which a perfect mirror shows dots behind the eye had
+// errors above 1.1 times the goal.
 #define LEAST_FAR_MIRROR     0.2
 #define LEAST_SAMPLED_MIRROR 0.1
 
-// The largest mean feature of a rung is at least this, divided by the samples of a pixel. Without
-// this minimum, a picture whose centers all miss its parts would have a bound of 0.
-// At 0.5 %, EDGE_CENTER costs 2.3 % of the samples of an easy scene, and 1 would cost 4 %.
+// The largest mean feature counts as at least EDGE_CENTER on rung 0, and as at least EDGE_SAMPLED /
+// ladder_samples[i] on a higher rung i. Without this minimum, the bound would be 0 if all pixel
+// centers miss the objects. With an error goal of 0.5 %, EDGE_CENTER costs 2.3 % of the samples in
+// an easy scene, and 1 would cost 4 %.
 #define EDGE_CENTER  0.75
 #define EDGE_SAMPLED 0.0625
 
-// Above rung 0, the new samples contain the old samples, so the change underestimates the error. If
-// doubling the samples divides the squared error by D, the change is (1 - 1 / D) of the error. D is
-// 2.83 at edges and 2 for noise, for which the factors are 1.55 and 2. With a factor of 1.5, errors
-// of thin strips reached 1.14 times the goal.
+// Above rung 0, a pixel that advances keeps its old samples, so the change underestimates the
+// squared error. If doubling the samples divides this error by D, the change is (1 - 1 / D) times
+// the error. D is 2.83 at edges and 2 for noise, so the factors would be 1.55 and 2. With a factor
+// of 1.5, errors of thin strips reached 1.14 times the goal.
 #define NESTED_FACTOR 1.75
 
-// The first step of a stratum advances at least this fraction and this many pixels as controls.
+// A stratum's first step selects this fraction of it as controls, but at least FIRST_PIXELS pixels.
 #define FIRST_FRACTION (1.0 / 32)
 #define FIRST_PIXELS   24
 
@@ -60,9 +61,10 @@
 // exceeds this fraction of the aim.
 #define FORCED_PART 0.02
 
-// A round takes steps until their gains are COVERED_PART of the bound's excess over the aim. In a
-// gain, only GAIN_PART of the errors of advancing pixels count. Steps that score below SCORE_PART
-// of the best score wait. The last step is shortened to what is missing, but at most to STEP_PART.
+// A round takes steps until their gains are COVERED_PART of the bound's excess over the aim. A gain
+// includes only GAIN_PART of the errors of advancing pixels. Steps that score below SCORE_PART of
+// the best score wait for a later round. The last step is shortened to the missing gain, but not
+// below STEP_PART of its size. A limit on samples may shorten it further.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
@@ -73,7 +75,7 @@
 // Statistics shared by all strata of a rung.
 typedef struct {
     double ratio;   // change per feature
-    double feature; // largest mean feature of a stratum, or the minimum above if that is larger
+    double feature; // largest mean feature of a stratum, or the rung's minimum if that is larger
 } Rung;
 
 // The forecast for one stratum.
@@ -246,7 +248,7 @@ static void measure_step(Step *step, const Strata *strata, const Forecast *forec
 }
 
 // Computes the next step of a stratum. Returns false if no more pixels can advance. The step
-// selects the stratum's first pixels, or multiplies its fraction by FRACTION_GROWTH.
+// selects the stratum's first controls, or multiplies its fraction by FRACTION_GROWTH.
 static bool next_step(Step *step, uint32_t number, const Strata *strata, const Forecast *forecast,
                       double aim)
 {

@@ -2,7 +2,7 @@
 // Estimates a picture's error by stratified sampling of its pixels (Cochran, "Sampling techniques",
 // 1977). A pixel on rung i has the mean color of ladder_samples[i] samples. Similar pixels of a
 // rung form a stratum. Hashes select the pixels of a stratum that advance to the next rung. These
-// pixels are controls: their change estimates the error of the pixels that stay.
+// pixels are controls: their changes estimate the errors of the pixels that stay.
 //
 // Invariant: which pixels of a stratum advance depends on their positions alone and never on their
 // colors. The controls are therefore a random sample of the stratum.
@@ -12,15 +12,15 @@
 #include <stdint.h>
 
 // Samples of a pixel on each rung: the center, or the first points of the pixel's sequence. With
-// rungs of 4, 16, 64 and so on, pictures took 1.1 to 1.4 times the samples for the same error.
+// rungs of 4, 16, 64 and so on, pictures took 1.1 to 1.4 times as many samples for the same error.
 #define LADDER_RUNGS 10
 static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
 
 // On rung 0, strata are octaves of the pixel's bend (refine/ladder_entry.c). Each octave from
-// FLAT_CLASS on has a second stratum for pixels near contrast, numbered from NEAR_CLASS on. The
-// pixels of these octaves that thin parts touch (refine/thin_parts.h) form THIN_CLASS. On higher
-// rungs, strata are octaves of the standard deviation of a pixel's samples. Bent pixels, which have
-// a large bend or a thin part, form strata of their own.
+// FLAT_CLASS on has a second stratum for pixels near contrast, numbered from NEAR_CLASS on. If a
+// thin part touches a pixel of these octaves (refine/thin_parts.h), the pixel is in THIN_CLASS
+// instead. On higher rungs, strata are octaves of the standard deviation of a pixel's samples. Bent
+// pixels, which had a large bend or a thin part on rung 0, form strata of their own.
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
 #define THIN_CLASS        12
@@ -29,7 +29,8 @@ static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 
 #define STRATA_COUNT      (BEND_CLASSES + (LADDER_RUNGS - 1) * 2 * DEVIATION_CLASSES)
 
 // A change is the mean square difference between a pixel's colors before and after it advances. A
-// feature is roughly proportional to the pixel's squared error.
+// feature is the squared bend on rung 0, and the variance of the mean on higher rungs. It is
+// roughly proportional to the pixel's squared error.
 typedef struct {
     uint64_t entered, advanced; // total numbers of pixels
     double feature;             // sum over the pixels that entered
@@ -41,7 +42,7 @@ typedef struct {
 typedef struct {
     Stratum strata[STRATA_COUNT];
     uint64_t pixels;
-    double reflectivity; // the largest of surfaces in the scene; 0 if pictures have no reflections
+    double reflectivity; // the largest of the scene's surfaces; 0 if pictures show no reflections
 } Strata;
 
 // The mean square error of a picture.
@@ -56,7 +57,7 @@ uint32_t strata_rung(uint32_t stratum);
 // A pixel is near contrast if a nearby pixel has a bend of at least CONTRAST.
 #define CONTRAST 0.125f
 
-// Returns the octave of a value: 0 for values from 1/2 on, 1 from 1/4 on, up to classes - 1.
+// Returns the octave of a value: 0 if it is at least 1/2, 1 if at least 1/4, up to classes - 1.
 static inline uint32_t strata_octave(double value, uint32_t classes)
 {
     uint32_t number = 0;
@@ -67,9 +68,9 @@ static inline uint32_t strata_octave(double value, uint32_t classes)
     return number;
 }
 
-// Returns the stratum of a pixel on rung 0 from its bend and the largest bend nearby
-// (refine/ladder_entry.c), and from whether a thin part touches it. It is inline because every
-// pixel of a picture needs it.
+// Returns the stratum of a pixel on rung 0. `nearby` is the largest bend around the pixel
+// (refine/ladder_entry.c), and is_thin means that a thin part touches the pixel. The function is
+// inline because it runs for every pixel of a picture.
 static inline uint32_t strata_of_bend(float bend, float nearby, bool is_thin)
 {
     const uint32_t number = strata_octave((double)bend, NEAR_CLASS);
@@ -81,8 +82,8 @@ static inline uint32_t strata_of_bend(float bend, float nearby, bool is_thin)
 // Returns the stratum of a pixel above rung 0 from the standard deviation of its samples.
 uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent);
 
-// Returns whether a pixel of the stratum counts as bent on the next rung. Uses bend only for pixels
-// on rung 0.
+// Returns whether a pixel of the stratum counts as bent on the next rung. Uses `bend` only for
+// strata of rung 0.
 bool strata_is_bent(uint32_t stratum, double bend);
 
 // Records that pixels enter a stratum. `features` is the sum of the pixels' features.
@@ -105,6 +106,6 @@ typedef enum {
     STRATA_EXHAUSTED // no stratum can advance more pixels
 } StrataOutcome;
 
-// Moves the bound toward the aim: raises the fractions of strata that lack controls, and then of
-// the strata where a sample lowers the bound most.
+// Moves the bound toward the aim: raises the fractions of strata that lack controls, and then the
+// fractions of strata in which a sample lowers the bound most.
 StrataOutcome strata_raise(Strata *strata, const StrataAim *aim);

@@ -15,7 +15,7 @@ static uint32_t lowest_of(uint32_t *lower, uint32_t vertex)
     return vertex;
 }
 
-// Joins the pieces of two vertices. Returns false if both vertices already had the same piece.
+// Joins the pieces of two vertices. Returns false if both vertices were in one piece already.
 static bool join(uint32_t *lower, uint32_t one, uint32_t other)
 {
     const uint32_t first = lowest_of(lower, one), second = lowest_of(lower, other);

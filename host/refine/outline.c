@@ -60,9 +60,9 @@ static double perimeter_of(const Outline *outline)
     return perimeter;
 }
 
-// Compares the inradius, which follows from the area. The area of a triangle is half its perimeter
-// times its inradius. The area of any other convex polygon is between this product and twice this
-// product.
+// Estimates the inradius from the area and the perimeter. The area of a triangle is half its
+// perimeter times its inradius. The area of any other convex polygon is between this product and
+// twice this product.
 bool outline_is_thinner(const Outline *outline, double diameter)
 {
     if (outline->box.high[0] - outline->box.low[0] < diameter ||
@@ -226,7 +226,7 @@ static void keep_inside(const Projection *projection, Polygon *polygon, int plan
     *polygon = kept;
 }
 
-// Limits a coordinate, because rounding may move corners next to the eye arbitrarily far.
+// Limits a coordinate, because rounding may move corners near the eye arbitrarily far.
 static double limited(double value, double size)
 {
     return value > -MARGIN ? (value < size + MARGIN ? value : size + MARGIN) : -MARGIN;

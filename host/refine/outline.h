@@ -106,7 +106,7 @@ typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
     CameraData camera;
-    Vec3 right, down;       // give coordinates in cells at depth 1
+    Vec3 right, down;       // a point's dot products with these are in cells, at depth 1
     double width, height;   // of the picture, in cells of the last level
     ProjectedPoint *points; // of the mesh's vertices
 } Projection;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Subdivides cells and sums their colors. Groups refer to each other by index, because the array
-// moves when it grows. Colors are summed as integers in the same units as in kernels/render.cl.
+// moves when it grows. Colors are summed as integers in steps of 2^-32, as in kernels/render.cl.
 #include "refine/refine_tree.h"
 
 #include <stdlib.h>
@@ -108,7 +108,7 @@ void refine_tree_uncut(RefineTree *tree, uint32_t first)
 }
 
 // Adds the colors of a group's cells, corrected by the group's seams. For a subdivided cell, adds
-// the colors of its own group instead.
+// the colors of the group that subdivides it instead.
 static void add_group(const RefineTree *tree, uint32_t number, ColorSum sum)
 {
     const CellGroup *group = &tree->groups.data[number];

@@ -16,7 +16,7 @@
 
 #define REFINE_PIXELS_MOST ((uint64_t)1 << 31)
 
-// Cells are numbered row by row.
+// A group of 3 x 3 cells, numbered row by row.
 typedef struct {
     uint32_t x, y;  // of the center, in cells of the last level
     uint32_t level; // of the cells, from 1
@@ -64,7 +64,7 @@ bool refine_tree_find(const RefineTree *tree, const uint32_t place[2], CellName 
 const SampleData *refine_tree_sample(const RefineTree *tree, const CellName *name);
 
 // Subdivides a cell, unless it is subdivided already. The new group's middle cell has the cell's
-// sample, and the other cells have none yet.
+// sample, and the other cells have no samples yet.
 bool refine_tree_cut(RefineTree *tree, const CellName *name, Error *error);
 
 // Removes the groups from `first` on. None of their cells may be subdivided.

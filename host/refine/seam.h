@@ -5,9 +5,9 @@
 //
 // A seam begins as a gap between two different samples of a line. If a sample in the middle of the
 // gap resembles one end, it replaces this end, and the gap is halved. If the sample resembles
-// neither end, another surface is between them, and the seam becomes two. When the remaining error
-// is small enough, the colors of the line's cells are corrected as if the change were in the middle
-// of the remaining gap.
+// neither end, another surface is between the ends, and the seam is split into two. When the
+// remaining error is small enough, the colors of the line's cells are corrected as if the change
+// were in the middle of the remaining gap.
 //
 // Invariant: the sample at `low` resembles the first end, and the sample at `high` resembles the
 // last end. The change is therefore between them.
@@ -32,7 +32,7 @@ typedef enum { SEAM_END_FIRST, SEAM_END_LAST, SEAM_ENDS } SeamEnd;
 // A line crosses the three cells of a row or a column of a group. Positions along the line are in
 // cells of the last level.
 typedef struct {
-    SampleData ends[SEAM_ENDS]; // the samples at from and at to
+    SampleData ends[SEAM_ENDS]; // the samples at `from` and at `to`
     uint32_t x, y;              // start of the line
     uint32_t next;              // next seam of the group; 0 at the end
     uint8_t stride;             // from cell to cell: 1 along a row, GROUP_SIDE along a column
@@ -69,7 +69,7 @@ bool seam_take(Seam *seam, const SampleData *sample, Seam *rest);
 typedef uint64_t ColorSum[3];
 
 // Adds a seam's corrections to the color sums of a group's cells. Before the first correction, each
-// cell's sum must be its sample's color times its area.
+// cell's sum must be its sample's color times twice its area.
 void seam_correct(const Seam *seam, const SampleData cells[], ColorSum sums[]);
 
 static inline uint64_t seam_color_steps(float color)

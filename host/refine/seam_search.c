@@ -10,7 +10,7 @@
 #define LINE_SAMPLES (GROUP_SIDE + 2)
 #define LINE_GAPS    (LINE_SAMPLES - 1)
 
-// The smallest color change of a seam on one surface, for example between two faces of a cube.
+// The smallest color change of a seam between equal signatures, as between two faces of a cube.
 #define LEAST_STEP (1 / 256.0f)
 
 // A row or a column of a group.

@@ -7,7 +7,7 @@
 // The seams that need a sample.
 typedef struct {
     ARRAY(uint32_t) asked; // indices in ascending order
-    uint32_t seen;         // all seams with lower indices are in `asked` or precise enough
+    uint32_t seen;         // all seams with lower indices are in `asked` or need no sample
 } SeamSearch;
 
 // Adds the seams of the groups from `first` on, except on the last level. All cells of these groups

@@ -79,7 +79,7 @@ uint32_t thin_parts_affordable(const ThinParts *parts);
 // Returns the cells of a pixel at a level, and `margin` cells around them.
 CellGrid thin_parts_grid(const ThinParts *parts, uint32_t pixel, uint32_t level, uint32_t margin);
 
-// The test whether a piece is wide at a cell reads samples up to this many cells away.
+// The test of whether a piece is wide at a cell reads samples up to this many cells away.
 #define MARGIN     2
 #define LOCAL_ROWS (REFINE_GRID / 3 + 2 * MARGIN)
 

@@ -55,7 +55,7 @@ static CellRange pixels_along(const FrameData *frame, const SphereOutline *outli
                          fmax(-1, fmin(most, outline->box.high[axis])), &pixels, axis);
 }
 
-// Adds the cells of a level that the outline's box touches.
+// Adds the pixel's cells of a level that the outline's box touches.
 static void add_cells(ThinParts *parts, const SphereOutline *outline, uint32_t pixel,
                       uint32_t level)
 {
@@ -73,7 +73,7 @@ static bool is_thin(const SphereOutline *outline, uint32_t level)
     return outline->diameter < 2 * HALF_DIAGONAL * refine_tree_cell_side(level);
 }
 
-// If level is negative, gives slots to the pixels that a thin sphere touches. Otherwise, adds the
+// If `level` is negative, gives slots to the pixels that a thin sphere touches. Otherwise, adds the
 // sphere's cells of this level.
 static void visit_sphere(ThinParts *parts, const FrameData *frame, const SphereData *sphere,
                          int level)

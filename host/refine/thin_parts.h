@@ -6,13 +6,13 @@
 // Every cell of that level that a thin triangle touches is subdivided, unless the triangle's mesh
 // piece is wide at the cell. A piece is wide at a cell if it contains all four samples around some
 // corner of the cell or of an adjacent cell. Such a piece is at least as wide as a cell, and
-// contrast finds its outline. At levels above 0, the search considers only thin triangles that
-// touch the pixel or its margin.
+// contrast finds its outline. At levels above 0, the search of a pixel considers only thin
+// triangles that touch the pixel or a margin around it.
 //
 // Invariant: a sample hits each sphere that is at least 1/57 pixel across, and each triangle whose
 // incircle is at least 1/57 pixel across. The exceptions are
 // - triangles within two pixels of a wider part of the same piece, and at deeper levels within two
-//   cells of it;
+//   cells of such a part;
 // - hidden triangles and spheres, on which samples are wasted;
 // - parts that are visible only in mirrors or by their shadows;
 // - the thinnest parts, if all subdivisions together would take more than THIN_SAMPLES samples per

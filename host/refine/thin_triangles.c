@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Searches piece by piece, in three steps. Threads first record the pixels whose samples the piece
-// contains. They then list the thin triangles of each pixel at which the piece is not wide
-// (thin_parts.h). At last they search these pixels level by level, with a mask of cells for each
+// Searches piece by piece, in three steps. Threads first record the pixels whose samples lie in the
+// piece. They then list the thin triangles of each pixel at which the piece is not wide
+// (thin_parts.h). Finally, they search these pixels level by level, with a mask of cells for each
 // row.
 //
 // Invariant: all results are sets, so they do not depend on the order of work.
@@ -20,14 +20,14 @@ typedef struct {
     uint32_t pixel, triangle;
 } PixelTriangle;
 
-// The pairs of one pixel, from first to end - 1.
+// The pairs of one pixel, which have the indices `first` to `end` - 1.
 typedef struct {
     uint32_t first, end;
 } PixelRun;
 
 // To save memory, a piece is searched only at level 0 if it has more than PAIRS_MOST pairs and more
-// than PAIRS_OF_PIXEL pairs per pixel of the picture. An estimate counts AROUND pairs for each
-// thin triangle and each pixel that it touches where the piece is not wide.
+// than PAIRS_OF_PIXEL pairs per pixel of the picture. The number of pairs is estimated: a thin
+// triangle counts AROUND pairs for each pixel that it touches and at which the piece is not wide.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 #define AROUND         9
@@ -67,7 +67,7 @@ static CellGrid pixels_of(const ThinSearch *search)
     return (CellGrid){REFINE_GRID, 1.0 / REFINE_GRID, {parts->width, parts->height}, {0, 0}};
 }
 
-// Records the pixels whose samples the triangles contain.
+// Records the pixels whose samples lie in the triangles.
 static void cover_pixels(void *context, uint32_t first, uint32_t end)
 {
     const ThinSearch *search = context;
@@ -113,8 +113,8 @@ static bool thin_outline(const ThinSearch *search, uint32_t triangle, Outline *o
     return projection_outline(&search->projection, triangle, outline) && thin_at_level(outline, 0);
 }
 
-// Lists the pixels in which a triangle makes the piece thin, each only once per piece, and counts
-// the pairs.
+// Lists the pixels that the triangle touches and at which the piece is thin, each pixel once per
+// piece. Adds the triangle's estimated pairs to search->nearby.
 static bool list_touched(ThinSearch *search, uint32_t triangle, PairList *list)
 {
     const CellGrid grid = pixels_of(search);
@@ -140,8 +140,8 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, PairList *list)
     return true;
 }
 
-// Adds a pair for each pixel at which the piece is thin and whose area or margin the triangle
-// touches.
+// Adds a pair for each pixel at which the piece is thin, if the triangle touches the pixel or its
+// margin.
 static bool list_near(ThinSearch *search, uint32_t triangle, PairList *list)
 {
     const double reach = MARGIN * (double)refine_tree_cell_side(1);
@@ -279,7 +279,7 @@ static void search_pixels(void *context, uint32_t first, uint32_t end)
         search_pixel(context, run);
 }
 
-// Adds the pixels in which the piece is thin.
+// Adds the pixels at which the piece is thin.
 static bool add_pixels(ThinSearch *search, Error *error)
 {
     ThinParts *parts = search->parts;

@@ -16,7 +16,7 @@ static uint32_t float_bits(double value)
     return bits;
 }
 
-#define AOV_VALUES 16 // values in all rows
+#define AOV_VALUES 16 // components of all channels in the table
 
 const Aov aov_table[] = {
     {"depth",

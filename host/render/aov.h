@@ -63,5 +63,5 @@ void aov_name_layers(AovSet set, Layers *layers);
 // their bits. Counts of tests and the error are stored as 0.
 void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene);
 
-// Replaces the counts of tests among these values. tests holds the counts over all samples.
+// Replaces the counts of tests in values. tests holds the counts over all samples.
 void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KINDS]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes one pass over the tiles that traces the paths. If a channel needs counts of tests, a second
-// pass counts them.
+// A pass over the tiles traces the paths. If a channel needs counts of tests, another pass counts
+// them.
 #include "render/aov_pass.h"
 
 #include "render/tile_pass.h"

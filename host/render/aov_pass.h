@@ -6,7 +6,7 @@
 #include "render/aov.h"
 #include "render/certifier.h"
 
-// The kernels trace_paths and count_tests. They share a program; count_tests requires statistics.
+// The kernels trace_paths and count_tests. They can share a program. count_tests needs statistics.
 extern const KernelEntry paths_entry, tests_entry;
 
 typedef struct {

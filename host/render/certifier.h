@@ -10,8 +10,8 @@
 // The kernel certify_tile. Its KernelChoice must have PRECISION_FP64.
 extern const KernelEntry certify_entry;
 
-// Fails on devices without double arithmetic or correctly rounded float division, because the
-// bounds require both.
+// Fails on devices without double arithmetic, denormal numbers or correctly rounded float division,
+// because the bounds require all three.
 bool certifier_check_device(const Device *device, Error *error);
 
 // One mark per pixel, top row first.
@@ -24,14 +24,14 @@ typedef struct {
 bool certainty_map_make(CertaintyMap *map, uint32_t width, uint32_t height, Error *error);
 void certainty_map_free(CertaintyMap *map);
 
-// A picture and its marks, both of the size that tile_frame_size returns.
+// A picture and its marks, both of the size that tile_frame_size stores.
 typedef struct {
     Framebuffer *framebuffer;
     CertaintyMap *map;
 } CertifiedPicture;
 
 // Fills the map and replaces the colors of repaired pixels, tile by tile. Stops when the observer
-// returns false. The renderer has certify_entry.
+// returns false. The renderer's kernel must have certify_entry.
 bool certifier_certify(const Renderer *renderer, const CameraData *camera,
                        const RenderObserver *observer, const CertifiedPicture *picture,
                        Error *error);

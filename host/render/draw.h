@@ -9,7 +9,7 @@
 extern const KernelEntry draw_entry;
 
 // Draws the camera's picture into framebuffer. Fails if the framebuffer's size differs from
-// tile_frame_size. If the observer stops the picture, the call returns true, and renderer->progress
-// has fewer tiles_done than tiles.
+// tile_frame_size. If the observer stops the picture early, the call returns true, and
+// renderer->progress has fewer tiles_done than tiles.
 bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
                    Framebuffer *framebuffer, Error *error);

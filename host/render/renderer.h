@@ -12,13 +12,14 @@ typedef struct {
     uint64_t tallies[TALLY_KINDS]; // zeros without statistics
 } RenderProgress;
 
-// tile_done is called after every finished tile, and returns false to stop the picture.
+// tile_done is called after every tile, and by sampler_trace after every launch. It returns false
+// to stop the picture.
 typedef struct {
     bool (*tile_done)(void *context, const RenderProgress *progress);
     void *context;
 } RenderObserver;
 
-// Returns whether to continue after a finished tile. observer and its function may be NULL.
+// Calls the observer and returns whether to continue. observer and its function may be NULL.
 static inline bool render_observer_continues(const RenderObserver *observer,
                                              const RenderProgress *progress)
 {

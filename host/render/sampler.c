@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-// The work-items that progress counts as a tile.
+// The number of work-items that count as a tile in RenderProgress.
 #define TILE_ITEMS 4096
 
 // A launch in flight.
@@ -52,7 +52,7 @@ static size_t result_size(const Renderer *renderer)
     return is_ladder(renderer) ? sizeof(PixelSums) : sizeof(SampleData);
 }
 
-// Returns the samples of each request.
+// Returns the number of samples of each request. All requests of a list have the same number.
 static uint32_t request_samples(const Renderer *renderer, const SampleList *list)
 {
     return is_ladder(renderer) ? ((const PixelRequest *)list->requests)->samples : 1;
@@ -143,7 +143,8 @@ static bool start_launch(Sampling *sampling, SampleLaunch *launch, Error *error)
            cl_succeeded(clFlush(run.queue), "start the kernel", error);
 }
 
-// Chooses the size of the next launches. A launch begins when the one before it ends.
+// Chooses the size of the next launches. A launch's time counts from its start or from the end of
+// the previous launch, whichever is later.
 static void pace(Sampling *sampling, const SampleLaunch *launch)
 {
     Renderer *renderer = sampling->renderer;

@@ -26,7 +26,7 @@ typedef struct {
 } SampleList;
 
 // Traces the requests in list. The renderer's kernel must have sample_entry or ladder_entry.
-// renderer->progress counts 4096 work-items as a tile, in addition to its previous counts. If the
-// observer stops the trace, tiles_done stays below tiles, and some results are undefined.
+// Each 4096 work-items count as a tile in renderer->progress, which keeps its previous counts. If
+// the observer stops the trace early, tiles_done stays below tiles, and some results are undefined.
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
                    const RenderObserver *observer, Error *error);

@@ -87,7 +87,7 @@ Tile tile_largest(const RenderSettings *settings)
                   .height = smaller(settings->tile_height, settings->height)};
 }
 
-// Returns how many of `most` tiles, counted from the first, form a rectangle. These are tiles of
+// Returns how many of the `most` tiles from number `first` on form a rectangle. These are tiles of
 // one row, or whole rows.
 static uint64_t joined_count(const RenderSettings *settings, uint64_t first, uint64_t most)
 {

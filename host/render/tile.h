@@ -49,23 +49,23 @@ typedef struct {
 // tiles, in a single column.
 void tile_frame_size(const RenderSettings *settings, uint32_t *width, uint32_t *height);
 
-// The tiles to draw have the numbers from 0 to tile_count less 1.
+// Returns the number of tiles of the picture or part. Tiles are numbered from 0.
 uint64_t tile_count(const RenderSettings *settings);
 Tile tile_at(const RenderSettings *settings, uint64_t number);
 
 // Returns the size of the largest tile, with x and y 0.
 Tile tile_largest(const RenderSettings *settings);
 
-// The place of the next launch: a tile, and the rows of this tile that earlier launches draw.
+// The place of the next launch: a tile, and the number of its rows that earlier launches draw.
 typedef struct {
     uint64_t number;
     uint32_t row;
 } TileCursor;
 
 // Returns the next launch's rectangle and moves the cursor, which must be before the last tile's
-// end. The rectangle consists of consecutive tiles or, if a whole tile has more than `pixels`
-// pixels, of rows of one tile, but at least one row. The tiles of a part are not joined. *ended
-// receives the number of tiles that end with this rectangle.
+// end. The rectangle consists of consecutive tiles. If the cursor is inside a tile, or if a whole
+// tile has more than `pixels` pixels, the rectangle consists of at least one row of one tile. The
+// tiles of a part are not joined. *ended receives the number of tiles that end with this rectangle.
 Tile tile_next(const RenderSettings *settings, TileCursor *cursor, uint64_t pixels,
                uint64_t *ended);
 

@@ -126,8 +126,8 @@ static cl_int start_read(Slot *slot, const PassRun *run, int output, cl_event *d
                                    framebuffer->pixels, 0, NULL, done);
 }
 
-// Starts the copies of the outputs. The first output is copied last, so slot->done signals the end
-// of this copy.
+// Starts the copies of the outputs. The first output is copied last, so slot->done signals that all
+// copies have ended.
 static bool start_reads(Slot *slot, const PassRun *run, Error *error)
 {
     cl_int status = CL_SUCCESS;
@@ -139,8 +139,8 @@ static bool start_reads(Slot *slot, const PassRun *run, Error *error)
     return cl_succeeded(status, "read a tile back", error);
 }
 
-// Paced launches are read when they are awaited. Otherwise, a driver that waits for a launch in
-// order to read it would delay the next launch.
+// The reads of a paced launch start only in finish_launch. Some drivers wait for the launch before
+// they start its reads, which would delay the next launch.
 static bool start_launch(PassRun *run, Error *error)
 {
     Slot *slot = &run->slots[run->started++ % SLOTS];
@@ -157,7 +157,8 @@ static bool start_launch(PassRun *run, Error *error)
                                    : start_reads(slot, run, error);
 }
 
-// Chooses the size of the next launches. A launch begins when the one before it ends.
+// Chooses the size of the next launches. A launch's time counts from its start or from the end of
+// the previous launch, whichever is later.
 static void pace(PassRun *run, const Slot *slot)
 {
     const double now = clock_seconds();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Renderer and kernel -> values for each pixel.
+// TilePass and Renderer -> values for each pixel.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -12,12 +12,13 @@ typedef struct {
     size_t sizes[2];          // bytes per pixel of each output; 0 if the kernel does not write it
     uint64_t first;           // the number of the first tile to draw
     Framebuffer *framebuffer; // receives the first output; NULL if take does
-    // Receives a tile's other outputs, row by row. The tiles come in the order of their numbers.
+    // Receives the other outputs of each launch, row by row. `tile` is the launch's rectangle
+    // (tile_next). The rectangles come in the order of the tiles' numbers.
     void (*take)(void *context, const Tile *tile, void *const values[2]);
     void *context;
 } TilePass;
 
-// Runs the renderer's kernel for all tiles until the observer returns false, and adds each finished
-// tile to progress.
+// Runs the renderer's kernel for the tiles from pass->first on. Stops when the observer returns
+// false. Adds each finished tile to progress.
 bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderObserver *observer,
                    RenderProgress *progress, Error *error);

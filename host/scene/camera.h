@@ -13,7 +13,7 @@
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
                        uint32_t width, uint32_t height, uint32_t samples);
 
-// Returns the factor by which the camera shrinks sizes at this depth. At depth 1, it is 1.
+// Returns the factor by which the camera shrinks sizes at this depth. At depth 1, the factor is 1.
 static inline double camera_reduction(const CameraData *camera, double depth)
 {
     return camera->orthographic != 0 ? 1 : depth;
@@ -23,5 +23,5 @@ static inline double camera_reduction(const CameraData *camera, double depth)
 void camera_shift(CameraData *camera, double right, double down);
 
 // Returns the viewpoint with its eye rotated about an axis parallel to up. The axis passes through
-// look_at or, for the course's viewpoints, through the origin. 0 degrees change no bit.
+// look_at or, for the course's viewpoints, through the origin. A turn by 0 degrees changes no bit.
 Viewpoint turn_viewpoint(const Viewpoint *viewpoint, bool is_course, double degrees);

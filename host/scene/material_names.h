@@ -14,7 +14,7 @@ typedef struct {
 // {0} has no names.
 typedef struct {
     ARRAY(MaterialName) list;
-    ARRAY(uint32_t) slots; // a power of two of them; each is 1 + an index in list, or 0 if empty
+    ARRAY(uint32_t) slots; // their count is a power of two; each is 1 + an index in list, or 0
 } MaterialNames;
 
 // Appends a name. Returns false if memory runs out.

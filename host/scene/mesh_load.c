@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a mesh file and moves its meshes into the scene's objects. PLY is read here, and
+// Reads a mesh file and moves its meshes into the scene's objects. clrt reads PLY itself, and
 // clrt-foreign reads all other formats. A material of a file is named FILE:NAME, so that materials
 // of two files rarely have the same name.
 #include "scene/mesh_load.h"
@@ -175,8 +175,8 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
     return ok;
 }
 
-// Computes the crease angle that suits the shape of the objects without normals, from index `first`
-// on.
+// Computes the crease angle that suits the shape of the objects from index `first` on that lack
+// normals.
 static bool choose_crease(const Scene *scene, size_t first, double *degrees, Error *error)
 {
     EdgeAngles angles = {0};

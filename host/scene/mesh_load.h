@@ -10,7 +10,8 @@
 #define NO_CREASE (-2)
 
 // The outputs of clrt-foreign for the files of a scene, kept so that each file is read once. If all
-// outputs together would exceed FOREIGN_KEPT_MOST bytes, the file is read again by each statement.
+// outputs together would exceed FOREIGN_KEPT_MOST bytes, an output is not kept, and each statement
+// reads its file again.
 #define FOREIGN_KEPT_MOST ((size_t)256 << 20)
 typedef struct {
     char *path;
@@ -31,22 +32,23 @@ typedef struct {
                               // them missing
     bool takes_own_materials; // the file's materials replace the object's, if the file has any;
                               // false also ignores the file's colors
-    uint32_t colored_material; // replaces the object's material for meshes that have colors
+    uint32_t colored_material; // the material of meshes whose files define colors, but no material
     bool is_plain_ply;         // PLY only, without transforms
     PlyParse *parse;           // the reader of PLY files
-    ForeignFiles *kept;        // files in other formats; borrowed; NULL keeps none
+    ForeignFiles *kept;        // outputs for other formats; borrowed; NULL keeps none
 } MeshLoadOptions;
 
 // Adds an object with the mesh of the file read from path, and adds the file to the inputs.
 bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLoadOptions *options,
                   Error *error);
 
-// Adds an object for each part of the file at path, and the file's materials if requested. Adds all
-// files read to the inputs. On failure, returns false with a message that names the file.
+// Adds an object for each part of the file at path, and the file's materials if requested. The
+// inputs receive the paths of all files that clrt-foreign has read. On failure, returns false with
+// a message that names the file.
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
 
-// Drops or computes the normals of the scene's objects from index `first` on. Meshes read by
-// ply_parse_tolerantly keep their vertices, because clrt check reports the vertices of the file. On
-// failure, returns false with a message that names the file.
+// Drops or computes the normals of the scene's objects from index `first` on. Leaves meshes read by
+// ply_parse_tolerantly unchanged, because clrt check reports the vertices of the file. On failure,
+// returns false with a message that names the file.
 bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
                        Error *error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Builds a small studio around the meshes of a lone mesh file: six cameras that frame the meshes
-// tightly, three lights and a floor. Most mesh formats do not define which axis points up. The
-// file's format or the mesh's shape then decides.
+// tightly, three lights and a floor. If the file's format does not define which axis points up, the
+// mesh's shape decides.
 #include "scene/mesh_scene.h"
 
 #include "base/clock.h"
@@ -54,8 +54,8 @@ static bool stands(const Scene *scene, const BoundingBox *body, int up, int leas
 }
 
 // Returns UP_Y or UP_Z. Returns the usual axis, unless the meshes stand only with the other axis
-// up. To replace z by y, the meshes must also have a flat base, because meshes with z up may stand
-// on a few points by chance if y is up.
+// up. If z is usual, the result is y only for meshes with a flat base. Meshes with z up may by
+// chance also stand on a few points with y up.
 static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 {
     const BoundingBox body = box_below(scene, 0, INFINITY, 0);
@@ -66,9 +66,9 @@ static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
     return stands_on_y && !stands_on_z ? UP_Y : UP_Z;
 }
 
-// The following functions frame the meshes. The eye has a fixed distance, and the edges of the
-// picture are planes through the eye. For each axis of the picture, touch() finds two planes of
-// equal slope that touch the meshes.
+// The following functions frame the meshes. The eye has a fixed distance, and planes through the
+// eye bound the picture. For each axis of the picture, touch() finds two planes of equal slope that
+// touch the meshes.
 
 #define VIEWS         6
 #define DISTANCE      4.0 // of the eye from the look-at point, in radii
@@ -176,8 +176,8 @@ static Viewpoint view_from(const Framing *framing, Vec3 back, Vec3 up)
 }
 
 // Adds the viewpoints three-quarter, front, right, back, left and top. In each, the meshes span 80
-// % of the picture's width or height, and at most 80 % of the other. The sphere of center and
-// radius must contain all meshes.
+// % of the picture's width or height, and at most 80 % of the other side. The sphere with this
+// center and radius must contain all meshes.
 static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},
@@ -202,7 +202,7 @@ const char mesh_scene_studio[] =
     "define floor matte diffuse 0.8815 0.9314 0.9899\n";
 
 // A key light from the left, a fill light from the right and a light from behind, as seen by the
-// first camera. The vectors are positions relative to the meshes, in units of LIGHT_DISTANCE.
+// first camera. The positions are relative to the meshes' center, in units of LIGHT_DISTANCE.
 static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}, false},
                                 {{26, -14, 18}, 0.20, {0.9, 0.95, 1}, false},
                                 {{-8, 26, 16}, 0.30, {1, 1, 1}, false}};

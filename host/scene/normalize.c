@@ -22,7 +22,7 @@ static BoundingBox box_of(const Scene *scene)
     return box;
 }
 
-// Returns the longest side; a negative number if the scene has no objects.
+// Returns the box's longest side, or a negative number if the box is empty.
 static double extent_of(const BoundingBox *box)
 {
     return box->low.x <= box->high.x ? vec3_extent(bounding_box_sides(box)) : -1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // clrt traces scenes in normalized coordinates. The scene is moved to the origin in fp64 and scaled
-// by a power of two. Float coordinates then have all their bits for the geometry.
+// by a power of two. The bits of float coordinates then describe the geometry, not its place.
 //
 // Floats are dense only near the origin. At a distance of 1e6, neighboring floats differ by 1/16,
 // which would destroy the details of a mesh of size 1. The center is therefore subtracted in fp64,
@@ -8,7 +8,7 @@
 // rounds nothing.
 //
 // Invariant: a scene that is moved, or scaled by a power of two, keeps its normalized coordinates
-// except for rounding in fp64. It therefore keeps its picture.
+// except for rounding in fp64. Only this rounding can change the picture.
 #pragma once
 
 #include "scene/scene.h"
@@ -24,24 +24,24 @@ typedef struct {
 // 1e9 would leave too few bits for a mesh.
 Normalization normalization_of(const Scene *scene);
 
-// Returns the longest side of the box that normalization_of scales; negative if the scene has no
-// objects.
+// Returns the longest side of the box that normalization_of scales; negative if the box is empty.
 double scene_extent(const Scene *scene);
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 
-// The normalized distance of a sun, the largest that the kernels allow. Within the normalized box,
-// the direction to it changes by less than 2^-39, far below the rounding of fp32. A sun needs no
-// kernel of its own then.
+// Suns are placed at this normalized distance, the largest that the kernels allow. Within the
+// normalized box, the direction to a sun differs by less than 2^-39 from the direction at the
+// center. This is far below the rounding of fp32, so suns need no kernel of their own.
 #define SUN_DISTANCE 0x1p40
 
-// Returns the normalized position of a light or sun.
+// Returns the normalized position of a point light or sun.
 Vec3 normalize_light(const Normalization *normalization, const Light *light);
 
 // Returns the scene coordinates of a normalized point.
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 
-// Fails if a normalized coordinate of a light, eye or sphere center is outside [-2^40, 2^40], or if
-// a normalized radius is outside [2^-40, 2^40]. The normalized height of an orthographic camera
-// must be in [2^-40, 2^20]. Outside these ranges, the kernels' floats could overflow or underflow.
+// Fails if a normalized coordinate of a point light, eye or sphere center is outside [-2^40, 2^40],
+// or if a normalized radius is outside [2^-40, 2^40]. The normalized height of an orthographic
+// camera must be in [2^-40, 2^20], and its width at most 2^20. Outside these ranges, the kernels'
+// floats could overflow or underflow.
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);

@@ -238,8 +238,8 @@ static double largest_reflectivity(const Scene *scene)
     return largest;
 }
 
-// The bound is the largest reflectivity in use to the power of max_level, because a ray's weight is
-// a product of that many reflectivities.
+// The bound is largest_reflectivity ^ max_level, because the weight of a ray of max_level is a
+// product of max_level reflectivities.
 double truncation_bound(const Scene *scene, uint32_t max_level)
 {
     const double reflectivity = largest_reflectivity(scene);

@@ -50,7 +50,7 @@ typedef struct {
 } MeshObject;
 
 // A camera. up and look_at - eye must be neither zero nor parallel. An orthographic camera has a
-// height above 0, and its angles are not used. Its rays start on the plane through the eye.
+// height above 0, and its angles are not used. Its parallel rays start on a plane through the eye.
 typedef struct {
     Vec3 eye, look_at, up;
     double fov_degrees;   // vertical, between 0 and 180
@@ -67,16 +67,17 @@ typedef struct {
     MaterialNames material_names; // names of defined and imported materials
     ARRAY(Viewpoint) viewpoints;
     bool has_course_views; // the viewpoints are the course's six
-    UpAxis mesh_up;        // up axis of a file that is a mesh, turned to z; UP_AUTO for scene text
+    UpAxis mesh_up;        // the axis of a lone mesh that was turned to z; UP_AUTO for scene text
     Vec3 background;       // each component in [0, 1]
     double ambient;        // in [0, 1]
     uint32_t width, height;
     uint32_t max_level;
     ARRAY(char *) inputs; // paths of the files read; owned
-    ARRAY(char *) notes;  // messages about omitted parts of the files; owned
+    ARRAY(char *) notes;  // messages about the files, such as omitted parts; owned
     double mesh_seconds;  // time spent on loading meshes
-    // hash combines the XXH3 hashes of the scene's text, of its meshes and of a lone mesh's up
-    // axis. mesh_hash combines only the hashes of the meshes, and is zero without meshes.
+    // hash combines the XXH3 hashes of the scene's text, of its mesh files and, for a lone mesh, of
+    // the up axis and the choice of normals. mesh_hash combines only the mesh files, and is zero
+    // without meshes.
     uint64_t hash[2], mesh_hash[2];
 } Scene;
 
@@ -112,7 +113,7 @@ void scene_free(Scene *scene);
 // Returns the reason why the viewpoint is invalid, or NULL if it is valid.
 const char *viewpoint_fault(const Viewpoint *viewpoint);
 
-// The names of shaders in scene text, by Shader.
+// The names of shaders in scene text, indexed by Shader.
 extern const char *const shader_names[];
 
 // Returns the material of a define statement without properties.
@@ -135,5 +136,5 @@ MissingPart scene_missing(const Scene *scene);
 // Returns an upper bound on the error of every color if rays of max_level return the background.
 double truncation_bound(const Scene *scene, uint32_t max_level);
 
-// Returns the smallest max_level whose truncation_bound is at most bound; at most MAX_LEVEL_LIMIT.
+// Returns the smallest max_level, up to MAX_LEVEL_LIMIT, whose truncation_bound is at most bound.
 uint32_t truncation_level(const Scene *scene, double bound);

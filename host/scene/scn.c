@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads a scene file statement by statement. The table of statements is the grammar. Each statement
-// has a keyword, a usage text that messages quote, and a function that reads it.
+// has a keyword, a usage text that messages quote, and a function that reads its arguments.
 #include "scene/scn.h"
 
 #include "base/file.h"
@@ -19,11 +19,11 @@ typedef struct {
     MaterialChoice material; // of the objects that follow
     MeshLoadOptions mesh;    // options of the meshes that follow, except the material
     Vec3 up;                 // up vector of the cameras that follow
-    Token waiting_up;        // the latest `up` statement, if no camera follows it yet
+    Token waiting_up;        // the latest `up` statement, if no camera has followed it
     Error *error;
 } Parser;
 
-// Reads a light. Of a sun, the first three numbers are a vector toward it.
+// Reads a light. The first three numbers of a sun are a vector toward it.
 static bool read_light_or_sun(Parser *parser, bool is_sun)
 {
     double position[3], intensity, color[3] = {1, 1, 1};
@@ -89,14 +89,14 @@ static bool read_ply_file(Parser *parser)
     return read_mesh_file(parser, true);
 }
 
-// Reads a size of the picture, and the optional least width of narrow pictures.
+// Reads the picture's vertical angle or height, and the optional least horizontal angle or width.
 static bool read_picture_sides(Tokens *tokens, double low, double high, double sides[2])
 {
     return tokens_number_within(tokens, &sides[0], low, high) &&
            (!tokens_have_more(tokens) || tokens_number_within(tokens, &sides[1], low, high));
 }
 
-// Skips the next token and returns true if it is this word.
+// If the next token is this word, skips the token and returns true.
 static bool skip_word(Tokens *tokens, const char *word)
 {
     Tokens ahead = *tokens;
@@ -262,7 +262,7 @@ static bool read_statements(Parser *parser)
            tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
 }
 
-// Parses the text of a scene file. The caller has set the parser's scene, mesh reader and error.
+// Parses the text of a scene file. The caller has set the parser's scene, mesh.parse and error.
 // Frees the scene on failure.
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
@@ -287,7 +287,7 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
     return parse(&parser, text, size, name);
 }
 
-// Frees a scene that could not be completed after parsing.
+// Frees a parsed scene if a later step has failed. Returns ok.
 static bool keep(Scene *scene, bool ok)
 {
     if (!ok)

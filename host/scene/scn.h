@@ -5,14 +5,14 @@
 
 #include "scene/mesh_scene.h"
 
-// Parses the `size` bytes of a scene file. Mesh paths are relative to the folder of the file called
-// name. Returns false at the first error, with "name:line:column: ..." if the text itself is wrong.
+// Parses the `size` bytes of a scene file. Mesh paths are relative to the folder of the file
+// `name`. Returns false at the first error, with "name:line:column: ..." if the text is wrong.
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
 
 // Loads a scene file or a lone mesh file (mesh_scene.h).
 bool scn_load(Scene *scene, const char *path, const SceneLoadOptions *options, Error *error);
 
 // Loads a scene file or a PLY file that is in memory. Mesh paths are relative to the folder of the
-// file called name.
+// file `name`.
 bool scn_take(Scene *scene, const File *file, const char *name, const SceneLoadOptions *options,
               Error *error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene -> scene text that reads back as the same bits, or one mesh with all triangles.
+// Scene -> scene text that renders to the same bits, or one mesh with all triangles.
 #pragma once
 
 #include "scene/scene.h"
@@ -16,7 +16,7 @@ void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream);
 // Returns whether scene text can quote the name: it is not empty and has no quotes or line ends.
 bool scn_write_can_name(const char *name);
 
-// Concatenates the meshes of a scene into one, all triangles in the scene's order. If any object
-// has normals, the objects without normals get zero normals. If any object has colors, the objects
-// without colors get the diffuse color of their material.
+// Concatenates the meshes of a scene into one, with all triangles in the scene's order. If any
+// object has normals, the objects without normals get zero normals. If any object has colors, the
+// objects without colors get the diffuse color of their material.
 bool mesh_join(Mesh *mesh, const Scene *scene, Error *error);

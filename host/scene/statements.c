@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the statements `define`, `material`, `mesh` and `ply_file`, whose grammar is too long for
-// the table in scn.c.
+// Reads the arguments of `define`, `material`, `mesh` and `ply_file`. scn.c reads all other
+// statements.
 #include "scene/statements.h"
 
 #include "base/clock.h"

@@ -12,17 +12,17 @@ bool materials_define(Scene *scene, Tokens *tokens);
 
 // The choice of a `material` statement.
 typedef struct {
-    uint32_t plain;   // the material of spheres, and of meshes without own materials and colors
-    uint32_t colored; // the material of meshes with own colors but without own materials
+    uint32_t plain;   // the material of spheres, and of meshes that get no other material
+    uint32_t colored; // if is_own: the material of meshes whose files define colors only
     bool is_own;      // meshes have the materials and the colors of their files
 } MaterialChoice;
 
-// The choice of `material own`, which is also the choice before the first statement.
+// The choice of `material own`, which is also the choice before the first `material` statement.
 extern const MaterialChoice material_own;
 
 // Reads the arguments of `material`: the number of a course material, a defined name, or the word
-// `own`. After `own`, a second material may follow for meshes that have none of their own. As in
-// the course, numbers outside 0 to 3 select material 0, the silhouette.
+// `own`. After `own`, a second material may follow for spheres, and for meshes whose files define
+// no material. As in the course, numbers outside 0 to 3 select material 0, the silhouette.
 bool materials_select(const Scene *scene, Tokens *tokens, MaterialChoice *choice);
 
 // Reads the rest of a mesh or ply_file statement and adds the file's objects. Paths are relative to

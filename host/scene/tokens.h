@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scene text -> tokens with their positions, which messages quote. Blanks separate tokens. A token
-// that begins with // or # makes the rest of its line a comment.
+// Scene text -> tokens with lines and columns for messages. Blanks separate tokens. A token that
+// begins with // or # makes the rest of its line a comment.
 #pragma once
 
 #include "base/error.h"
@@ -40,19 +40,18 @@ bool tokens_have_more(const Tokens *tokens);
 // Returns whether token is exactly this word.
 bool token_is(Token token, const char *word);
 
-// tokens_numbers reads `count` numbers from -COORDINATE_MOST to COORDINATE_MOST.
-// tokens_number_within reads one number from low to high. Both set the error and return false on
-// other tokens.
+// tokens_numbers reads `count` numbers in [-COORDINATE_MOST, COORDINATE_MOST]. tokens_number_within
+// reads one number in [low, high]. Both set the error and return false on other tokens.
 bool tokens_numbers(Tokens *tokens, int count, double *values);
 bool tokens_number_within(Tokens *tokens, double *value, double low, double high);
 
-// Reads an integer from low to high.
+// Reads an integer in [low, high].
 bool tokens_integer(Tokens *tokens, int64_t *value, int64_t low, int64_t high);
 
 // Fails unless the line has ended.
 bool tokens_end(Tokens *tokens);
 
 // Sets the error to "NAME:LINE:COLUMN: MESSAGE: found TOKEN; the statement is 'USAGE'" and returns
-// false.
+// false. Omits the statement if it is unknown.
 __attribute__((format(printf, 3, 4))) bool tokens_fail(const Tokens *tokens, Token token,
                                                        const char *format, ...);

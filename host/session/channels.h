@@ -6,8 +6,8 @@
 #include "session/picture.h"
 
 // Computes the certainty of each pixel and replaces the colors of pixels repaired in fp64. Stops
-// when the observer returns false. Fails on devices without double arithmetic or correctly rounded
-// float division.
+// when the observer returns false. Fails on devices without double arithmetic, denormal numbers or
+// correctly rounded division.
 bool session_certify(Session *session, const SessionPicture *request,
                      const RenderObserver *observer, const CertifiedPicture *picture, Error *error);
 
@@ -17,7 +17,7 @@ typedef struct {
     const CertaintyMap *certainty; // NULL if no channel needs it
 } ChannelRequest;
 
-// Computes the channels into layers. Stops when the observer returns false. layers must have the
+// Computes the channels into *layers. Stops when the observer returns false. *layers must have the
 // names of channels->set (aov_name_layers) and the picture's size.
 bool session_draw_channels(Session *session, const SessionPicture *request,
                            const ChannelRequest *channels, const RenderObserver *observer,

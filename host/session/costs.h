@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measured costs. A session chooses kernels by them, and the window chooses its first resolution.
-// Costs of other machines would change the time that a picture takes, never the picture.
+// Measured costs. A session uses them to choose kernels, and the window uses them to choose its
+// first resolution. Costs of other machines would change a picture's time, but never the picture.
 //
 // Each comment ends with the command that measures the cost again. "Trace" is the member
 // seconds.trace of --json. Commands that compile need an empty cache, for example
@@ -58,8 +58,8 @@
 // --aa=1.
 #define CONTRAST_SAMPLES 1
 
-// The seconds per sample with a tree. Without a tree, a sample takes the second constant longer for
-// each triangle. The window estimates its first picture's time from both.
+// The seconds per sample with a tree. Without a tree, each triangle adds TRIANGLE_GUESS seconds per
+// sample. The window estimates its first picture's time from both.
 // Measure: trace / samples.total of `clrt SCENE --json`, and the same with --tune bvh=none.
 #define SAMPLE_GUESS   4e-7
 #define TRIANGLE_GUESS 1e-9

@@ -12,7 +12,7 @@ typedef struct {
     const ClrtExplainedLight *lights; // found.light_count of them
 } ExplainedRay;
 
-// If the last ray hits a reflective surface, the surface reflects the background, because a next
+// If the last ray hits a reflective surface, the surface reflects the background, because the next
 // ray would have the level max_level.
 typedef struct {
     ClrtExplainedSample found;  // found.size is unset
@@ -34,14 +34,14 @@ typedef struct {
     uint64_t sums[3]; // of the colors of the pixel's samples, in units of 2^-32
 } Explainer;
 
-// Prepares to explain the pixels of a picture of the session's scene. The session keeps the scene
-// until the explainer is closed.
+// Prepares to explain the pixels of a picture of the session's scene. The session must keep the
+// scene until the explainer is closed.
 bool explainer_open(Explainer *explainer, Session *session, const RenderSettings *settings,
                     const Viewpoint *viewpoint, Error *error);
 void explainer_close(Explainer *explainer);
 
-// Traces a sample of a pixel into *sample, which the caller frees. Callers trace all samples in
-// order: index goes from 0 to the number of samples less 1.
+// Traces a sample of a pixel into *sample, which the caller frees. Callers must trace all samples
+// of a pixel in order, from index 0 on.
 bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
                      ExplainedSample *sample, Error *error);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A pixel's samples are treated as a square lattice. A disk at a random place contains a point of
-// the lattice if its center is in one of the equal disks around the points. The probability is
-// therefore the part of a lattice's cell that such a disk covers. Bisection finds the diameter for
+// the lattice if the center is in a disk of the same size around the point. The probability is
+// therefore the part of a lattice cell that such a disk covers. Bisection finds the diameter for
 // which the mean over all pixels is PROBABILITY.
 #include "session/feature.h"
 
@@ -12,10 +12,10 @@
 // The last interval of diameters is smaller than the spacing of floats.
 #define BISECTIONS 32
 
-// A disk of this diameter always contains a point of a lattice with distances of 1.
+// A disk of this diameter always contains a point of a lattice with spacing 1.
 #define LARGEST 1.41421357
 
-// Returns the area of a unit square that a disk around its center covers.
+// Returns how much of a unit square's area a disk around the square's center covers.
 static double covered_area(double diameter)
 {
     const double pi = 3.14159265358979, radius = diameter / 2;

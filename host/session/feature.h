@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Pixels with this number of samples each.
+// The number of pixels that have this number of samples.
 typedef struct {
     uint32_t samples;
     uint64_t pixels;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The headers of accel that the session's clients may use. The window shows triangles and trees,
-// and check examines triangles.
+// and `clrt check` examines triangles.
 #pragma once
 
 #include "accel/flat.h"

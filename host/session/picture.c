@@ -90,7 +90,7 @@ static void count_tree(uint32_t *samples, const RefineTree *tree)
             samples[(size_t)y * tree->width + x] = refine_tree_count(tree, x, y);
 }
 
-// Counts only the first subdivision of a pixel, because others are not spread over it evenly.
+// Counts only the first subdivision of a pixel, because later samples are not spread evenly.
 static double tree_feature(const RefineTree *tree)
 {
     SampleShare shares[2] = {{.samples = 1}, {.samples = GROUP_CELLS}};
@@ -137,8 +137,8 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
     return ok;
 }
 
-// Refines toward the time or error goal. Does nothing if the error of truncation alone exceeds the
-// goal.
+// Refines toward the time or error goal. Does nothing if PictureGoal::truncated alone is at least
+// the error goal.
 static bool refine(const PictureGoal *goal, Ladder *ladder, double start, GoalOutcome *outcome,
                    Error *error)
 {

@@ -7,12 +7,12 @@
 #include "session/session.h"
 
 // The point at which refinement stops. At most one of contrast, error and seconds is above 0. If
-// all three are 0, every pixel has RenderSettings::samples squared samples.
+// all three are 0, the samples of a pixel form a square with RenderSettings::samples on each side.
 typedef struct {
     double contrast;  // refine while neighboring samples differ more
     double error;     // refine until the root mean square error is this small
     double seconds;   // refine for this time
-    double truncated; // the part of `error` that is due to RenderSettings::max_level
+    double truncated; // bound on the error that RenderSettings::max_level causes
 } PictureGoal;
 
 // Returns whether the number of samples may differ between pixels.
@@ -42,12 +42,12 @@ typedef struct {
     RenderProgress progress;
     bool is_complete;
     bool goal_missed;
-    double estimate;         // of the RMSE, including PictureGoal::truncated; 0 without a goal
+    double estimate;         // of the RMSE with PictureGoal::truncated; for error and time goals
     double bound;            // upper bound of the RMSE with 95 % confidence
     double feature;          // the smallest diameter that the samples find (session/feature.h)
     uint64_t pixels;         // drawn by this call
     uint64_t samples;        // total of these pixels
-    uint32_t *pixel_samples; // by pixel; NULL if all are equal; the caller frees it
+    uint32_t *pixel_samples; // by pixel; NULL without a goal or keeps_samples; the caller frees it
 } PictureResult;
 
 // Returns the kernel that draws the colors.

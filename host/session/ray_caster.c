@@ -88,7 +88,7 @@ static size_t smaller(size_t a, size_t b)
 }
 
 // Sends the rays, runs the kernel and reads the results, for at most launch_rays rays. Only the
-// reading waits.
+// reads wait for the device.
 static bool cast_launch(const RayCaster *caster, const RayCast *cast, HitData *hits,
                         uint32_t *counts, Error *error)
 {

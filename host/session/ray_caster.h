@@ -17,11 +17,11 @@ typedef struct {
     cl_mem rays, hits, counts; // room for one launch; counts is NULL unless RAYS_CROSSED
 } RayCaster;
 
-// Compiles the session's kernel. Fails for RAYS_CERTAIN if the device has no exact arithmetic.
+// Compiles the query's kernel. Fails for RAYS_CERTAIN if certifier_check_device rejects the device.
 bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, Error *error);
 void ray_caster_close(RayCaster *caster);
 
-// How rays start. The numbers are those of the kernels' RayKind.
+// Where rays start. The values equal RAY_CAMERA and RAY_REFLECTED of the kernels' RayKind.
 typedef enum {
     RAYS_FREE,      // anywhere
     RAYS_ON_SURFACE // on the primitives that they name
@@ -32,13 +32,13 @@ typedef struct {
     const RayData *rays;
     size_t count;
     RayStart start;
-    bool any;      // of RAYS_NEAREST: stores any hit
-    uint32_t room; // of RAYS_CROSSED: hits stored for each ray; at most CROSSINGS_MAX
+    bool any;      // for RAYS_NEAREST: stores any hit
+    uint32_t room; // for RAYS_CROSSED: hits stored for each ray; at most CROSSINGS_MAX
 } RayCast;
 
 #define CROSSINGS_MAX 1048576
 
-// Stores the hits of the rays, and the numbers of crossings of RAYS_CROSSED in counts. hits may be
-// NULL without room, and counts for other queries.
+// Stores the hits of the rays. For RAYS_CROSSED, stores the numbers of crossings in `counts`, and
+// `hits` may be NULL if room is 0. For other queries, `counts` may be NULL.
 bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, uint32_t *counts,
                      Error *error);

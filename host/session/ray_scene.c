@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays hit one-sided triangles from behind too, unless a request says otherwise. For such rays, all
-// meshes of the compiled scene are two-sided.
+// Unless the caller requests one side, rays also hit one-sided triangles from behind. All meshes of
+// the compiled scene are then two-sided.
 #include "session/ray_scene.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The session's scene, prepared for rays of the caller. It exists twice: in device buffers that
-// kernels search, and as triangles on the host that turn hits into positions. All triangles are
-// two-sided unless the caller requests one side.
+// kernels search, and as triangles on the host, which serve to compute the positions of hits. All
+// triangles are two-sided unless the caller requests one side.
 #pragma once
 
 #include "session/session.h"
@@ -16,12 +16,13 @@ typedef struct {
     bool is_loaded, one_sided;
 } RayScene;
 
-// Compiles the session's scene in a layout of nodes, unless ray_scene has it already. If compiling
-// fails, ray_scene is left without a scene.
+// Compiles the session's scene in a layout of nodes, unless ray_scene has a scene with the same
+// value of one_sided. A RayScene must always get the same layout. If compiling fails, ray_scene is
+// left without a scene.
 bool ray_scene_take(RayScene *ray_scene, Session *session, NodeLayout layout, bool one_sided,
                     Error *error);
 
-// Releases the scene, after which the session's scene may change.
+// Releases the scene. The session's scene may change afterwards.
 void ray_scene_free(RayScene *ray_scene);
 
 // Returns the index of the mesh that contains the triangle.

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Each pass draws one sample per pixel. A pass shifts the camera by a fraction of a pixel, so the
-// ordinary kernels draw it. The shifts follow Roberts's R2 sequence, an additive recurrence by
+// Each pass draws one sample per pixel with the ordinary kernels. For each pass, the camera shifts
+// by a fraction of a pixel. The shifts follow Roberts's R2 sequence, an additive recurrence by
 // powers of the plastic number. No shift lies on the N x N grid of --aa.
 //
 // Even and odd passes form two pictures, whose shifts start at different points. The difference of
 // the two pictures measures the reference's own error.
 //
-// The reference is the picture in fp64, but most passes are in fp32, which is 6 to 9 times faster.
-// Some passes are drawn in both precisions. Their mean difference is added to the mean of all fp32
-// passes. The sum's expected value is the picture in fp64 (Giles, Multilevel Monte Carlo Path
-// Simulation, 2008). The difference is nearly always zero, so few passes suffice to estimate it.
+// The reference has the accuracy of fp64, but most passes are drawn in fp32, which is 6 to 9 times
+// faster. Some passes are drawn in both precisions. The mean difference between the precisions is
+// added to the mean of all fp32 passes. The sum's expected value is the picture in fp64 (Giles,
+// Multilevel Monte Carlo Path Simulation, 2008). The difference is nearly always zero, so few
+// passes suffice.
 #include "session/reference.h"
 
 #include "render/draw.h"
@@ -21,7 +22,7 @@
 #define ACROSS 0.7548776662466927
 #define DOWN   0.5698402909980532
 
-// About one of this many passes, and at least two passes, are drawn in fp64 too.
+// About one in EXACT_STEP passes, and at least two passes, are also drawn in fp64.
 #define EXACT_STEP 16
 
 typedef struct {

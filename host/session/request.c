@@ -10,10 +10,10 @@
 // levels cost less time than more samples.
 #define TRUNCATION_PART 0.25
 
-// The samples per pixel and axis of a lone mesh.
+// The default samples per pixel and axis if the scene is a mesh file.
 #define MESH_SAMPLES 3
 
-// The side of a tile in pixels.
+// The default side of a tile in pixels.
 #define TILE 128
 
 // Half the distance between neighboring floats just below 1.
@@ -135,7 +135,7 @@ static uint32_t samples_of(const ClrtPicture *wanted, const Scene *scene, const 
 }
 
 // Replaces the size of the whole picture by the crop's size and position. Returns false if the crop
-// leaves the picture.
+// is empty or leaves the picture.
 static bool crop_settings(RenderSettings *settings, const ClrtPicture *wanted)
 {
     const uint32_t width = settings->width, height = settings->height;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ClrtPicture of clrt.h -> SessionPicture. The library and the program share these rules and
-// defaults. Each words its own messages about a RequestFault.
+// defaults. Each has its own messages about a RequestFault.
 #pragma once
 
 #include "library/clrt.h"
@@ -27,7 +27,7 @@ typedef struct {
 } RequestFault;
 
 // Returns whether a request with these channels and this precision keeps all rules that do not
-// depend on the scene. Otherwise fills *fault.
+// depend on the scene. If not, fills *fault.
 bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision precision,
                    RequestFault *fault);
 
@@ -40,7 +40,8 @@ bool request_names_kernel(const ClrtSettings *wanted);
 // Returns the picture's goal. Its member `truncated` is 0, because it depends on the scene.
 PictureGoal request_goal(const ClrtPicture *wanted);
 
-// Completes a request that request_check has accepted by the scene's defaults. If camera is NULL,
-// the scene must have the view wanted->view. Returns false if the crop leaves the picture.
+// Completes a request with the scene's defaults. request_check must have accepted the request. If
+// camera is NULL, the scene must have the view wanted->view. Returns false if the crop is empty or
+// leaves the picture.
 bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpoint *camera,
                      SessionPicture *picture);

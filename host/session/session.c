@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Opens the device, and chooses and makes kernels. A background thread opens the device while the
-// caller's thread reads the scene. If this thread also made the kernel, runs would not be
+// caller's thread reads the scene. If the background thread also made the kernel, runs would not be
 // measurably shorter.
 //
 // Two choices save time and never change a picture. Small pictures use kernels that compile faster,
@@ -67,8 +67,8 @@ static bool is_compiled(const Session *session, const KernelEntry *entry, Kernel
 }
 
 // Pair kernels compile faster than packets and trace slower. Until packets are compiled, pair
-// kernels draw small pictures of small scenes, if this saves time in total. Kernels from a
-// kernel_folder are never chosen for that reason.
+// kernels draw small pictures of small scenes, if this saves time in total. With a kernel_folder,
+// the session does not change the choice.
 static void choose_quick_kernels(Session *session, const SessionWork *work)
 {
     const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32};
@@ -118,8 +118,8 @@ void session_close(Session *session)
     *session = (Session){.settings = session->settings, .cache = session->cache};
 }
 
-// Returns whether a special program lacks more than the colors of vertices, which save less than
-// can be measured.
+// Returns whether a special program lacks features other than vertex colors. Without vertex colors,
+// programs are not measurably faster.
 static bool lacks_features(const SceneTraits *traits)
 {
     const SceneTraits general = traits_general(traits->statistics);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A session is the pipeline from a Scene to the results on a device. It holds a device, the kernels
-// made for the device, and the scene in each layout that a kernel needs. The program, the window
-// and the library make all pictures, channels, references, explanations and rays by a session.
+// A session is the pipeline from a Scene to results, which a device computes. It holds a device,
+// the kernels made for the device, and the scene in each layout that a kernel needs. The program,
+// the window and the library use sessions for pictures, channels, references, explanations and
+// rays.
 //
-// Kernels and layouts are made at their first use and then kept. A session works on one thread at a
-// time.
+// Kernels and layouts are made at their first use and then kept. Only one thread at a time may use
+// a session.
 //
-// Invariant: the settings change no bit of a result, except precision and replaced kernels.
+// Invariant: except for precision and replaced kernels, the settings change no bit of a result.
 #pragma once
 
 #include "device/cache_private.h"
@@ -70,7 +71,7 @@ bool session_await(Session *session, const SessionWork *work, Error *error);
 // Opens the device on the caller's thread.
 bool session_open(Session *session, Error *error);
 
-// Saves new kernels to the cache, and waits for the thread of session_begin.
+// Waits for the thread of session_begin, and saves new kernels to the cache.
 void session_save(Session *session);
 
 // Saves new kernels and releases everything except the cache.
@@ -83,11 +84,11 @@ bool session_take(Session *session, const Scene *scene, Error *error);
 // Releases the compiled forms of a scene.
 void session_scene_free(SessionScene *scene);
 
-// Returns whether the session's scene is traced faster in this layout with a tree.
+// Returns false if the scene is traced faster in this layout without a tree, and wanted.tree is
+// CLRT_TREE_AUTO.
 bool session_wants_tree(const Session *session, NodeLayout layout);
 
-// Calls scene_compile with the session's normalization, builder of trees and threads, which it sets
-// in *source.
+// Sets the session's normalization, tree builder and threads in *source, and calls scene_compile.
 bool session_compile(const Session *session, CompileSource *source, FlatScene *flat,
                      CompileStages *stages, Error *error);
 
@@ -116,9 +117,9 @@ typedef struct {
 const Kernel *session_kernel(Session *session, const RendererUse *use, const SceneTraits *traits,
                              Error *error);
 
-// Makes a renderer for the session's scene. It is valid while the session has the scene.
+// Makes a renderer for the session's scene. The renderer is valid while the session has the scene.
 bool session_renderer(Session *session, const RendererUse *use, const RenderSettings *settings,
                       Renderer *renderer, Error *error);
 
-// Returns the kernels that draw the reference: the same float scene in double arithmetic.
+// Returns the choice of kernels that certify: double arithmetic on the same float scene.
 KernelChoice session_exact_choice(void);

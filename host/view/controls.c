@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Changes the state by keys and mouse actions. status_text.c has the list of them that users see.
+// Changes the state by keys and mouse actions. status_text_help lists them for users.
 #include "view/controls.h"
 
 // All these constants except the last are those of the course's viewer.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The window's settings as a plain struct, the State. Events change the state, and views draw it.
-// Both directions need no window, device or clock, so tests can play events.
+// The functions below need no window, device or clock, so tests can play events.
 #pragma once
 
 #include "scene/scene.h"
@@ -73,7 +73,7 @@ typedef struct {
     bool help, text;     // overlays that are displayed
     bool turning;        // the camera turns automatically
     bool full_screen;
-    uint32_t box_depth; // of the displayed boxes, where the root has 1; 0: those of the leaves
+    uint32_t box_depth; // depth of the displayed boxes; 1: the root; 0: all leaves
     int exposure;       // in half stops
     uint32_t view;      // number of the latest viewpoint, from 1
     bool moved;         // the camera has left this viewpoint

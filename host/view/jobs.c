@@ -8,9 +8,9 @@
 // The shortest interval between status updates for tiles, in seconds.
 #define WAKE_STEP 0.03
 
-// For this many seconds, other requests do not stop PASS_MOVING, so that pictures of a moving
-// camera appear at all. Afterwards, they stop the pass, which may take very long in a large scene
-// without a tree.
+// For this many seconds, a request for another camera does not stop PASS_MOVING, so that pictures
+// of a moving camera appear at all. Afterwards, the request stops the pass, because the pass may
+// take very long in a large scene without a tree.
 #define MOVING_SECONDS 0.5
 
 // A pass in progress.
@@ -79,8 +79,8 @@ static bool tile_done(void *context, const RenderProgress *progress)
 }
 
 // Updates the measured time per sample. part is the finished fraction of the pass. The first
-// measurement replaces the guess. Each later measurement at most doubles the time, because other
-// processes may have slowed the picture.
+// measurement replaces the guess. Each later measurement raises the time by at most half, because
+// other processes may have slowed the picture.
 static void update_sample_cost(Worker *worker, const Pass *pass, double seconds, double part)
 {
     const double samples = part * pass->width * pass->height * pass->samples * pass->samples;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Chooses the resolution of moving pictures. Tracing may take only part of a frame's time, because
-// displaying takes time too and tracing times vary.
+// Chooses the next pass, and the resolution of pictures of a moving camera. Tracing may take only
+// part of a frame's time, because displaying takes time too and tracing times vary.
 #include "view/plan.h"
 
 #include "session/costs.h"
 
 #define TRACE_SECONDS (PLAN_FRAME_SECONDS * 0.6)
 
-// The tracing time of a tile. It is short, because a stopped picture still finishes the three tiles
-// in flight.
+// The intended tracing time of a tile. It is short, because a stopped picture still finishes the
+// three tiles in flight.
 #define TILE_SECONDS  0.008
 #define TILE_LARGEST  128
 #define TILE_SMALLEST 8

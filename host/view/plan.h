@@ -28,7 +28,7 @@ typedef struct {
 
 typedef enum {
     PASS_NONE,
-    PASS_MOVING, // should take at most a frame's time; not stopped soon if the camera moves
+    PASS_MOVING, // should take at most a frame's time; runs on for a while if the camera moves
     PASS_FULL,   // all pixels, with one sample or with all samples
     PASS_COUNT   // the full picture again, with counters
 } PassKind;

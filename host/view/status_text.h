@@ -12,14 +12,14 @@
 // The contents of the texts.
 typedef struct {
     const State *state;
-    const WorkerRequest *request; // of the window's size, in pixels
+    const WorkerRequest *request; // the latest; its size is the window's, in pixels
     const WorkerStatus *status;
     const char *scene_name;
     const char *up;     // up axis of a mesh without a scene; NULL for a scene
     uint32_t samples;   // along each side of a pixel, with anti-aliasing
     uint32_t box_count; // number of displayed boxes
     // Empty strings if there is nothing to report.
-    const char *notice;      // the latest result
+    const char *notice;      // the names of pictures just saved
     const char *missing;     // missing objects or lights of the scene
     const char *hint;        // the key for help
     const char *failure;     // failure of the scene, the device or the window
@@ -45,6 +45,6 @@ void status_text_store(StatusText *write, const Figures *figures, char *text, si
 // Writes the camera in the course's terms, and as statements of a scene file.
 void status_text_camera(const State *state, FILE *stream);
 
-// Returns the list of keys and mouse actions, one per line. Two blanks precede the action's
-// meaning.
+// Returns the list of keys and mouse actions, one per line. Two blanks separate each key or action
+// from its meaning.
 const char *status_text_help(void);

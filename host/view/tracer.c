@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws with a session. When the scene or the kernels change, new objects are made before old ones
-// are released. The old objects remain in use if this fails.
+// are released. If the new objects cannot be made, the old ones remain in use.
 #include "view/tracer.h"
 
 bool tracer_open(ViewTracer *tracer, const TracerOptions *options, Error *error)

@@ -12,8 +12,8 @@
 // resting if it has not moved for this time.
 #define REST_SECONDS 0.1
 
-// Returns the samples along each side of a pixel. A moving camera is not anti-aliased, because its
-// next picture would wait for the tiles in flight.
+// Returns the samples along each side of a pixel. Pictures of a moving camera are not anti-aliased,
+// because the next picture would wait for the tiles in flight.
 static uint32_t samples_of(const Viewer *viewer)
 {
     return viewer->state.smooth && viewer->moved == 0 ? viewer->settings.samples : 1;
@@ -94,8 +94,8 @@ static void play_key(Viewer *viewer)
 }
 
 // Updates everything that depends on time: removes an old hint, notices that the camera rests, and
-// turns a camera that turns automatically. Such a camera waits until the picture of its current
-// position is traced. It does not turn while a save is requested.
+// advances a camera that turns automatically. In the ray-traced view, such a camera waits until the
+// picture of its current position is traced. It does not turn while a save is requested.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();

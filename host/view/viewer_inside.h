@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The viewer's data, which its source files share. viewer.c runs the loop, viewer_follow.c takes
-// results of the worker and changed files, and viewer_show.c draws, prints and saves.
+// The viewer's data, which its source files share. viewer.c runs the loop. viewer_follow.c handles
+// the worker's results and changed files. viewer_show.c draws, prints and saves.
 #pragma once
 
 #include "base/array.h"
@@ -20,8 +20,8 @@ typedef struct {
     double latest; // clock time of the latest frame; 0 without one or if the camera has stopped
 } FrameTimes;
 
-// Prints the statistics. frames is the number of complete pictures of PASS_MOVING. coarse is the
-// number of those with fewer pixels than the window.
+// Prints the statistics. frames is the number of complete pictures of PASS_MOVING. coarse is how
+// many of these pictures have fewer pixels than the window.
 void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream);
 void frame_times_free(FrameTimes *times);
 
@@ -59,7 +59,7 @@ typedef struct {
     bool is_dirty, quits;
 } Viewer;
 
-// Processes the worker's status. Returns false after a fault that ends the window.
+// Processes the worker's status. Returns false after a failure of the window or of memory.
 bool viewer_follow_worker(Viewer *viewer, Error *error);
 
 // Switches to the worker's latest model.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws a frame by OpenGL. Surfaces must also hide the lines behind them in the ray-traced view. If
+// Draws a frame by OpenGL. In the ray-traced view too, surfaces must hide the lines behind them. If
 // there are lines, OpenGL therefore first draws the scene. The traced picture then replaces the
 // colors, but not the depth.
 #include "view/views.h"

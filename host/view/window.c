@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The distance in screen coordinates within which a press and a release are a click.
+// The pointer's largest motion during a click, in screen coordinates.
 #define CLICK_DISTANCE 3
 
 typedef struct {
@@ -28,7 +28,7 @@ static bool fail(const char *failure, Error *error)
 bool window_connect(Error *error)
 {
 #ifdef GLFW_PLATFORM
-    // libwayland would print a message of its own.
+    // Without a Wayland display, libwayland would print a message of its own.
     if (getenv("WAYLAND_DISPLAY") == NULL)
         glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
@@ -44,7 +44,7 @@ static void add_event(GLFWwindow *handle, Event event)
 }
 
 // Adds the event of a typed character. Keys that change a value step by step repeat while they are
-// held. Other keys are switches, and do not repeat.
+// held. Other keys do not repeat.
 static void take_character(GLFWwindow *handle, unsigned character)
 {
     const Window *window = glfwGetWindowUserPointer(handle);
@@ -78,9 +78,10 @@ static void take_key(GLFWwindow *handle, int key, int code, int action, int modi
         add_event(handle, (Event){.kind = EVENT_KEY, .key = found});
 }
 
-// Stores the effect of a drag. As in F3D, the left button turns, the middle button or Shift pans,
-// and the right button zooms. As in Blender, Ctrl with the middle button zooms. Shift and Ctrl must
-// be pressed at the start of the drag. Returns false if no button is pressed.
+// Stores the effect of a drag. As in F3D, the left button turns, the middle button pans, Shift with
+// the left button pans, and the right button zooms. As in Blender, Ctrl with the middle button
+// zooms. Shift and Ctrl must be pressed at the start of the drag. Returns false if no button is
+// pressed.
 static bool find_drag(GLFWwindow *handle, EventKind *kind)
 {
     const bool left = glfwGetMouseButton(handle, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;

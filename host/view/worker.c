@@ -29,7 +29,7 @@ static JobKind next_kind(const Worker *worker, const Pass *pass)
         return JOB_TAKE;
     if (request->explains != done->explains)
         return JOB_EXPLAIN;
-    // If the gain has changed, encodes the latest picture again before the remaining passes.
+    // If the gain has changed, encodes the latest picture again before any pass but PASS_MOVING.
     return request->is_traced && request->gain != done->gain && pass->kind != PASS_MOVING
                ? JOB_ENCODE
                : JOB_PASS;

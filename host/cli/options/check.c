@@ -18,8 +18,8 @@ const Exclusion exclusion_table[] = {
 };
 const size_t exclusion_count = sizeof exclusion_table / sizeof exclusion_table[0];
 
-// Returns the first of these names, except `but`, that the command line contains. Returns NULL if
-// it contains none.
+// Returns the first of `names`, except `but`, that the command line contains, or NULL if there is
+// none.
 static const char *first_given(const Options *options, const char *const names[], const char *but)
 {
     for (int i = 0; i < EXCLUSION_NAMES && names[i] != NULL; i++)
@@ -72,13 +72,12 @@ static const char *option_of_setting(const char *setting)
     return setting;
 }
 
-// Checks the request for a picture, and words the message about a rule that is in no table of this
-// file.
+// Checks the request for a picture, because some rules on requests are in no table of this file.
 static bool check_request(const Options *options, Error *error)
 {
     RequestFault fault;
     ClrtPicture wanted = options->picture;
-    wanted.crop_width = options->crop.is_given; // its pixels depend on the scene
+    wanted.crop_width = options->crop.is_given; // the crop's size depends on the scene
     return request_check(&wanted, options->aovs, options->renderer.precision, &fault) ||
            error_set(error, "--%s and --%s exclude each other: give one",
                      option_of_setting(fault.setting), option_of_setting(fault.other));
@@ -151,7 +150,7 @@ static bool is_standard_output(const char *path)
 // A rule on combinations of options.
 typedef struct {
     bool is_broken;
-    const char *sentence; // a format; %s is the file's format
+    const char *sentence; // a format of printf; %s is the name of the file's format
 } Rule;
 
 static bool check_rules(const Options *options, const Rule *rules, size_t count, Error *error)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses and applies crops, and ranges of frames. The number of a picture replaces the last run of
-// # in a file name, or is inserted before the ending.
+// Parses and applies crops and ranges of frames. A frame's number replaces the last run of # in a
+// file name, or is inserted before the ending.
 #include "cli/options/options.h"
 
 #include "base/array.h"

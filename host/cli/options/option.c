@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses the arguments of options. A kind of value has one parser, and values that fit no kind have
-// setters. Text after a value is an error.
+// Parses the arguments of options. Each kind of value has a parser, and values that fit no kind
+// have setters. Text after a value is an error.
 #include "cli/options/option.h"
 
 #include "base/number.h"
@@ -134,7 +134,7 @@ bool option_store(const Option *option, Options *options, const char *text, Erro
     return option->set(options, text, error);
 }
 
-// The following setters of OPTION_ODD are in the order of option_table.
+// The following setters serve options of kind OPTION_ODD. set_pixel parses an operand.
 
 bool set_output(Options *options, const char *text, Error *error)
 {
@@ -215,7 +215,7 @@ bool set_time(Options *options, const char *text, Error *error)
                      text);
 }
 
-// Returns the row of a key of --tune, or option_count.
+// Returns the row of a key of --tune, or option_count for an unknown key.
 static size_t find_key(const char *key)
 {
     size_t row = 0;

@@ -33,7 +33,7 @@ typedef enum {
 
 typedef enum {
     OPTION_FLAG,   // no argument; stores true in a bool
-    OPTION_ACTION, // no argument; stores limit in Options::action
+    OPTION_ACTION, // no argument; stores Option::limit in Options::action
     OPTION_COUNT,  // an integer from 1 to limit; stores a uint32_t
     OPTION_PART,   // a number above 0 and up to 1; stores a double
     OPTION_AREA,   // "WxH", each from 1 to limit; stores two uint32_t
@@ -46,7 +46,7 @@ typedef enum {
 enum {
     FOR_WINDOW = 1,
     FOR_FILE = 2,
-    FOR_HASH = 4, // pictures of which only the hash is printed
+    FOR_HASH = 4, // a picture is hashed, but not written
     FOR_CHECK = 8,
     FOR_COMPARE = 16,
     FOR_MERGE = 32,
@@ -82,7 +82,8 @@ typedef struct {
 
 bool option_argument_is_optional(const Option *option);
 
-// Returns KEY if the row is "tune KEY", a key of --tune, or NULL if the row is an option.
+// Returns KEY if the row's name is "tune KEY", which stands for a key of --tune. Otherwise, returns
+// NULL.
 const char *option_key(const Option *option);
 
 // Returns whether the option's argument is a file name.
@@ -92,10 +93,9 @@ bool option_names_file(const Option *option);
 // environment variable.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);
 
-// A way to run clrt. A command that accepts different numbers of operands has a row for each
-// number.
+// A way to run clrt. A command with several FOR_... bits, such as explain, has a row for each.
 typedef struct {
-    const char *name;     // "": clrt renders a scene
+    const char *name;     // "": clrt shows or renders a scene
     const char *operands; // the words after the name, for --help
     int least, most;      // the number of operands
     Action action;
@@ -110,7 +110,7 @@ extern const size_t command_count;
 // Returns whether this is the first row with its name.
 bool command_is_first(const Command *command);
 
-// Returns whether the command of this name accepts the option with any number of operands.
+// Returns whether any row with this name accepts the option.
 bool command_takes(const char *name, const Option *option);
 
 #define COMMAND_TEXT_SIZE 64
@@ -135,10 +135,11 @@ extern const size_t exclusion_count;
 // given together with one on the right.
 void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE]);
 
-// Checks the options of a command and their combination. Determines the format of the picture.
+// Checks the options of a command and their combination. Sets options that depend on others, such
+// as the picture's format.
 bool options_check(Options *options, const Command *command, Error *error);
 
-// Setters of options whose values fit none of the kinds.
+// Setters of options of kind OPTION_ODD. set_pixel parses an operand.
 SetOption set_output, set_format, set_exposure, set_aov, set_hash, set_crop, set_max_level,
     set_error, set_time, set_tune, set_kernel, set_frames, set_part, set_reference,
     set_reference_samples, set_normals, set_pixel, set_fail, set_json;

@@ -20,9 +20,9 @@ typedef struct {
     uint32_t index, count; // index from 1 to count; 0, 0: the whole job
 } Share;
 
-// Parses text. Returns false and leaves error empty if text is malformed or N is above most.
-// Returns false and fills error if the environment variable is missing, not a number or out of
-// range.
+// Parses text. Returns false and leaves error empty if text is malformed, I is above N, or N is
+// above most. Returns false and fills error if the environment variable is missing, not a number or
+// out of range.
 bool share_parse(Share *share, const char *text, uint32_t most, Error *error);
 
 // Returns the index of the share's first item among `total` items. Shares are runs of consecutive
@@ -42,8 +42,8 @@ typedef struct {
     bool skips_finished;        // skip frames whose files exist, and write only whole frames
 } Frames;
 
-// Parses a range ("A-B" or "A-B:S"), a share, or a range, a comma and a share. Returns false if
-// text is malformed, and fills error as share_parse does.
+// Parses a range ("A-B" or "A-B:S"), a share, or a range and a share with a comma between them.
+// Returns false on failure, and fills error as share_parse does.
 bool frames_parse(Frames *frames, const char *text, Error *error);
 
 // Returns whether --frames or --turntable is given.
@@ -54,15 +54,15 @@ bool frames_are_many(const Frames *frames);
 // are fewer frames than shares.
 bool frames_complete(Frames *frames, Error *error);
 
-// Returns the number of pictures.
+// Returns the number of frames, which is 1 without --frames and --turntable.
 uint32_t frames_count(const Frames *frames);
 
-// Returns the number of the frame at index place of the sequence, from 0.
+// Returns the number of the frame at index `place` of the sequence. The index counts from 0.
 uint32_t frames_at(const Frames *frames, uint32_t place);
 
 // Returns the path of a frame's file. The number with leading zeros replaces the last run of '#'
-// after the last slash of pattern. Without such a run, a number such as ".0001" precedes the
-// ending. The caller frees the path. Returns NULL if memory is exhausted.
+// after the last slash of pattern. Without such a run, the number is inserted before the ending, as
+// in ".0001.png". The caller frees the path. Returns NULL if memory is exhausted.
 char *frames_name(const char *pattern, uint32_t number, Error *error);
 
 // --crop "X0,Y0,X1,Y1". The numbers are pixels, or fractions of the sides if any number has a dot.
@@ -100,7 +100,7 @@ typedef enum {
 // The exit status. If a signal stopped the process, the status is 128 + the signal's number.
 typedef enum {
     EXIT_DONE = 0,
-    EXIT_FAULTS = 1, // faults found by check, limits of compare, an unexpected hash, a missed goal
+    EXIT_FAULTS = 1, // faults found by check, an exceeded limit, an unexpected hash, a missed goal
     EXIT_USAGE = 2,
     EXIT_SCENE = 3, // a faulty scene, mesh or input picture
     EXIT_DEVICE = 4,
@@ -110,7 +110,7 @@ typedef enum {
 
 // The treatment of triangles without area.
 typedef enum {
-    BAD_GEOMETRY_DROP, // drop those with two equal corners; rays hit others only by rounding
+    BAD_GEOMETRY_DROP, // drop those with two equal corners; rays hit the others only by rounding
     BAD_GEOMETRY_FAIL
 } BadGeometry;
 
@@ -132,13 +132,13 @@ typedef struct {
     const char *other_path;  // the second picture of ACTION_COMPARE; the output of ACTION_CONVERT
     const char *output_path; // "-": standard output; NULL without -o, also if only a hash
                              // is printed
-    const char *format;      // a result of image_format_named; NULL without an output
+    const char *format;      // of the output; "pfm" if the picture is only hashed; otherwise NULL
     AovSet aovs;             // channels besides the colors
     ClrtPicture picture;     // without crop, camera and truncation, which need the scene
     ClrtSettings renderer;
     SceneLoadOptions load;
     Crop crop;
-    uint32_t part, parts; // from 1; 0, 0: the whole picture
+    uint32_t part, parts; // part counts from 1; 0, 0: the whole picture
     bool resume;          // for one picture; frames have skips_finished
     Frames frames;
     bool fits_level; // use the smallest max_level whose error is invisible in a file of the format
@@ -151,7 +151,7 @@ typedef struct {
     bool hash;                 // print the hash of the pixels, or check it
     const char *expected_hash; // NULL: print it
     const char *keys;          // key presses to play in the window; NULL for none
-    uint32_t quit_after;       // frames before the window closes; 0: the user closes it
+    uint32_t quit_after;       // frames to show after the keys; 0: until the user closes the window
     BadGeometry bad_geometry;
     Limits limits;         // of ACTION_COMPARE
     uint32_t pixel[2];     // of ACTION_EXPLAIN: column and row

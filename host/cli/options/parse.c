@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Command line -> Options. getopt splits the command line, option.c parses and stores the values,
-// and check.c checks their combination. Unknown options of other programs get a message with clrt's
-// words for them.
+// and check.c checks their combination. For an option of another program, the message suggests
+// clrt's option.
 #include "cli/options/options.h"
 
 #include "base/word.h"
@@ -34,7 +34,7 @@ static void fill_getopt(struct option *longs, char *shorts)
     *shorts = '\0';
 }
 
-// Options of other programs and of older versions, with the words of clrt.
+// Options of other programs and of older versions, and the words that clrt suggests instead.
 static const struct {
     const char *name, *words;
 } synonyms[] = {
@@ -110,8 +110,9 @@ static bool mark_given(Options *options, size_t row, Error *error)
     return true;
 }
 
-// Returns the command that the options and operands select. Several rows may have its name. The
-// last row that needs at most `count` operands is selected or, if there is none, the first row.
+// Returns the row of the command. Without a command name, the options select the row. Otherwise,
+// returns the last row of this name that needs at most `count` operands or, if there is none, the
+// first row of this name.
 static const Command *find_command(const Options *options, const char *name, int count)
 {
     const unsigned picture = options->output_path != NULL ? FOR_FILE
@@ -164,7 +165,8 @@ static bool is_command(const char *word)
     return i < command_count;
 }
 
-// Rejects a valid value after a space, as in "--aa 4", unless a file has this name.
+// If the option has a fallback, rejects a valid value after a space, as in "--aa 4", unless a file
+// has this name.
 static bool check_loose_value(const Option *option, const char *word, Error *error)
 {
     Options scratch;
@@ -206,7 +208,7 @@ bool options_parse(Options *options, int count, char **arguments, Error *error)
     if (!read_options(options, count, arguments, error))
         return false;
     if (options->action != ACTION_RENDER)
-        return true; // --help and --version ignore the rest of the command line
+        return true; // --help and --version ignore the operands
     const bool is_named = optind < count && is_command(arguments[optind]);
     const char *name = is_named ? arguments[optind++] : "";
     char **operands = arguments + optind;

@@ -48,7 +48,7 @@ void canvas_end(Canvas *canvas, Layer *layer, bool is_whole);
 // be in progress.
 void canvas_encode_again(Canvas *canvas, double gain);
 
-// Return the latest complete picture, and the picture in progress that is displayed above it. Both
-// may be NULL. The caller holds the lock.
+// Return the latest complete picture, and the picture in progress that is displayed over it, or
+// NULL. The caller holds the lock.
 Layer *canvas_whole(Canvas *canvas);
 Layer *canvas_unfinished(Canvas *canvas);

@@ -7,16 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The following functions draw triangles. They share vertices as in the meshes, and each object
-// takes one draw call. If any mesh has colors, the colors of all vertices follow the vertices in
-// buffer 0. A mesh without colors sets one color for all its vertices.
+// The following functions draw triangles. Triangles share vertices as in the meshes, and each
+// object takes one draw call. If any mesh has colors, the colors of all vertices follow the
+// vertices in buffer 0. A mesh without colors sets one color for all its vertices.
 
 typedef struct {
     float position[3];
     float normal[3]; // zero for none
 } DrawnVertex;
 
-#define TINT 2 // the attribute that is a color
+#define TINT 2 // the number of the color attribute
 
 bool triangle_view_open(Drawing *view, Error *error)
 {
@@ -230,7 +230,7 @@ typedef struct {
     Error *error;
 } Collection;
 
-// Adds the boxes of a subtree at collection->depth. The depth of the tree bounds the recursion.
+// Adds the subtree's boxes at collection->depth. The depth of the tree bounds the recursion.
 static bool collect(const Collection *collection, uint32_t number, uint32_t depth)
 {
     const BvhNode *node = &collection->bvh->nodes[number];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model's triangles and spheres, the boxes of its tree and its normals, drawn by OpenGL.
+// A model's triangles, spheres and normals, and the boxes of its tree, drawn by OpenGL.
 #pragma once
 
 #include "base/array.h"
@@ -42,7 +42,7 @@ bool line_view_open(LineView *view, bool is_diagonal, Error *error);
 void line_view_load(LineView *view, const Box *boxes, size_t count);
 void line_view_draw(const LineView *view, const Lens *lens, const float color[3]);
 
-// The boxes that a LineView draws: those at one depth of a Bvh, or a model's normals as diagonals.
+// The boxes that a LineView draws: boxes at one depth of a Bvh, or normals as diagonals of boxes.
 typedef ARRAY(Box) Boxes;
 
 // Returns the depth of the deepest inner nodes; 0 without any.

@@ -141,12 +141,12 @@ void cube_fill_edges(const Drawing *drawing)
 // is 1 to 2 long. Nearer points all have depth 0, so the one drawn last is visible.
 #define NEAREST 0.01f
 
-// Orthographic pictures have distinct depths up to this distance beyond the frame's origin. It is
-// more than the distance of the farthest triangle.
+// Orthographic pictures have distinct depths up to this distance beyond the origin of normalized
+// coordinates. All triangles are nearer to this origin.
 #define BEYOND 2
 
-// Stores the direction of step with a length that makes its dot product with points on the
-// picture's edge at distance 1 equal to 1.
+// Stores a vector in the direction of step. Its dot product with points on the edge of the picture
+// at distance 1 is 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = vec3_of_floats(step);

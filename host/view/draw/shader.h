@@ -59,7 +59,7 @@ void shader_set_vector(GLuint program, const char *name, const float v[3]);
 void cube_fill_faces(const Drawing *drawing);
 void cube_fill_edges(const Drawing *drawing);
 
-// These declarations convert the scene's lights and materials to the uniforms of
+// The following declarations convert the scene's lights and materials to the uniforms of
 // shaders/light.glsl.
 
 // The largest number of lights that OpenGL shows. The course's viewer shows eight, the limit of

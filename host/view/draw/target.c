@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The target has two framebuffers. OpenGL draws into the first. If it is larger, a linear blit to
-// half the size averages it into the second, which is displayed.
+// The target has two framebuffers. OpenGL draws into the first. A blit copies the first to the
+// second, which is displayed. If the first is twice as large, the blit averages its pixels.
 #include "view/draw/target.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws text by a texture of characters, which stb_truetype makes from an installed font. The
-// layout of a text is repeated with a smaller font until it fits the window.
+// layout is repeated with smaller fonts until the text fits the window or is below SMALLEST.
 #define STB_TRUETYPE_IMPLEMENTATION
 #include "view/draw/text_view.h"
 

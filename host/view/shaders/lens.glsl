@@ -2,13 +2,13 @@
 // Projects points like the camera of the rays. Perspective pictures have no far plane. Their depth
 // is 1 - nearest / distance. The depth of orthographic pictures is distance / farthest.
 uniform vec3 eye, forward;
-uniform vec3 clip_x, clip_y;          // across the picture, from -1 to 1 at distance 1
+uniform vec3 clip_x, clip_y;          // dot products: -1 to 1 in the picture at distance 1
 uniform vec3 right_step, down_step;   // half a pixel at distance 1
 uniform vec2 size;                    // of the picture in pixels
 uniform float nearest;
 uniform float farthest;               // 0 for a perspective picture
 
-// Returns the depth of a point given relative to the eye.
+// Returns the depth of a point. offset is the point relative to the eye.
 float depth_of(vec3 offset)
 {
     float distance = dot(offset, forward);
@@ -22,7 +22,7 @@ vec3 toward_eye(vec3 place)
 }
 
 #ifdef VERTEX
-// Projects a point given relative to the eye, and clips what is behind the eye.
+// Projects a point, and clips parts behind the eye. offset is the point relative to the eye.
 vec4 projected(vec3 offset)
 {
     float distance = dot(offset, forward);
