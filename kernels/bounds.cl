@@ -177,7 +177,8 @@ static inline float8 node_plane(global const BvhWide *node, const BeamBounds *bo
     return vload8(0, node->planes[axis][bounds->negative[axis] ^ other]);
 }
 
-// Returns the children that some ray may enter before `reach`. Stores *entry like boxes_near.
+// Returns the children that some ray may enter before `reach`. Stores lower bounds of the entry
+// distances in *entry.
 static inline int8 children_near(global const BvhWide *node, const BeamBounds *bounds, float reach,
                                  float8 *entry)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Computes the surface at a certain hit of a ray cone, and the cones of the rays that leave it. The
-// point and the normals have bounds on the difference between the tracer's and the exact values.
+// Computes the surface at a hit that is certain for a ray cone, and the cones of the rays that
+// leave the surface. The point and the normals have bounds on the difference between the tracer's
+// and the exact values.
 #ifndef CLRT_CERTIFY_SURFACE_CL
 #define CLRT_CERTIFY_SURFACE_CL
 #include "certify_search.cl"

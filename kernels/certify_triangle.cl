@@ -94,12 +94,12 @@ static inline Real slope_of(const ProjectedTriangle *projected)
     return sqrt(x * x + y * y) / fabs(projected->edges.determinant);
 }
 
-// Returns bounds on the depth of a hit. The hit is within the blur of the axis, and its depth is
-// between the depths of the corners. For a broad triangle, the plane's slope also limits the
-// difference between this depth and the depth at which the axis crosses the plane. A broad triangle
-// is more than 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the plane by
-// less than half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this. 26 u of the size
-// cover the rounding of the distance (B11).
+// Returns bounds on the depth of a hit. The hit is at most one blur away from the axis, and its
+// depth is between the depths of the corners. For a broad triangle, the plane's slope also limits
+// the difference between this depth and the depth at which the axis crosses the plane. A broad
+// triangle is more than 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the
+// plane by less than half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this. 26 u of
+// the size cover the rounding of the distance (B11).
 static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 {
     const Corners *c = &projected->corners;

@@ -154,8 +154,8 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 
 // Returns whether plain Reals already prove that the line misses the sphere. The error of this test
 // is at most 16u times the sum of all squared lengths (B15), and the test allows 64u. Most spheres
-// then need no exact test. If all rays tested three spheres exactly, this would take half of a
-// picture's time.
+// then need no exact test. In a scene with three spheres, exact tests for all rays would take half
+// of the rendering time.
 static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center =

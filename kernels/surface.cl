@@ -9,9 +9,9 @@
 // and shadows stay in place. The start moves only if, seen along the new ray, rounding has put the
 // point outside its own triangle.
 //
-// The shading normal and the face can point to opposite sides. Two rules then decide which light
-// reaches the surface and which rays leave it. The face's normal always points to the side from
-// which the ray comes.
+// The shading normal and the face's normal can point to opposite sides of the surface. Two rules
+// then decide which light reaches the surface and which rays leave it. The face's normal always
+// points to the side from which the ray comes.
 //  - A light reaches a point only if the shading normal and the face both face it (shade.cl). The
 //    course's renderers (docs/scenes.md) start shadow rays slightly off the surface with the same
 //    effect: the face blocks a light behind it. A sphere seen from inside keeps its outward normal,

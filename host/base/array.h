@@ -17,8 +17,8 @@
         size_t count, capacity;                                                                    \
     }
 
-// Reserves memory for count elements of size bytes each. Returns false if memory runs out, and then
-// leaves the array unchanged.
+// Reserves memory for `count` elements of `size` bytes each. Returns false if memory runs out, and
+// then leaves the array unchanged.
 bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, Error *error);
 
 // Appends item. This expression is false if memory runs out.

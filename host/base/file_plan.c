@@ -109,8 +109,8 @@ static int compare_identity(const PlannedFile *a, const PlannedFile *b)
     return strcmp(a->name != NULL ? a->name : "", b->name != NULL ? b->name : "");
 }
 
-// Orders files by identity. If several entries are one file, inputs come before outputs. Inputs
-// stay in the order in which they were added, and so do outputs.
+// Orders files by identity. If several entries name the same file, inputs come before outputs.
+// Inputs stay in the order in which they were added, and so do outputs.
 static int compare_files(const void *one, const void *other)
 {
     const PlannedFile *a = *(const PlannedFile *const *)one,

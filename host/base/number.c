@@ -76,9 +76,9 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
     return stop;
 }
 
-// Returns the integer with the digits from text to end, times ten to the power of exponent. A
-// single digit 1 replaces all digits after the first SUFFICIENT_DIGITS, unless these digits are all
-// zero.
+// Returns the integer with the digits from text to end, times ten to the power of exponent. If any
+// digit after the first SUFFICIENT_DIGITS is not zero, a single digit 1 replaces all digits after
+// the first SUFFICIENT_DIGITS.
 static double round_slowly(const char *text, const char *end, int64_t exponent)
 {
     char spelled[SUFFICIENT_DIGITS + 32];

@@ -11,9 +11,9 @@
 #include <string.h>
 #include <unistd.h>
 
-// In cgroup version 2, /proc/self/cgroup has one line "0::/path", and each group has a file
-// cpu.max. In version 1, each controller has a line such as "4:cpu,cpuacct:/path", and each group
-// has a file for the quota and one for the period. In a container, the path can be missing below
+// In cgroup version 2, /proc/self/cgroup has one line "0::/path", and a group's limit on processors
+// is in its file cpu.max. In version 1, each controller has a line such as "4:cpu,cpuacct:/path",
+// and a group's quota and period are in two files. In a container, the path can be missing below
 // the mount, because the mount begins at the container's group. The search therefore reads every
 // parent folder up to the mount.
 

@@ -47,7 +47,8 @@ static uintptr_t program_counter(const ucontext_t *context)
 
 #define LINE_SIZE 1024
 
-// Reads the next line, without its end. Returns false at the end of the file.
+// Reads the next line, without its line feed. Drops all characters after the first LINE_SIZE - 1.
+// Returns false at the end of the file.
 static bool read_line(int file, char line[LINE_SIZE])
 {
     size_t length = 0;

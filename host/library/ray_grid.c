@@ -3,7 +3,7 @@
 
 #include "library/given_ray.h"
 
-// The rays of a beam, the largest height of a block, and the bounds of a row's length.
+// The most rays of a beam, the largest height of a block, and the bounds of a row's length.
 #define BEAM_RAYS   64
 #define BLOCK_ROWS  8
 #define LEAST_WIDTH 16

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rays in rows -> an order that is faster to trace in beams of 64 rays. Programs list the rays of a
-// picture row by row, but 64 rays of a square share more nodes than 64 rays of a row. The order
-// changes no bit of the hits.
+// Rays in rows -> an order that is faster to trace in beams, which have at most 64 rays. Programs
+// list the rays of a picture row by row, but 64 rays of a square share more nodes than 64 rays of a
+// row. The order changes no bit of the hits.
 #pragma once
 
 #include "library/clrt.h"

@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// No version of the library has a larger struct. A larger size is therefore an uninitialized
-// member.
+// No version of the library has a larger struct. A larger size therefore means that the caller has
+// not initialized the member `size`.
 #define LARGEST_STRUCT 4096
 
 bool check_fail(ClrtError *error, ClrtFault fault, const char *format, ...)

@@ -43,7 +43,8 @@ typedef struct {
     bool reached;
 } GoalOutcome;
 
-// Refines until the bound is at most `most`, no pixel can advance, or too many rounds have passed.
+// Refines until the bound is at most `most`, no pixel can advance, too many rounds have passed, or
+// the observer stops the trace.
 bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
 
 // A time budget, on the clock of clock_seconds.
@@ -51,5 +52,6 @@ typedef struct {
     double start, seconds;
 } GoalTime;
 
-// Refines until about time->seconds have passed since time->start, or no pixel can advance.
+// Refines until about time->seconds have passed since time->start, no pixel can advance, or the
+// observer stops the trace.
 bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);

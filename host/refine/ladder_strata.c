@@ -39,8 +39,8 @@
 
 // The largest mean feature counts as at least EDGE_CENTER on rung 0, and as at least EDGE_SAMPLED /
 // ladder_samples[i] on a higher rung i. Without this minimum, the bound would be 0 if all pixel
-// centers miss the objects. With an error goal of 0.5 %, EDGE_CENTER costs 2.3 % of the samples in
-// an easy scene, and 1 would cost 4 %.
+// centers miss the objects. With an error goal of 0.5 %, this EDGE_CENTER costs 2.3 % of the
+// samples in an easy scene, and an EDGE_CENTER of 1 would cost 4 %.
 #define EDGE_CENTER  0.75
 #define EDGE_SAMPLED 0.0625
 

@@ -26,8 +26,8 @@ typedef struct {
 } PixelRun;
 
 // To save memory, a piece is searched only at level 0 if it has more than PAIRS_MOST pairs and more
-// than PAIRS_OF_PIXEL pairs per pixel of the picture. The number of pairs is estimated: a thin
-// triangle counts AROUND pairs for each pixel that it touches and at which the piece is not wide.
+// than PAIRS_OF_PIXEL pairs per pixel of the picture. The number of pairs is estimated as AROUND
+// for each thin triangle and each pixel that it touches, unless the piece is wide at the pixel.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 #define AROUND         9
@@ -94,7 +94,8 @@ static bool is_covered(const ThinSearch *search, uint32_t column, uint32_t row)
                                 memory_order_relaxed) == search->number;
 }
 
-// Returns whether the piece is wide at a pixel. Near corners are tested first on each axis.
+// Returns whether the piece is wide at a pixel. The piece is wide if four covered pixels form a
+// square that contains or touches the pixel. Squares that contain it are tested first on each axis.
 static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
 {
     static const int steps[4] = {-1, 0, -2, 1};

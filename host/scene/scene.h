@@ -116,7 +116,7 @@ const char *viewpoint_fault(const Viewpoint *viewpoint);
 // The names of shaders in scene text, indexed by Shader.
 extern const char *const shader_names[];
 
-// Returns the material of a define statement without properties.
+// Returns the shader's default material, which a define statement without properties creates.
 Material material_of_shader(Shader shader);
 
 void material_set_shininess(Material *material, float shininess);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Unless the caller requests one side, rays also hit one-sided triangles from behind. All meshes of
+// Unless the caller sets one_sided, rays also hit one-sided triangles from behind. All meshes of
 // the compiled scene are then two-sided.
 #include "session/ray_scene.h"
 

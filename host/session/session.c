@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Opens the device, and chooses and makes kernels. A background thread opens the device while the
-// caller's thread reads the scene. If the background thread also made the kernel, runs would not be
-// measurably shorter.
+// Opens the device, and chooses and makes kernels. session_begin opens the device on a background
+// thread while the caller's thread reads the scene. If the background thread also made the kernel,
+// runs would not be measurably shorter.
 //
 // Two choices save time and never change a picture. Small pictures use kernels that compile faster,
 // and kernels are specialized if that saves more time than compiling takes (costs.h).

@@ -12,8 +12,8 @@
 // resting if it has not moved for this time.
 #define REST_SECONDS 0.1
 
-// Returns the samples along each side of a pixel. Pictures of a moving camera are not anti-aliased,
-// because the next picture would wait for the tiles in flight.
+// Returns the number of samples along each side of a pixel. Pictures of a moving camera are not
+// anti-aliased, because the next picture would wait for the tiles in flight.
 static uint32_t samples_of(const Viewer *viewer)
 {
     return viewer->state.smooth && viewer->moved == 0 ? viewer->settings.samples : 1;

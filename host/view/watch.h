@@ -18,8 +18,8 @@ typedef struct {
     uint64_t seen; // hash of the latest signatures
 } Watch;
 
-// Replaces the set of watched files. Known files keep their reported signatures, so no change is
-// lost.
+// Replaces the set of watched files. A file that was watched before keeps its accepted signature,
+// so no change is lost.
 bool watch_set(Watch *watch, const char *const *paths, size_t count, Error *error);
 
 // Checks the files. Returns true if they have changed and then stayed the same between two checks,

@@ -108,7 +108,8 @@ void shader_set_vector(GLuint program, const char *name, const float v[3])
     glUniform3fv(glGetUniformLocation(program, name), 1, v);
 }
 
-// Fills a buffer with cube corners. Bit n of a corner's number is its coordinate along axis n.
+// Fills a buffer with cube corners. Bit n of a corner's number selects its coordinate along axis n:
+// 1 if the bit is set, and otherwise `low`.
 static void fill_cube(const Drawing *drawing, const unsigned char *corners, int count, float low)
 {
     float vertices[CUBE_FACE_VERTICES][3];
