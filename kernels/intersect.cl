@@ -71,25 +71,20 @@ static inline Mask meet_spheres(const Tracer *tracer, const Ray *ray, Hit *hit)
         return 0;
     if (CLRT_SPHERES && tracer->frame->sphere_count != 0)
         intersect_spheres(tracer, ray, hit);
-    const Mask searching = is_searchable(ray);
-    return ends_at_any_hit(ray->kind) ? searching && hit->id == NOTHING : searching;
+    return is_searchable(ray);
 }
 
-// Finds the hits of `count` packets, at most PACKETS, before the distances in `hits`.
-static inline void hits_before(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
-{
-    Mask searching[PACKETS];
-    for (uint i = 0; i < count; i++)
-        searching[i] = meet_spheres(tracer, &rays[i], &hits[i]);
-    if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
-        intersect_triangles(tracer, rays, searching, count, hits);
-}
-
+// Finds the hits of `count` packets, at most PACKETS. blocking_hits repeats the loop: with a shared
+// one, PoCL 6.0 aborts when it compiles some fp64 kernels (LLVM 19: "did not reach a fixpoint").
 static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
-    for (uint i = 0; i < count; i++)
+    Mask searching[PACKETS];
+    for (uint i = 0; i < count; i++) {
         hits[i] = (Hit){INFINITY, NOTHING, NOTHING};
-    hits_before(tracer, rays, count, hits);
+        searching[i] = meet_spheres(tracer, &rays[i], &hits[i]);
+    }
+    if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
+        intersect_triangles(tracer, rays, searching, count, hits);
 }
 
 // Finds for each shadow ray whether a primitive is between the shaded point and the light. If
@@ -97,9 +92,13 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
 // is within rounding of a primitive, this primitive does not block the ray.
 static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
-    for (uint i = 0; i < count; i++)
+    Mask searching[PACKETS];
+    for (uint i = 0; i < count; i++) {
         hits[i] = (Hit){1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
-    hits_before(tracer, rays, count, hits);
+        searching[i] = meet_spheres(tracer, &rays[i], &hits[i]) && hits[i].id == NOTHING;
+    }
+    if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
+        intersect_triangles(tracer, rays, searching, count, hits);
 }
 
 static inline Hit nearest_hit(const Tracer *tracer, const Ray *ray)
