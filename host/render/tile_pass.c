@@ -66,8 +66,8 @@ static uint64_t most_pixels(const Renderer *renderer)
 static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
     const Device *device = renderer->kernel->device;
-    HostPool *pool =
-        device->is_cpu ? NULL : device->pool; // PoCL 6.0 has aborted with mapped buffers
+    // PoCL 6.0 has aborted with mapped buffers.
+    HostPool *pool = device->is_cpu ? NULL : device->pool;
     const size_t count = most_pixels(renderer);
     cl_int status;
     slot->queue = clCreateCommandQueue(device->context, device->id, 0, &status);

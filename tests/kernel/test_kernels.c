@@ -259,6 +259,21 @@ TEST(powers_are_right_in_fp64)
     }
 }
 
+TEST(freed_memory_for_results_goes_to_the_next_user_of_this_size)
+{
+    Error error = {0};
+    HostMemory first, other, again;
+    assert_true(host_memory_make(&first, probe.device.pool, 5000, &error));
+    const void *data = first.data;
+    host_memory_free(&first);
+    assert_true(host_memory_make(&other, probe.device.pool, 6000, &error));
+    assert_true(host_memory_make(&again, probe.device.pool, 5000, &error));
+    assert_ptr_equal(again.data, data);
+    assert_ptr_not_equal(other.data, data);
+    host_memory_free(&other);
+    host_memory_free(&again);
+}
+
 SET_UP(open_probes)
 {
     return probe_begin(&probe, PROBES, PRECISION_FP32) +
