@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rounds exactly the numbers that host/accel/flat.c, flat_looks.c and triangles.c round. Normals of
-// files are floats already. Missing normals are replaced by the face's normal before points are
-// rounded.
+// Rounds exactly the numbers that host/accel/flat.c and triangles.c round. Normals of files are
+// floats already. Missing normals are replaced by the face's normal before points are rounded.
 #include "oracle/stored.h"
 
 #include <stdlib.h>
