@@ -44,7 +44,9 @@ static bool load(Pipeline *pipeline, Error *error)
         return false;
     if (request->view < 1 || request->view > pipeline->scene.viewpoints.count)
         return error_set(error, "%s has no view %u", request->scene_path, request->view);
-    return session_take(pipeline->session, &pipeline->scene, error);
+    return request->has_last_tree ||
+           session_take(pipeline->session,
+                        request->scene != NULL ? request->scene : &pipeline->scene, error);
 }
 
 static RenderSettings settings_of(const PictureRequest *request, const Scene *scene)
@@ -176,8 +178,9 @@ bool picture_render(Framebuffer *framebuffer, const PictureRequest *request, Err
         memcpy(request->tallies, pipeline.result.progress.tallies,
                sizeof pipeline.result.progress.tallies);
     session_save(&session);
-    session_scene_free(&session.scene);
-    if (request->scene == NULL)
+    if (request->scene == NULL) {
+        session_scene_free(&session.scene);
         scene_free(&pipeline.scene);
+    }
     return ok;
 }

@@ -17,6 +17,7 @@ typedef bool PictureDraw(void *context, Renderer *renderer, const CameraData *ca
 typedef struct {
     const char *scene_path;
     const Scene *scene;     // replaces the file's scene; borrowed; NULL: the file's
+    bool has_last_tree;     // keeps the tree of the last request, which had the same `scene`
     uint32_t view;          // from 1
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // per pixel and axis

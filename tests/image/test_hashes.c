@@ -52,11 +52,27 @@ static void scene_path(char path[COURSE_PATH_SIZE], const char *scene)
                  strchr(scene, '/') == NULL ? "scenes/" : "", file);
 }
 
+static Scene scene; // of the last picture
+
+// Sets the request's scene, which all views of a scene share.
+static void set_scene(PictureRequest *request, const Record *record)
+{
+    static char name[sizeof record->scene];
+    request->scene = &scene;
+    request->has_last_tree = strcmp(name, record->scene) == 0;
+    if (request->has_last_tree)
+        return;
+    scene_free(&scene);
+    scene = rendered_scene(request->scene_path);
+    strcpy(name, record->scene);
+}
+
 static void picture_hash(const Record *record, char hash[FRAMEBUFFER_HASH_SIZE])
 {
     char path[COURSE_PATH_SIZE];
     scene_path(path, record->scene);
     PictureRequest request = picture_request(path, is_refined ? 1 : record->number);
+    set_scene(&request, record);
     request.width = request.height = record->size;
     request.extra_options = getenv("CLRT_TEST_OPTIONS");
     request.threads = 2;
