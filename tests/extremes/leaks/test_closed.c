@@ -21,20 +21,27 @@ typedef struct {
 } ClosedTest;
 
 // Traces rays that start around shape_center(exponent), the center of the closed scene, and reports
-// rays that miss. Frees the scene.
-static void judge_closed(RayBatch *batch, Scene scene, int exponent, const ClosedTest *test)
+// rays that miss.
+static void judge_aims(Rig *rig, int exponent, const ClosedTest *test)
 {
     Random random = {test->seed + (uint64_t)exponent};
     FREED_BY(rays_free) const Rays rays = rays_make(test->rays);
-    FREED_BY(rig_close) Rig rig = rig_open(test->test, batch, scene);
-    const Room room = room_inside(&rig.stage, shape_center(exponent), 1);
+    const Room room = room_inside(&rig->stage, shape_center(exponent), 1);
+    rig->test = test->test;
     for (Aim aim = 0; aim < AIM_KINDS; aim++) {
         if ((test->aims & AIM(aim)) == 0)
             continue;
-        rays_aim(rays, aim, &room, &rig.stage.triangles, &random);
-        outcome_report(rig_judge(&rig, rays, judge_misses, NULL), "%sk=%d aim=%s", test->label,
+        rays_aim(rays, aim, &room, &rig->stage.triangles, &random);
+        outcome_report(rig_judge(rig, rays, judge_misses, NULL), "%sk=%d aim=%s", test->label,
                        exponent, aim_names[aim]);
     }
+}
+
+// Judges the scene by one test, and frees the scene.
+static void judge_closed(RayBatch *batch, Scene scene, int exponent, const ClosedTest *test)
+{
+    FREED_BY(rig_close) Rig rig = rig_open(test->test, batch, scene);
+    judge_aims(&rig, exponent, test);
 }
 
 // Returns a sphere at shape_center(exponent). It has 200 rings. From exponent 20 on it has 20
@@ -44,18 +51,26 @@ static Scene closed_sphere(int exponent)
     return shape_scene(shape_sphere(exponent < 20 ? 200 : 20, shape_center(exponent)));
 }
 
+// Three tests share the sphere, because its trees take longer than the rays.
+static void judge_sphere(RayBatch *batch, int exponent)
+{
+    const unsigned vertices = AIM(AIM_VERTICES) | AIM(AIM_VERTICES_EXACTLY);
+    const ClosedTest tests[] = {
+        {"T-01", "", 1000, AIM(AIM_RANDOM), tier_size(10000, 1000000)},
+        {"T-02", "", 2000, AIM(AIM_EDGES), tier_size(10000, 100000)},
+        {"T-03", "", 3000, vertices, tier_size(10000, 100000)},
+    };
+    FREED_BY(rig_close) Rig rig = rig_open(tests[0].test, batch, closed_sphere(exponent));
+    for (size_t i = 0; i < COUNT(tests); i++)
+        judge_aims(&rig, exponent, &tests[i]);
+}
+
 // At tier 0, judges spheres of exponents 0, 10 and 18. At higher tiers, judges exponents 0 to 23.
-static void judge_spheres(RayBatch *batch, const ClosedTest *test)
+EXTREME(no_ray_leaves_a_closed_sphere_t01_t02_t03)
 {
     for (int exponent = 0; exponent < 24; exponent++)
         if (tier() > 0 || exponent == 0 || exponent == 10 || exponent == 18)
-            judge_closed(batch, closed_sphere(exponent), exponent, test);
-}
-
-EXTREME(random_rays_never_leave_a_closed_sphere_t01)
-{
-    const ClosedTest test = {"T-01", "", 1000, AIM(AIM_RANDOM), tier_size(10000, 1000000)};
-    judge_spheres(*state, &test);
+            judge_sphere(*state, exponent);
 }
 
 EXTREME(a_hundred_million_random_rays_never_leave_a_closed_sphere_t01)
@@ -73,19 +88,6 @@ EXTREME(a_hundred_million_random_rays_never_leave_a_closed_sphere_t01)
         outcome_add(&sum, rig_judge(&rig, rays, judge_misses, NULL));
     }
     outcome_report(sum, "soak k=10");
-}
-
-EXTREME(rays_at_edges_never_leave_a_closed_sphere_t02)
-{
-    const ClosedTest test = {"T-02", "", 2000, AIM(AIM_EDGES), tier_size(10000, 100000)};
-    judge_spheres(*state, &test);
-}
-
-EXTREME(rays_at_vertices_never_leave_a_closed_sphere_t03)
-{
-    const unsigned aims = AIM(AIM_VERTICES) | AIM(AIM_VERTICES_EXACTLY);
-    const ClosedTest test = {"T-03", "", 3000, aims, tier_size(10000, 100000)};
-    judge_spheres(*state, &test);
 }
 
 EXTREME(no_ray_leaves_a_closed_bumpy_sphere_t04)
