@@ -3,6 +3,7 @@
 """Tests tools/trade with a small picture: the fronts, the figures and the page. Usage:
 test_trade.py FOLDER"""
 
+import argparse
 import csv
 import json
 import pathlib
@@ -11,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SCENE = ROOT / "scenes" / "reflections.scn"
@@ -93,6 +95,31 @@ class Uniform(unittest.TestCase):
 
     def test_none_is_returned_if_no_side_holds_the_error(self):
         self.assertIsNone(self.side(1 / 65, {1: 1}))
+
+
+class ProcessorTime(unittest.TestCase):
+    def test_enough_frames_are_drawn_and_the_start_is_subtracted(self):
+        for seconds in (0.001, 0.1, 9):
+            drawn = []
+
+            def seconds_of(frames):
+                drawn.append(frames)
+                return 3 + seconds * frames
+
+            self.assertAlmostEqual(measure.frame_seconds(seconds_of), seconds)
+            self.assertGreaterEqual(seconds * (drawn[-1] - 1), measure.PROCESSOR_SECONDS)
+            self.assertLessEqual(len(drawn), 4)
+
+    def test_frames_without_measurable_time_end_the_search(self):
+        self.assertEqual(measure.frame_seconds(lambda frames: 1), 0)
+
+    def test_a_row_gets_the_processor_time_of_a_frame(self):
+        options = argparse.Namespace(clrt_words=["-s", "64x48"], processor_time=True)
+        row = {"kind": "uniform", "words": ["--aa=8"], "times": []}
+        with tempfile.TemporaryDirectory() as folder, \
+                unittest.mock.patch.object(measure, "PROCESSOR_SECONDS", 0.05):
+            measure.time_row(row, SCENE, options, pathlib.Path(folder))
+        self.assertTrue(0 < row["times"][0] < 1)
 
 
 class Labels(unittest.TestCase):

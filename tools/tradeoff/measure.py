@@ -4,6 +4,7 @@
 import json
 import pathlib
 import re
+import resource
 import statistics
 import subprocess
 import sys
@@ -14,6 +15,11 @@ from tradeoff import front, goals, grid, uniform
 # The number of pictures that a process draws, one fewer for time goals. The first picture includes
 # late initialization, so only the others are timed.
 FRAMES = 3
+
+# With --processor-time, frames after the first take at least this number of seconds, or are the most
+# that clrt draws.
+PROCESSOR_SECONDS = 0.5
+MOST_FRAMES = 1000
 
 
 def names_of(paths):
@@ -92,12 +98,42 @@ def holding_settings(rows, scene, options, folder):
     return grid.plain(sorted(sides - known - {None}))
 
 
-def time_row(row, scene, options, folder):
-    frames = FRAMES - 1 if row["kind"] == "time" else FRAMES
+def processor_seconds():
+    """Returns the processor time of all processes that this program has started."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def time_frames(row, frames, scene, options, folder):
+    """Draws a row's picture several times in one process. Returns the tracing times of the frames
+    and the processor time of the process."""
+    before = processor_seconds()
     done = run_clrt([scene, "-v", "--repeat", frames, "-o", folder / "unused.pfm",
                      *options.clrt_words, *row["words"]], may_miss=row["kind"] == "error")
     traced = [float(text) for text in re.findall(r"traced in ([0-9.]+) s", done.stderr)]
-    row["times"].append(min(traced[1:]))
+    return traced, processor_seconds() - before
+
+
+def frame_seconds(seconds_of):
+    """Returns the processor time of a frame. seconds_of(N) is the processor time of a process that
+    draws N frames."""
+    start, frames = seconds_of(1), 2
+    while True:
+        seconds = seconds_of(frames) - start
+        if seconds >= PROCESSOR_SECONDS or frames == MOST_FRAMES:
+            return seconds / (frames - 1)
+        growth = max(2, 1.2 * PROCESSOR_SECONDS / max(seconds, 0.01))
+        frames = min(1 + round(growth * (frames - 1)), MOST_FRAMES)
+
+
+def time_row(row, scene, options, folder):
+    if options.processor_time:
+        seconds = frame_seconds(
+            lambda frames: time_frames(row, frames, scene, options, folder)[1])
+    else:
+        frames = FRAMES - 1 if row["kind"] == "time" else FRAMES
+        seconds = min(time_frames(row, frames, scene, options, folder)[0][1:])
+    row["times"].append(seconds)
 
 
 def finish_row(row):
@@ -185,6 +221,7 @@ def measure_scene(scene, name, options, folder):
         finish_row(row)
     front.mark(rows)
     return {"scene": name, "path": str(scene), "rows": rows, "goals": goals.judge(rows),
+            "clock": "processor time" if options.processor_time else "time",
             "reference": report["reference"], "device": report["device"],
             "version": report["version"], "settings": report["settings"],
             "triangles": report["scene"]["triangles"]}

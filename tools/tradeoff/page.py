@@ -31,6 +31,14 @@ figure img { width: 100%; box-sizing: border-box; border: 1px solid #e5e7eb;
 figcaption, .note { font-size: 0.85rem; color: #4b5563; }
 """
 
+# How a round measures the time of a setting, by clock.
+ROUNDS = {
+    "time": "In each round, the tracing time of the faster of two frames counts (time goals: of "
+            "one), after an uncounted frame.",
+    "processor time": "Times are the processor time of a frame, over all threads. In each round, "
+                      "the frames after the first count.",
+}
+
 ERRORS = [0.02, 0.01, 0.005, 0.002, 0.001]
 
 COLUMNS = [
@@ -160,9 +168,8 @@ def method(scenes):
         f"<p>clrt {html.escape(scenes[0]['version'])} on {html.escape(device['name'])} "
         f"({html.escape(device['driver'])}); {html.escape(machine['cpu'])}, {machine['threads']} "
         f"threads; {packages}; {datetime.date.today()}.</p>"
-        f'<p class="note">Times are medians of {runs} rounds in which the settings alternate. In '
-        "each round, the tracing time of the faster of two frames counts (time goals: of one), "
-        "after an uncounted frame. RMSE covers the stored values of all three colors. SSIM and "
+        f'<p class="note">Times are medians of {runs} rounds in which the settings alternate. '
+        f"{ROUNDS[scenes[0]['clock']]} RMSE covers the stored values of all three colors. SSIM and "
         "FLIP (mean, 67 pixels per degree) estimate the visible difference. A factor below 1 means "
         f"faster than the base ({html.escape(grid.BASE)}, the course's setting).</p>")
 

@@ -69,7 +69,7 @@ def style(axes, scene):
         axis.set_minor_locator(LogLocator(subs=()))
     axes.grid(color="#e5e7eb", linewidth=0.6)
     axes.set_axisbelow(True)
-    axes.set_xlabel("time of a frame, ms")
+    axes.set_xlabel(f"{scene['clock']} of a frame, ms")
     axes.set_ylabel("RMSE, % of full brightness")
     axes.set_title(scene["scene"])
     axes.margins(0.12)
