@@ -6,8 +6,10 @@ test_trade.py FOLDER"""
 import argparse
 import csv
 import json
+import math
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -18,6 +20,14 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SCENE = ROOT / "scenes" / "reflections.scn"
 sys.path.insert(0, str(ROOT / "tools"))
 from tradeoff import front, goals, labels, measure, uniform  # noqa: E402
+
+
+def read_pfm(path):
+    """Returns the values of a PFM file in order."""
+    with open(path, "rb") as file:
+        size = 3 * math.prod(int(word) for word in (file.readline(), file.readline())[1].split())
+        file.readline()
+        return struct.unpack(f"<{size}f", file.read())
 
 
 def row(milliseconds, rmse):
@@ -42,27 +52,37 @@ class Front(unittest.TestCase):
         self.assertIsNone(front.time_at(rows, 0.5))
 
 
-def setting(kind, milliseconds, rmse, samples, goal=None):
-    return {"kind": kind, "setting": f"{kind} {samples}", "milliseconds": milliseconds,
+def setting(kind, milliseconds, rmse, samples, goal=None, name=None):
+    return {"kind": kind, "setting": name or f"{kind} {samples}", "milliseconds": milliseconds,
             "rmse": rmse, "samples": samples, "goal": goal, "estimate": rmse, "front": False}
 
 
 class Goals(unittest.TestCase):
-    ROWS = [setting("uniform", 4, 0.05, 100), setting("uniform", 20, 0.009, 900),
+    ROWS = [setting("uniform", 4, 0.05, 100, name="aa=1"),
+            setting("uniform", 11, 0.02, 400, name="aa=2"),
+            setting("uniform", 20, 0.009, 900, name="aa=3"),
+            setting("uniform", 35, 0.006, 1600, name="aa=4"),
             setting("adaptive", 5, 0.008, 200), setting("error", 10, 0.0105, 300, 0.01),
             setting("error", 10, 0.0012, 300, 0.001), setting("time", 6, 0.016, 300, 0.008)]
 
     def test_a_goal_is_compared_with_the_fastest_fixed_and_uniform_settings_that_hold_it(self):
         goal = goals.judge(self.ROWS)["errors"][0]
         self.assertEqual((goal["fixed"]["setting"], goal["fixed"]["times"]), ("adaptive 200", 2))
-        self.assertEqual(goal["uniform"]["setting"], "uniform 900")
+        self.assertEqual(goal["uniform"]["setting"], "aa=3")
         self.assertEqual(goal["uniform"]["times"], 0.5)
         self.assertEqual(goal["uniform"]["samples_ratio"], 300 / 900)
+
+    def test_a_user_who_doubles_n_pays_for_every_trial(self):
+        doubling = goals.judge(self.ROWS)["errors"][0]["doubling"]
+        self.assertEqual(doubling["setting"], "aa=1, aa=2, aa=4")
+        self.assertEqual((doubling["milliseconds"], doubling["samples"]), (50, 2100))
+        self.assertEqual(doubling["times"], 10 / 50)
 
     def test_a_goal_that_nothing_fixed_holds_has_no_rival(self):
         goal = goals.judge(self.ROWS)["errors"][1]
         self.assertIsNone(goal["fixed"])
         self.assertIsNone(goal["uniform"])
+        self.assertIsNone(goal["doubling"])
 
     def test_a_time_is_compared_with_the_smallest_error_at_its_speed(self):
         goal = goals.judge(self.ROWS)["times"][0]
@@ -92,6 +112,10 @@ class Uniform(unittest.TestCase):
 
     def test_the_fewest_samples_are_found_without_earlier_trials(self):
         self.assertEqual(self.side(0.1, {}), 10)
+
+    def test_doubling_ends_at_the_next_power_of_two(self):
+        self.assertEqual([uniform.next_power(side) for side in (1, 2, 3, 4, 5, 9)],
+                         [1, 2, 4, 4, 8, 16])
 
     def test_none_is_returned_if_no_side_holds_the_error(self):
         self.assertIsNone(self.side(1 / 65, {1: 1}))
@@ -180,6 +204,26 @@ class Trade(unittest.TestCase):
                 self.assertEqual(len(rows), len(self.rows))
                 pathlib.Path(folder, "reflections", "2.row").unlink()
 
+    def squares_of(self, name):
+        """Returns the squared errors of a setting's pixels."""
+        pictures = [read_pfm(self.folder / "reflections" / file)
+                    for file in ("reference.pfm", self.rows[name]["picture"])]
+        squares = [(a - b) ** 2 for a, b in zip(*pictures)]
+        return [sum(squares[i:i + 3]) / 3 for i in range(0, len(squares), 3)]
+
+    def test_the_oracle_is_never_worse_than_a_uniform_setting(self):
+        if "oracle" not in self.figures:
+            self.skipTest("numpy is missing")
+        points, rows = self.figures["oracle"], [self.rows[f"aa={side}"] for side in (1, 2, 3, 4)]
+        for uniform_row in rows:
+            best = front.time_at(points, 1.001 * uniform_row["rmse"])
+            self.assertLessEqual(best["milliseconds"], 1.01 * uniform_row["milliseconds"])
+        least = [min(squares) for squares in zip(*(self.squares_of(row["setting"]) for row in rows))]
+        self.assertAlmostEqual(points[-1]["rmse"], (sum(least) / len(least)) ** 0.5, delta=1e-5)
+        for goal in self.figures["goals"]["errors"]:
+            best = front.time_at(points, goal["goal"])
+            self.assertEqual(goal["oracle_times"], goal["milliseconds"] / best["milliseconds"])
+
     def test_every_setting_is_timed_in_every_round(self):
         for row in self.rows.values():
             self.assertEqual(len(row["times"]), 2)
@@ -196,7 +240,7 @@ class Trade(unittest.TestCase):
     def test_the_page_stands_alone_and_has_every_figure(self):
         page = self.folder / "trade.html"
         if not page.exists():
-            self.assertIn("tools/trade: no page, no SSIM and no FLIP: ", self.said)
+            self.assertIn("tools/trade: no page, no SSIM, no FLIP and no oracle: ", self.said)
             print(f"skipped: {self.said.strip().splitlines()[-1]}", file=sys.stderr)
             return
         text = page.read_text(encoding="utf-8")
@@ -207,6 +251,8 @@ class Trade(unittest.TestCase):
             self.assertIn(f"{100 * row['rmse']:.4f}", text)
         for goal in self.figures["goals"]["errors"]:
             self.assertIn(f"<td>{goal['ratio']:.2f} E", text)
+            self.assertIn(f"<td>{goal['oracle_times']:.2f} x time", text)
+        self.assertIn("oracle: the best N x N in each pixel", text)
         self.assertGreater(self.rows["aa=4"]["ssim"], self.rows["aa=1"]["ssim"])
         self.assertLess(self.rows["aa=4"]["flip"], self.rows["aa=1"]["flip"])
         self.assertTrue(all(0 <= row["flip"] < 0.2 < row["ssim"] <= 1

@@ -20,12 +20,17 @@ def beside(rival):
             f"of {html.escape(rival['setting'])}, {rival['milliseconds']:.1f} ms")
 
 
+def oracle_times(goal):
+    return f"{goal['oracle_times']:.2f} x time" if "oracle_times" in goal else "-"
+
+
 def error_row(goal):
     verdict = "" if goal["held"] else " (missed)"
     return [f"{100 * goal['goal']:g} %", f"{100 * goal['rmse']:.4f} %",
             f"{goal['ratio']:.2f} E{verdict}", f"{100 * goal['estimate']:.4f} %",
             f"{goal['milliseconds']:.1f}", "yes" if goal["front"] else "no",
-            beside(goal["fixed"]), beside(goal["uniform"])]
+            beside(goal["fixed"]), beside(goal["uniform"]), beside(goal["doubling"]),
+            oracle_times(goal)]
 
 
 def time_row(goal):
@@ -38,7 +43,8 @@ def time_row(goal):
 
 
 ERROR_HEAD = ["goal E", "true RMSE", "in units of E", "estimated", "ms", "on the front",
-              "compared with the best fixed setting", "compared with the best uniform setting"]
+              "compared with the best fixed setting", "compared with the best uniform setting",
+              "compared with doubling N", "compared with the oracle"]
 TIME_HEAD = ["goal", "time", "true RMSE", "estimated", "on the front",
              "compared with the best fixed setting that takes no longer"]
 NOTE = ('<p class="note">The estimate includes the largest possible effect of rays beyond the '

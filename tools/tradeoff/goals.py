@@ -1,33 +1,54 @@
 # SPDX-License-Identifier: MIT
 """Judges whether clrt meets goals, and at which cost. Compares each error goal with the fastest
-fixed setting that meets it, and with the fastest setting of N x N samples per pixel."""
+fixed setting that meets it, with the fastest setting of N x N samples per pixel, and with a user
+who doubles N until a picture meets the goal."""
 
-from tradeoff import front
+from tradeoff import front, uniform
 
 # Errors up to this multiple of the goal meet the goal, as in tests/goals/summary.py.
 MARGIN = 1.1
 
 
-def rival(row, rows):
-    """Returns the fastest of rows that meets the row's goal, with the row's relative cost, or
-    None."""
-    best = front.time_at(rows, row["goal"])
-    if best is None:
+def rival(row, trials):
+    """Returns the cost of all trials, the last of which meets the row's goal, with the row's
+    relative cost. Without trials, returns None."""
+    if not trials:
         return None
-    return {"setting": best["setting"], "milliseconds": best["milliseconds"],
-            "samples": best["samples"], "rmse": best["rmse"],
-            "times": row["milliseconds"] / best["milliseconds"],
-            "samples_ratio": row["samples"] / best["samples"]}
+    milliseconds = sum(trial["milliseconds"] for trial in trials)
+    samples = sum(trial["samples"] for trial in trials)
+    return {"setting": ", ".join(trial["setting"] for trial in trials),
+            "milliseconds": milliseconds, "samples": samples, "rmse": trials[-1]["rmse"],
+            "times": row["milliseconds"] / milliseconds,
+            "samples_ratio": row["samples"] / samples}
+
+
+def fastest(row, rows):
+    best = front.time_at(rows, row["goal"])
+    return [best] if best else []
+
+
+def doubling(row, rows):
+    """Returns the uniform settings 1 x 1, 2 x 2, 4 x 4 and so on, up to the first that meets the
+    row's goal. If none of rows is this setting, returns nothing."""
+    by_side = {uniform.side_of(other): other for other in rows}
+    trials, side = [], 1
+    while side in by_side:
+        trials.append(by_side[side])
+        if trials[-1]["rmse"] <= row["goal"]:
+            return trials
+        side *= 2
+    return []
 
 
 def judge_error(row, rows):
     fixed = [other for other in rows if other["goal"] is None]
-    uniform = [other for other in fixed if other["kind"] == "uniform"]
+    plain = [other for other in fixed if other["kind"] == "uniform"]
     return {"setting": row["setting"], "goal": row["goal"], "rmse": row["rmse"],
             "ratio": row["rmse"] / row["goal"], "held": row["rmse"] <= MARGIN * row["goal"],
             "estimate": row["estimate"], "milliseconds": row["milliseconds"],
             "samples": row["samples"], "front": row["front"],
-            "fixed": rival(row, fixed), "uniform": rival(row, uniform)}
+            "fixed": rival(row, fastest(row, fixed)), "uniform": rival(row, fastest(row, plain)),
+            "doubling": rival(row, doubling(row, plain))}
 
 
 def judge_time(row, rows):

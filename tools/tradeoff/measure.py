@@ -84,9 +84,9 @@ def first_row(place, setting, scene, options, folder):
 
 
 def holding_settings(rows, scene, options, folder):
-    """Returns the uniform settings that meet the error goals and that rows do not contain."""
-    tried = {int(row["setting"][len("aa="):]): row["rmse"] for row in rows
-             if row["kind"] == "uniform"}
+    """Returns uniform settings that rows do not contain: the fewest samples that meet each error
+    goal, and the last trial of a user who doubles N."""
+    tried = {uniform.side_of(row): row["rmse"] for row in rows if row["kind"] == "uniform"}
     known = set(tried)
 
     def rmse_of(side):
@@ -94,8 +94,9 @@ def holding_settings(rows, scene, options, folder):
         return compare(folder / "unused.pfm", folder / "reference.pfm")["rmse"]
 
     sides = {uniform.side_that_holds(row["goal"], tried, rmse_of) for row in rows
-             if row["kind"] == "error"}
-    return grid.plain(sorted(sides - known - {None}))
+             if row["kind"] == "error"} - {None}
+    sides |= {uniform.next_power(side) for side in sides}
+    return grid.plain(sorted(sides - known))
 
 
 def processor_seconds():

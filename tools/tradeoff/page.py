@@ -169,7 +169,9 @@ def method(scenes):
         f"({html.escape(device['driver'])}); {html.escape(machine['cpu'])}, {machine['threads']} "
         f"threads; {packages}; {datetime.date.today()}.</p>"
         f'<p class="note">Times are medians of {runs} rounds in which the settings alternate. '
-        f"{ROUNDS[scenes[0]['clock']]} RMSE covers the stored values of all three colors. SSIM and "
+        f"{ROUNDS[scenes[0]['clock']]} The oracle knows the error of each pixel in each N x N "
+        "picture and gives each pixel the best N. A pixel costs its share of the time of the "
+        "picture with this N. RMSE covers the stored values of all three colors. SSIM and "
         "FLIP (mean, 67 pixels per degree) estimate the visible difference. A factor below 1 means "
         f"faster than the base ({html.escape(grid.BASE)}, the course's setting).</p>")
 

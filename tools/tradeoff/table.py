@@ -44,7 +44,9 @@ def show_goals(scenes):
             yield (f"{'*' if goal['front'] else ' '} {scene['scene']:14} "
                    f"E {100 * goal['goal']:g} %: RMSE {goal['ratio']:.2f} E in "
                    f"{goal['milliseconds']:.2f} ms; {rival_text(goal['fixed'])} "
-                   f"{rival_text(goal['uniform'])}")
+                   f"{rival_text(goal['uniform'])} {rival_text(goal['doubling'])}"
+                   + (f" {goal['oracle_times']:.2f} x the oracle's time"
+                      if "oracle_times" in goal else ""))
         for goal in scene["goals"]["times"]:
             best = goal["fixed"]
             beside = f"{best['errors']:.2f} x the error of {best['setting']}" if best else "alone"

@@ -6,6 +6,16 @@ of N, and assumes that more samples never increase the error."""
 LARGEST = 64
 
 
+def next_power(side):
+    """Returns the smallest power of 2 that is at least `side`."""
+    return 1 << (side - 1).bit_length()
+
+
+def side_of(row):
+    """Returns N of a uniform setting."""
+    return int(row["setting"][len("aa="):])
+
+
 def side_that_holds(error, tried, rmse_of):
     """Returns the smallest N that meets the error, or None if even LARGEST does not. `tried` maps N
     to its RMSE. Adds values from `rmse_of(N)` to `tried`."""
