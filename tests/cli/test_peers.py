@@ -5,9 +5,10 @@
 import json
 import pathlib
 import re
-import subprocess
 import sys
 import unittest
+
+from skips import ctest_output
 
 CTEST, BUILD = sys.argv[1:3]
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/peers.md"
@@ -60,8 +61,7 @@ class Table(unittest.TestCase):
         self.assertEqual(sorted(set(names)), sorted(names))
 
     def test_every_test_that_is_named_exists(self):
-        command = [CTEST, "--test-dir", BUILD, "--show-only=json-v1"]
-        listed = json.loads(subprocess.run(command, capture_output=True, check=True, text=True).stdout)
+        listed = json.loads(ctest_output(CTEST, BUILD, "--show-only=json-v1"))
         existing = {test["name"] for test in listed["tests"]}
         for row in rows():
             missing = set(re.findall(r"`(\w+)`", row[3])) - existing

@@ -5,10 +5,11 @@
 import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
+
+from skips import ctest_output
 
 CTEST, BUILD = sys.argv[1:3]
 PRESENT = "bash", "dirname", "env", "id", "python3", "readlink"
@@ -16,16 +17,19 @@ PRESENT = "bash", "dirname", "env", "id", "python3", "readlink"
 
 class Skips(unittest.TestCase):
     def run_label(self, label):
-        """Returns ctest's output on a machine with few programs. The log is separate from the build's."""
+        """Returns ctest's output on a machine with few programs."""
         with tempfile.TemporaryDirectory() as folder:
-            pathlib.Path(folder, "CTestTestfile.cmake").write_text(f'subdirs("{BUILD}/tests")\n')
-            programs = pathlib.Path(folder, "bin")
-            programs.mkdir()
             for name in PRESENT:
-                (programs / name).symlink_to(shutil.which(name))
-            command = [CTEST, "--test-dir", folder, "-V", "-C", label, "-L", f"^{label}$"]
-            return subprocess.run(command, env={**os.environ, "PATH": str(programs)}, capture_output=True,
-                                  check=True, text=True).stdout
+                pathlib.Path(folder, name).symlink_to(shutil.which(name))
+            return ctest_output(CTEST, BUILD, "-V", "-C", label, "-L", f"^{label}$",
+                                env={**os.environ, "PATH": folder})
+
+    def test_lists_of_tests_keep_the_log_of_the_build(self):
+        logs = pathlib.Path(BUILD, "Testing/Temporary").glob("LastTest.log*")
+        before = {path: path.read_bytes() for path in logs}
+        ctest_output(CTEST, BUILD, "--show-only")
+        for path, text in before.items():
+            self.assertTrue(path.read_bytes().startswith(text), path)
 
     def test_tests_by_label_are_skipped_with_their_reasons(self):
         root = os.geteuid() == 0
