@@ -49,6 +49,8 @@ class Inputs(Work):
     def run_command(self, command, scene, **more):
         """Fails if clrt crashes or corrupts memory."""
         done = self.run_clrt(*line_of(command, scene), **more)
+        if b"LeakSanitizer has encountered a fatal error" in done.stderr:
+            self.skipTest("LeakSanitizer crashed, as it rarely does while threads end")
         self.assertIn(done.returncode, (0, 3), (command, done.stderr))
         self.assertNotIn(b"Sanitizer", done.stderr, command)
         return done
