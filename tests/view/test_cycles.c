@@ -12,7 +12,7 @@
 #include <string.h>
 
 #ifdef __SANITIZE_ADDRESS__
-#define CYCLES 100
+#define CYCLES 200
 #else
 #define CYCLES 60 // enough to detect growth
 #endif
