@@ -95,15 +95,22 @@ static inline Corners corners_chosen(Mask first, const Corners *a, const Corners
                      choose3(first, a->c, b->c)};
 }
 
+// Returns whether the ray hits a corner of the triangle exactly.
+static inline Mask edges_meet_at_ray(const Edges *edges)
+{
+    const Mask on_u = edges->u == 0.0f, on_v = edges->v == 0.0f, on_w = edges->w == 0.0f;
+    return (on_u && (on_v || on_w)) || (on_v && on_w);
+}
+
 // Returns the corners in another order. An edge that the ray hits exactly becomes the edge from a
 // to b, with its ends in the host's order. A corner that the ray hits exactly becomes a.
 static inline Corners corners_from_edge(const Corners *s, const Edges *edges, Mask *at_corner)
 {
-    const Mask on_u = edges->u == 0.0f, on_v = edges->v == 0.0f, on_w = edges->w == 0.0f;
+    const Mask on_u = edges->u == 0.0f, on_v = edges->v == 0.0f;
     const Corners on_bc = {s->b, s->c, s->a}, on_ac = {s->a, s->c, s->b}, at_c = {s->c, s->a, s->b};
     const Corners on_v_or_w = corners_chosen(on_v, &on_ac, s);
     const Corners on_any = corners_chosen(on_u, &on_bc, &on_v_or_w);
-    *at_corner = (on_u && (on_v || on_w)) || (on_v && on_w);
+    *at_corner = edges_meet_at_ray(edges);
     return corners_chosen(on_u && on_v, &at_c, &on_any);
 }
 

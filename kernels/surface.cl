@@ -6,8 +6,8 @@
 //
 // New rays start at the point. The side of a triangle's plane on which the point lies decides
 // whether a new ray may stop on the triangle (triangle.inc.cl). No offset is necessary, so contacts
-// and shadows stay in place. The start moves only if, seen along the new ray, rounding has put the
-// point outside its own triangle.
+// and shadows stay in place. The start moves only if, seen along the new ray, the point is a
+// corner of its own triangle, or rounding has put it outside.
 //
 // The shading normal and the face's normal can point to opposite sides of the surface. Two rules
 // then decide which light reaches the surface and which rays leave it. The face's normal always
@@ -276,12 +276,14 @@ static inline Leaving leaving_from(const Tracer *tracer, const Surface *surface,
 }
 
 // Returns whether the ray's line crosses the triangle in the right direction: to the front if
-// to_front is set, otherwise to the back.
+// to_front is set, otherwise to the back. A line through a corner may touch the surface there
+// without crossing it, so the result is then false.
 static inline Mask passes(const Leaving *leaving, Real3 point, Real3 direction)
 {
     const View view = view_of(&leaving->corners, point, direction);
     const Mask from_front = edges_face(&view.edges, &view.shear);
-    return edges_contain(&view.edges) && (leaving->to_front ? !from_front : from_front);
+    const Mask crosses = edges_contain(&view.edges) && !edges_meet_at_ray(&view.edges);
+    return crosses && (leaving->to_front ? !from_front : from_front);
 }
 
 // A ray that almost lies in its triangle's plane can miss the triangle from every start. Such a ray
@@ -298,10 +300,10 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
 }
 
 // Returns the start of a ray near an edge. Rounding may have put the surface point outside its
-// triangle, beyond the neighbor that should stop the ray. While the ray's line misses the triangle,
-// the start moves toward the triangle's middle. The start's distance from the surface point is
-// UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, but at most the middle's distance. If a
-// reflected ray still misses its triangle, the ray is lifted.
+// triangle, beyond the neighbor that should stop the ray. The point may also be a corner. While the
+// ray's line does not pass through the triangle, the start moves toward the triangle's middle. The
+// start's distance from the surface point is UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256,
+// but at most the middle's distance. If a reflected ray still does not pass, the ray is lifted.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
                                      Real sine, Mask near_edge)
 {

@@ -88,6 +88,16 @@ static Vec3 placed(const Mirror *mirror, Vec3 point)
     return vec3_scale(vec3_add(point, offset), mirror->scale);
 }
 
+// Draws a picture from the scene's camera, and counts the escapes.
+static Outcome view_outcome(OpenPicture *open, const Scene *scene, const RenderSettings *render,
+                            Framebuffer *picture)
+{
+    Error error = {0};
+    const CameraData camera = picture_camera(scene, render);
+    require(renderer_draw(&open->renderer, &camera, NULL, picture, &error), &error);
+    return outcome_of("T-45", picture_pixels(picture), count_escapes(picture));
+}
+
 // Draws pictures from random points inside the mirror in random directions, and reports the escapes
 // from all of them. A picture with 256 x 256 pixels has four million reflections.
 static void judge_mirror(const Studio *studio, const Mirror *mirror, Mesh mesh, uint32_t views)
@@ -108,10 +118,7 @@ static void judge_mirror(const Studio *studio, const Mirror *mirror, Mesh mesh, 
         const Vec3 eye = mirror->inside(&random);
         scene.viewpoints.data[0].eye = placed(mirror, eye);
         scene.viewpoints.data[0].look_at = placed(mirror, vec3_add(eye, random_direction(&random)));
-        const CameraData camera = picture_camera(&scene, &settings.render);
-        require(renderer_draw(&open.renderer, &camera, NULL, &picture, &error), &error);
-        outcome_add(&outcome,
-                    outcome_of("T-45", picture_pixels(&picture), count_escapes(&picture)));
+        outcome_add(&outcome, view_outcome(&open, &scene, &settings.render, &picture));
     }
     picture_close(&open);
     outcome.limit = mirror->limit;
@@ -137,6 +144,62 @@ EXTREME(no_ray_escapes_from_a_closed_mirror_t45)
             judge_mirror(*state, &mirror, tube_mesh(kind, &random), tier() == 2 ? 12 : 1);
         }
     }
+}
+
+// A closed mirror: eight triangles at random heights around the origin, and eight that join at
+// (0, 0, -8). Its coordinates are integers.
+static Mesh saddle_mesh(Random *random)
+{
+    static const double rim[8][2] = {{4, 0},  {4, 4},   {0, 4},  {-4, 4},
+                                     {-4, 0}, {-4, -4}, {0, -4}, {4, -4}};
+    Mesh mesh = shape_unfilled(10, 16);
+    shape_set_vertex(&mesh, 8, vec3(0, 0, 0));
+    shape_set_vertex(&mesh, 9, vec3(0, 0, -8));
+    for (uint32_t i = 0; i < 8; i++) {
+        const uint32_t next = (i + 1) % 8;
+        const uint32_t triangles[2][3] = {{8, i, next}, {9, next, i}};
+        const double height = (double)random_below(random, 7) - 3;
+        shape_set_vertex(&mesh, i, vec3(rim[i][0], rim[i][1], height));
+        memcpy(mesh.triangles[2 * i], triangles, sizeof(triangles));
+    }
+    return mesh;
+}
+
+static Vec3 saddle_eye(Random *random)
+{
+    const double x = (double)random_below(random, 33) - 16, y = (double)random_below(random, 33);
+    return vec3(x / 16, (y - 16) / 16, -4);
+}
+
+// Draws pictures of one pixel whose ray hits the vertex at the origin exactly.
+static Outcome saddle_outcome(const Studio *studio, Random *random)
+{
+    OpenPicture open;
+    Error error = {0};
+    const PictureSettings settings = mirror_settings(1);
+    Outcome outcome = {.test = "T-45"};
+    FREED_BY(scene_free) Scene scene = mirror_scene(saddle_mesh(random), FLAT);
+    FREED_BY(framebuffer_free) Framebuffer picture;
+    require(framebuffer_make(&picture, 1, 1, &error), &error);
+    picture_open(&open, studio, &scene, &settings);
+    scene.viewpoints.data[0].look_at = vec3(0, 0, 0);
+    for (int view = 0; view < 60; view++) {
+        scene.viewpoints.data[0].eye = saddle_eye(random);
+        outcome_add(&outcome, view_outcome(&open, &scene, &settings.render, &picture));
+    }
+    picture_close(&open);
+    return outcome;
+}
+
+EXTREME(no_ray_escapes_at_the_vertex_of_a_saddle_t45)
+{
+    Random random = {45};
+    Outcome outcome = {.test = "T-45"};
+    if (tier() == 2) // tier 1 has the same rays
+        return;
+    for (size_t saddle = 0; saddle < tier_size(8, 200); saddle++)
+        outcome_add(&outcome, saddle_outcome(*state, &random));
+    outcome_report(outcome, "mirror=saddle bounces=%d", BOUNCES);
 }
 
 static Vec3 cow_inside(Random *random)
