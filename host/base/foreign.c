@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds and runs clrt-foreign, and limits its time and the size of its output. clrt-foreign limits
-// its memory by itself (host/foreign/limits.c).
+// its memory by itself (host/foreign/process_limits.c).
 #include "base/foreign.h"
 
 #include <dlfcn.h>

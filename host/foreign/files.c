@@ -4,7 +4,7 @@
 // Assimp only gets files in the model's folder or below.
 #include "foreign/files.h"
 
-#include "foreign/limits.h"
+#include "foreign/process_limits.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
 // The program clrt-foreign. `clrt-foreign MODEL` reads a model with Assimp. `clrt-foreign PICTURE
 // FORMAT MODULE` reads a picture with OpenImageIO. Both write records (base/foreign.h) to standard
 // output. Only clrt and its library run this program.
-#include "foreign/limits.h"
 #include "foreign/picture.h"
+#include "foreign/process_limits.h"
 #include "foreign/send.h"
 
 #include <fcntl.h>

@@ -3,7 +3,7 @@
 // values. 8-bit values are converted to float.
 #include "foreign/picture.h"
 
-#include "foreign/limits.h"
+#include "foreign/process_limits.h"
 #include "foreign/send.h"
 #include "image/image_module.h"
 

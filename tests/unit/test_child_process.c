@@ -2,7 +2,7 @@
 // Tests a child process's streams, environment and limits, and that it ends with its parent.
 #include "base/child_process.h"
 
-#include "foreign/limits.h"
+#include "foreign/process_limits.h"
 #include "unit/cmocka_all.h"
 
 #include <pthread.h>

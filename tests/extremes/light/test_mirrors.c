@@ -3,7 +3,7 @@
 #include "image/course.h"
 #include "scene/mesh_load.h"
 #include "support/picture.h"
-#include "support/random.h"
+#include "support/random_points.h"
 #include "support/tubes.h"
 #include "unit/parsed.h"
 

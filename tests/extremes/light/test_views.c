@@ -2,7 +2,7 @@
 // Lights of any number and intensity, cameras of any angle at any place, and vertex normals that
 // are zero or cancel out.
 #include "support/picture.h"
-#include "support/random.h"
+#include "support/random_points.h"
 #include "support/shapes.h"
 #include "unit/parsed.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The scene's size and place, the device's denormals, the order of tiles and of triangles, and the
 // tree must not change a bit of the picture. image/test_identity.c varies kernels and work-groups.
-#include "support/random.h"
+#include "support/random_points.h"
 #include "support/shapes.h"
 #include "support/varied_scene.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures of one pixel, one row, and 3.2 billion bytes, and pictures with many samples per pixel.
-#include "support/random.h"
+#include "support/random_points.h"
 #include "support/varied_scene.h"
 #include "unit/parsed.h"
 

@@ -2,7 +2,7 @@
 // The inside of a closed shape. Only rays that start strictly inside must hit the shape.
 #pragma once
 
-#include "random.h"
+#include "random_points.h"
 #include "stage.h"
 
 // The points that a cube and a ball around one center share, in normalized coordinates.

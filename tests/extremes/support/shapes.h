@@ -3,7 +3,7 @@
 // file. Far from the origin, the rounding deforms the shape, but neighbors keep sharing vertices.
 #pragma once
 
-#include "random.h"
+#include "random_points.h"
 #include "scene/scene.h"
 
 // Returns the nearest float to value. The conversion goes through memory, because gcc 12 removes

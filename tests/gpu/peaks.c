@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Measures how many bytes a device reads in a second, and how many floating-point operations it
-// computes. Usage: gpu_limits LIMITS.cl [DEVICE]. Prints both as JSON.
+// computes. Usage: gpu_peaks PEAKS.cl [DEVICE]. Prints both as JSON.
 #include "base/clock.h"
 #include "base/file.h"
 #include "device/buffer.h"
@@ -24,7 +24,7 @@ typedef struct {
 static void require(bool ok, const char *what, const Error *error)
 {
     if (!ok) {
-        fprintf(stderr, "gpu_limits: %s: %s\n", what, error->text);
+        fprintf(stderr, "gpu_peaks: %s: %s\n", what, error->text);
         exit(1);
     }
 }

@@ -4,7 +4,7 @@
 // The memory for models has a soft limit, which rises with the size of the files read, up to a hard
 // limit. In some formats, nodes can share children, so a short file can describe a vast model. The
 // soft limit stops such files early.
-#include "foreign/limits.h"
+#include "foreign/process_limits.h"
 
 #include "base/processors.h"
 #include "image/stored_image.h"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Tests tools/farm on a cluster whose hosts fail. The file must equal the file of a single machine,
 # byte for byte.
-# Usage: test_farm.py CLRT [TEST...]
+# Usage: test_farm_hosts.py CLRT [TEST...]
 import json
 import os
 import pathlib

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests tools/gpu in its short mode on the CPU. Usage: test_tool.py BUILD_FOLDER
+# Tests tools/gpu in its short mode on the CPU. Usage: test_gpu_tool.py BUILD_FOLDER
 import os
 import pathlib
 import re

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Tests tools/farm on this machine, and with stubs of Slurm's commands.
-# Usage: test_tool.py CLRT
+# Usage: test_farm_local.py CLRT
 import os
 import pathlib
 import re
