@@ -7,6 +7,7 @@
 #include "base/array.h"
 #include "base/limits.h"
 #include "base/number.h"
+#include "scene/material_text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -76,49 +77,11 @@ typedef struct {
     bool is_own;         // the files' colors replace the diffuse color of current.material
 } Writer;
 
-// Writes value with `digits` digits, or with as many more as are necessary to read back the same
-// number.
-static void write_digits(FILE *stream, double value, int digits, bool is_float)
-{
-    char text[32];
-    for (const int most = is_float ? 9 : 17; digits <= most; digits++) {
-        double again = 0;
-        const int length = snprintf(text, sizeof text, "%.*g", digits, value);
-        if (number_parse(text, text + length, &again) != NULL &&
-            (is_float ? (double)(float)again == value : again == value))
-            break;
-    }
-    fprintf(stream, " %s", text);
-}
-
-static void write_number(FILE *stream, double value)
-{
-    write_digits(stream, value, 15, false);
-}
-
-static void write_float(FILE *stream, float value)
-{
-    write_digits(stream, (double)value, 6, true);
-}
-
 static void write_vector(FILE *stream, Vec3 v)
 {
-    write_number(stream, v.x);
-    write_number(stream, v.y);
-    write_number(stream, v.z);
-}
-
-static void write_color(FILE *stream, const char *property, const float color[3])
-{
-    fprintf(stream, " %s", property);
-    for (int channel = 0; channel < 3; channel++)
-        write_float(stream, color[channel]);
-}
-
-static void write_factor(FILE *stream, const char *property, float factor)
-{
-    fprintf(stream, " %s", property);
-    write_float(stream, factor);
+    number_write(stream, v.x);
+    number_write(stream, v.y);
+    number_write(stream, v.z);
 }
 
 static void write_picture(const Writer *writer)
@@ -127,7 +90,7 @@ static void write_picture(const Writer *writer)
     fprintf(writer->stream, "size %u %u\nbackground", scene->width, scene->height);
     write_vector(writer->stream, scene->background);
     fputs("\nambient", writer->stream);
-    write_number(writer->stream, scene->ambient);
+    number_write(writer->stream, scene->ambient);
     fprintf(writer->stream, "\nmax_level %u\n", scene->max_level);
 }
 
@@ -150,9 +113,9 @@ void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream)
     const double width = orthographic ? camera->width : camera->width_degrees;
     if (orthographic)
         fputs(" orthographic", stream);
-    write_number(stream, orthographic ? camera->height : camera->fov_degrees);
+    number_write(stream, orthographic ? camera->height : camera->fov_degrees);
     if (width > 0)
-        write_number(stream, width);
+        number_write(stream, width);
     fputc('\n', stream);
 }
 
@@ -221,22 +184,12 @@ static const char *name_of(const Writer *writer, size_t material)
     return writer->names.list.data[material - COURSE_MATERIALS].name;
 }
 
-// Writes the define statements. Only Blinn-Phong materials use their specular properties.
 static void write_defines(const Writer *writer)
 {
-    FILE *stream = writer->stream;
     for (size_t i = COURSE_MATERIALS; i < writer->scene->materials.count; i++) {
-        const Material *material = &writer->scene->materials.data[i];
-        fprintf(stream, "define \"%s\" %s", name_of(writer, i), shader_names[material->shader]);
-        write_color(stream, "diffuse", material->diffuse);
-        write_factor(stream, "kd", material->kd);
-        if (material->shader == SHADER_BLINN_PHONG) {
-            write_color(stream, "specular", material->specular);
-            write_factor(stream, "ks", material->ks);
-            write_factor(stream, "shininess", material->shininess);
-        }
-        write_factor(stream, "reflectivity", material->reflectivity);
-        fputc('\n', stream);
+        fprintf(writer->stream, "define \"%s\" ", name_of(writer, i));
+        material_write(&writer->scene->materials.data[i], writer->stream);
+        fputc('\n', writer->stream);
     }
 }
 
@@ -246,7 +199,7 @@ static void write_lights(const Writer *writer)
         const Light *light = &writer->scene->lights.data[i];
         fputs(light->is_sun ? "sun" : "light", writer->stream);
         write_vector(writer->stream, light->position);
-        write_number(writer->stream, light->intensity);
+        number_write(writer->stream, light->intensity);
         if (light->color.x < 1 || light->color.y < 1 || light->color.z < 1)
             write_vector(writer->stream, light->color);
         fputc('\n', writer->stream);
@@ -273,7 +226,7 @@ static void write_spheres(Writer *writer)
         select_material(writer, sphere->material, false);
         fputs("sphere", writer->stream);
         write_vector(writer->stream, sphere->center);
-        write_number(writer->stream, sphere->radius);
+        number_write(writer->stream, sphere->radius);
         fputc('\n', writer->stream);
     }
 }

@@ -4,77 +4,16 @@
 #include "scene/statements.h"
 
 #include "base/clock.h"
-#include "base/limits.h"
 #include "base/number.h"
 #include "base/word.h"
 #include "mesh/foreign_stream.h"
 #include "mesh/mesh.h"
+#include "scene/material_text.h"
 
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-// The following functions read material definitions. Missing properties get the course's values for
-// the material's shader.
-
-static const struct {
-    const char *name;
-    size_t offset; // of the floats in Material
-    int count;
-    double most;
-} properties[] = {{"diffuse", offsetof(Material, diffuse), 3, 1},
-                  {"specular", offsetof(Material, specular), 3, 1},
-                  {"kd", offsetof(Material, kd), 1, FACTOR_MOST},
-                  {"ks", offsetof(Material, ks), 1, FACTOR_MOST},
-                  {"shininess", offsetof(Material, shininess), 1, SHININESS_MOST},
-                  {"reflectivity", offsetof(Material, reflectivity), 1, 1}};
-
-#define PROPERTY_COUNT (sizeof properties / sizeof *properties)
-
-static bool unknown_property(Tokens *tokens, Token property)
-{
-    const char *names[PROPERTY_COUNT];
-    char list[128] = "";
-    for (size_t i = 0; i < PROPERTY_COUNT; i++) {
-        names[i] = properties[i].name;
-        strcat(strcat(list, i == 0 ? "" : ", "), names[i]);
-    }
-    const char *nearest = word_nearest(property.text, property.length, names, PROPERTY_COUNT);
-    return nearest == NULL
-               ? tokens_fail(tokens, property, "expected a property of a material (%s)", list)
-               : tokens_fail(tokens, property, "unknown property (did you mean '%s'?)", nearest);
-}
-
-static bool read_property(Tokens *tokens, Token property, Material *material)
-{
-    size_t i = 0;
-    while (i < PROPERTY_COUNT && !token_is(property, properties[i].name))
-        i++;
-    if (i == PROPERTY_COUNT)
-        return unknown_property(tokens, property);
-    float *values = (float *)(void *)((char *)material + properties[i].offset);
-    for (int place = 0; place < properties[i].count; place++) {
-        double value;
-        if (!tokens_number_within(tokens, &value, 0, properties[i].most))
-            return false;
-        values[place] = (float)value;
-    }
-    if (properties[i].offset == offsetof(Material, shininess))
-        material_set_shininess(material, material->shininess);
-    return true;
-}
-
-static bool read_shader(Tokens *tokens, Shader *shader)
-{
-    const Token token = tokens_next(tokens);
-    for (int kind = SHADER_SILHOUETTE; kind <= SHADER_BLINN_PHONG; kind++) {
-        if (token_is(token, shader_names[kind])) {
-            *shader = (Shader)kind;
-            return true;
-        }
-    }
-    return tokens_fail(tokens, token, "expected 'silhouette', 'matte' or 'blinn_phong'");
-}
+// The following functions add materials and find them by name.
 
 static const MaterialName *find_name(const Scene *scene, Token token)
 {
@@ -102,17 +41,9 @@ static bool read_name(const Scene *scene, Tokens *tokens, MaterialName *entry)
 bool materials_define(Scene *scene, Tokens *tokens)
 {
     MaterialName entry = {.material = (uint32_t)scene->materials.count};
-    Shader shader = SHADER_MATTE;
-    if (!read_name(scene, tokens, &entry) || !read_shader(tokens, &shader))
+    Material material;
+    if (!read_name(scene, tokens, &entry) || !material_read(&material, tokens))
         return false;
-    Material material = material_of_shader(shader);
-    for (;;) {
-        const Token property = tokens_next(tokens);
-        if (property.text == NULL)
-            break;
-        if (!read_property(tokens, property, &material))
-            return false;
-    }
     return material_names_add(&scene->material_names, &entry, tokens->error) &&
            array_push(&scene->materials, material, tokens->error);
 }

@@ -14,7 +14,7 @@ def usages():
 
 def properties():
     """Returns the properties of materials."""
-    table = re.search(r"properties\[\] = \{(.*?)\};", (SCENE / "statements.c").read_text(), re.DOTALL)[1]
+    table = re.search(r"properties\[\] = \{(.*?)\};", (SCENE / "material_text.c").read_text(), re.DOTALL)[1]
     return re.findall(r'"(\w+)"', table)
 
 

@@ -218,7 +218,7 @@ TEST(faults_name_line_column_and_the_statement)
                                              "choose another, as 'up 0 0 1': found "
                                              "'camera'" CAMERA},
         {"define jade matte color 0.2 0.7 0.4",
-         "1:19: expected a property of a material (diffuse, specular, kd, ks, shininess, "
+         "1:19: expected a property of a material (diffuse, kd, specular, ks, shininess, "
          "reflectivity): found 'color'" DEFINE},
         {"up 0 1 0", "1:1: no camera follows this 'up': found 'up'" STATEMENT "'up X Y Z'"},
         {"normals smooth 180.5",
