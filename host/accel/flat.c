@@ -326,9 +326,15 @@ float flat_reflectivity(const FlatScene *flat)
     return largest;
 }
 
-SceneTraits traits_general(bool statistics)
+SceneTraits traits_general(SceneTraits needed)
 {
-    return (SceneTraits){true, true, true, true, true, true, statistics};
+    return (SceneTraits){.spheres = true,
+                         .triangles = true,
+                         .bvh = true,
+                         .mirrors = true,
+                         .shaded = true,
+                         .colors = true,
+                         .statistics = needed.statistics};
 }
 
 void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS_SIZE])

@@ -64,9 +64,9 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics);
 // Returns the largest reflectivity of the materials that primitives use.
 float flat_reflectivity(const FlatScene *flat);
 
-// Returns the traits of the program that renders every scene. statistics is the user's choice and
-// does not depend on the scene.
-SceneTraits traits_general(bool statistics);
+// Returns the traits of the general program that renders a scene with the needed traits. General
+// programs render every scene, except that they have only the needed statistics.
+SceneTraits traits_general(SceneTraits needed);
 
 #define TRAITS_OPTIONS_SIZE 160
 

@@ -31,15 +31,16 @@ ExitCode warm_kernels(const Options *options, Session *session, Scene *scene, Er
         return EXIT_SCENE;
     if (!session_await(session, NULL, error))
         return EXIT_DEVICE;
-    const SceneTraits general = traits_general(counts);
+    const SceneForm *form = has_scene ? stage_build(session, options, error) : NULL;
+    if (has_scene && form == NULL)
+        return EXIT_SCENE;
+    const SceneTraits plain = {.statistics = counts};
+    const SceneTraits special = has_scene ? traits_of(&form->flat, counts) : plain;
+    const SceneTraits general = traits_general(special);
     if ((!has_scene || options->renderer.specialize != CLRT_SPECIALIZE_ALWAYS) &&
         !warm_kernel(session, options, &general, "general", error))
         return EXIT_DEVICE;
     if (!has_scene || options->renderer.specialize == CLRT_SPECIALIZE_NEVER)
         return EXIT_DONE;
-    const SceneForm *form = stage_build(session, options, error);
-    if (form == NULL)
-        return EXIT_SCENE;
-    const SceneTraits special = traits_of(&form->flat, counts);
     return warm_kernel(session, options, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
 }

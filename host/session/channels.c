@@ -21,7 +21,7 @@ bool session_draw_channels(Session *session, const SessionPicture *request,
     const bool counts = aov_needs(channels->set, AOV_NEEDS_TESTS);
     const RendererUse paths = {.entry = &paths_entry, .counts = counts, .is_general = true};
     const RendererUse tests = {.entry = &tests_entry, .counts = true, .is_general = true};
-    const SceneTraits traits = traits_general(true);
+    const SceneTraits traits = traits_general((SceneTraits){.statistics = true});
     const SessionScene *scene = &session->scene;
     AovPass pass = {.set = channels->set,
                     .camera = session_camera(session, request, request->settings.samples),

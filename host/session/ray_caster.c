@@ -63,7 +63,7 @@ bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, Error 
     const RendererUse use = {.entry = &entries[query],
                              .choice = query == RAYS_CERTAIN ? &exact : NULL,
                              .is_general = true};
-    const SceneTraits traits = traits_general(false);
+    const SceneTraits traits = traits_general((SceneTraits){0});
     *caster = (RayCaster){0};
     if (query == RAYS_CERTAIN && !certifier_check_device(&session->device, error))
         return false;

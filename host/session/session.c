@@ -62,7 +62,8 @@ static bool leaves_kernels_open(const Session *session)
 
 static bool is_compiled(const Session *session, const KernelEntry *entry, KernelChoice choice)
 {
-    const KernelSpec spec = {.entry = entry, .choice = choice, .traits = traits_general(false)};
+    const SceneTraits general = traits_general((SceneTraits){0});
+    const KernelSpec spec = {.entry = entry, .choice = choice, .traits = general};
     return kernel_set_has(&session->kernels, &spec);
 }
 
@@ -122,7 +123,7 @@ void session_close(Session *session)
 // programs are not measurably faster.
 static bool lacks_features(const SceneTraits *traits)
 {
-    const SceneTraits general = traits_general(traits->statistics);
+    const SceneTraits general = traits_general(*traits);
     SceneTraits colored = *traits;
     colored.colors = general.colors;
     return memcmp(&colored, &general, sizeof general) != 0;
@@ -176,7 +177,7 @@ bool session_renderer(Session *session, const RendererUse *use, const RenderSett
     const KernelSpec special = spec_of(session, use, &traits);
     const bool is_special = !use->is_general && specialization_pays(session, &special, settings);
     if (!is_special)
-        traits = traits_general(use->counts);
+        traits = traits_general(traits);
     *renderer = (Renderer){.kernel = session_kernel(session, use, &traits, error),
                            .scene = &form->buffers,
                            .settings = *settings,

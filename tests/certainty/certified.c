@@ -26,7 +26,7 @@ static bool certify(Certified *certified, const Studio *studio, Error *error)
     const RenderSettings *settings = &certified->settings;
     const KernelSpec spec = {.entry = &certify_entry,
                              .choice = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64},
-                             .traits = traits_general(false)};
+                             .traits = traits_general(traits_of(&certified->stage.flat, false))};
     KernelSet kernels = {.source = {.device = &studio->device,
                                     .cache = shared_cache(),
                                     .kernel_folder = getenv("CLRT_KERNEL_DIR")}};

@@ -21,7 +21,7 @@ static bool probe_open(Probe *probe, const char *path, Precision precision, Erro
     const ProgramSource program = {.device = &probe->device,
                                    .entry = &entry,
                                    .choice = {FAMILY_RAY, NODES_PAIR, 0, precision},
-                                   .traits = traits_general(false)};
+                                   .traits = traits_general((SceneTraits){0})};
     ok = ok && program_build(&probe->program, &program, error);
     file_free(&file);
     return ok;

@@ -44,8 +44,6 @@ void picture_open(OpenPicture *picture, const Studio *studio, const Scene *scene
                   const PictureSettings *settings)
 {
     Error error = {0};
-    const KernelSpec spec = {
-        .entry = &draw_entry, .choice = settings->choice, .traits = traits_general(false)};
     *picture = (OpenPicture){.kernels.source = {.device = &studio->device,
                                                 .cache = shared_cache(),
                                                 .kernel_folder = getenv("CLRT_KERNEL_DIR"),
@@ -53,6 +51,9 @@ void picture_open(OpenPicture *picture, const Studio *studio, const Scene *scene
     stage_make_as(&picture->stage, scene, settings->tree, settings->choice.nodes);
     const bool ok =
         scene_buffers_make(&picture->buffers, &studio->device, &picture->stage.flat, &error);
+    const KernelSpec spec = {.entry = &draw_entry,
+                             .choice = settings->choice,
+                             .traits = traits_general(picture->buffers.traits)};
     picture->renderer =
         (Renderer){.kernel = ok ? kernel_set_get(&picture->kernels, &spec, &error) : NULL,
                    .scene = &picture->buffers,

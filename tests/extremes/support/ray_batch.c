@@ -103,7 +103,7 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
         .extra_options = options,
         .entry = &entry,
         .choice = batch->choice,
-        .traits = traits_general(false),
+        .traits = traits_general((SceneTraits){0}),
         .arithmetic_is_exact = kernel_folder != NULL}; // some folders change it on purpose
     const FirstRun first = {make_kernels, batch};
     require(program_make(&batch->program, &source, &first, &error), &error);
