@@ -23,6 +23,53 @@ static inline void hash_decision(Decisions *decisions, uint word)
     decisions->signature = mixed ^ mixed >> 15;
 }
 
+// A surface along one axis, with the doubts that an UncertainSurface has.
+typedef struct {
+    Real coordinate, doubt;
+    Real face, face_doubt; // of the unit normal on the side opposite to the cube
+} AxisPlace;
+
+// Returns the place of the surface's check (checker.cl). A level triangle has an exact coordinate.
+static inline AxisPlace axis_place(const UncertainSurface *surface, uint axis)
+{
+    const Corners *corners = &surface->corners;
+    const Real a = component(corners->a, axis), b = component(corners->b, axis);
+    const bool is_level = !surface->is_sphere && a == b && b == component(corners->c, axis);
+    return (AxisPlace){is_level ? a : component(surface->end.point, axis),
+                       is_level ? 0.0f : radius_of(&surface->end), component(surface->face, axis),
+                       surface->is_sphere ? surface->normal_doubt : surface->face_doubt};
+}
+
+// Returns whether the cube is certain (B19), and changes *odd if it is odd.
+static inline bool decide_axis(const Cubes *cubes, Real shift, const AxisPlace *at, Real u,
+                               uint *odd)
+{
+    const Real place = cube_place(cubes, shift, at->coordinate), move = place_move(cubes);
+    const Real rounding = 4.0f * (u + OWN_ROUNDOFF) * (fabs(place) + cubes->rate + 1.0f);
+    const Real error = cubes->rate * at->doubt + rounding;
+    const Real low = place + (at->face > CHECK_PARALLEL - at->face_doubt ? -move : move) - error;
+    const Real high = place + (at->face > CHECK_PARALLEL + at->face_doubt ? -move : move) + error;
+    *odd ^= place_is_odd(low) ? 1 : 0;
+    return floor(low) == floor(high);
+}
+
+// Decides which check the surface shows. Returns false if the check is not certain.
+static inline bool decide_check(const Tracer *tracer, const UncertainSurface *surface, Real u,
+                                Decisions *decisions)
+{
+    const Cubes cubes = fetch_cubes(tracer, surface->material);
+    const AxisPlace x = axis_place(surface, 0), y = axis_place(surface, 1);
+    const AxisPlace z = axis_place(surface, 2);
+    uint odd = 0;
+    if (!(cubes.rate > 0.0f))
+        return true;
+    const bool is_certain = decide_axis(&cubes, cubes.shift.x, &x, u, &odd) &&
+                            decide_axis(&cubes, cubes.shift.y, &y, u, &odd) &&
+                            decide_axis(&cubes, cubes.shift.z, &z, u, &odd);
+    hash_decision(decisions, odd);
+    return is_certain;
+}
+
 // A point's relation to a light: turned away, lit, in shadow, or undecided.
 typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightVisibility;
 
@@ -74,6 +121,8 @@ static inline bool decide(const Tracer *tracer, uint2 sample, Real u, Decisions 
         if (nearest.id == NOTHING)
             return true;
         const UncertainSurface surface = uncertain_surface(tracer, &ray, &nearest);
+        if (CLRT_CHECKERS && !decide_check(tracer, &surface, u, decisions))
+            return false;
         const MaterialLanes material = fetch_material(tracer, surface.material);
         Decisions here = {nearest.id, 0, decisions->signature};
         if (material.shader != SHADER_SILHOUETTE && !decide_lights(tracer, &surface, u, &here))

@@ -23,6 +23,9 @@
 #ifndef CLRT_COLORS
 #define CLRT_COLORS 1 // some mesh has vertex colors
 #endif
+#ifndef CLRT_CHECKERS
+#define CLRT_CHECKERS 1 // some material has a checker; general programs have it only then
+#endif
 #ifndef CLRT_STATISTICS
 #define CLRT_STATISTICS 0 // rays and tests are counted
 #endif

@@ -47,7 +47,10 @@ typedef uint64_t ulong;
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG } Shader;
 
-// Color seen = (1 - reflectivity) * clamp(shaded) + reflectivity * reflected.
+// Color seen = (1 - reflectivity) * clamp(shaded) + reflectivity * reflected. With a checker,
+// cubes fill the scene, and checks[0] or checks[1] replaces the diffuse color in even or odd cubes.
+// The cube of a normalized point p is floor(check_rate * p + check_shift) on each axis. The host
+// sets check_rate and check_shift for the device (host/scene/normalize.c).
 typedef struct {
     float diffuse[3];
     float kd;
@@ -57,8 +60,13 @@ typedef struct {
     uint exponent; // the shininess if it is an integer up to 1024, else UINT_MAX
     float shininess;
     float reflectivity;
+    float check_size; // side of a cube in scene units; 0 for no checker
+    float checks[2][3];
+    float check_rate;
+    float check_shift[3];
+    float unused;
 } CLRT_ALIGNED Material;
-CLRT_SAME_SIZE(Material, 48)
+CLRT_SAME_SIZE(Material, 96)
 
 typedef struct {
     float position[3];

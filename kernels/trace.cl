@@ -5,6 +5,7 @@
 #ifndef CLRT_TRACE_CL
 #define CLRT_TRACE_CL
 #include "camera.cl"
+#include "checker.cl"
 #include "shade.cl"
 
 // All Reals from this number on are integers, so adding it to a smaller Real rounds the sum to an
@@ -125,6 +126,8 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
         return;
     path->surface = surface_at(tracer, ray, hit, path->met);
     path->material = fetch_material(tracer, path->surface.material);
+    if (CLRT_CHECKERS)
+        path->material.diffuse = checked_color(tracer, &path->surface, path->material.diffuse);
     if (CLRT_COLORS && any_lane(path->surface.colored))
         path->material.diffuse =
             choose3(path->surface.colored, path->surface.color, path->material.diffuse);

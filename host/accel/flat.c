@@ -185,12 +185,15 @@ static bool allocate(FlatScene *flat, const Scene *scene, Error *error)
     return flat->lights != NULL && flat->materials != NULL && flat->spheres != NULL;
 }
 
-static void flatten_constants(FlatScene *flat, const Scene *scene)
+static void flatten_constants(FlatScene *flat, const Scene *scene,
+                              const Normalization *normalization)
 {
     vec3_store(flat->background, scene->background);
     flat->ambient = (float)scene->ambient;
-    for (uint32_t i = 0; i < flat->material_count; i++)
+    for (uint32_t i = 0; i < flat->material_count; i++) {
         flat->materials[i] = scene->materials.data[i];
+        normalize_checker(&flat->materials[i], normalization);
+    }
 }
 
 static bool make_all(FlatScene *flat, const FlatSource *source, Error *error)
@@ -199,7 +202,7 @@ static bool make_all(FlatScene *flat, const FlatSource *source, Error *error)
     const Normalization *normalization = source->normalization;
     if (!allocate(flat, scene, error))
         return false;
-    flatten_constants(flat, scene);
+    flatten_constants(flat, scene, normalization);
     for (uint32_t i = 0; i < flat->light_count; i++)
         flatten_light(&flat->lights[i], &scene->lights.data[i], normalization);
     for (uint32_t i = 0; i < flat->sphere_count; i++)
@@ -294,6 +297,7 @@ static void add_material(SceneTraits *traits, const Material *material)
 {
     traits->mirrors |= material->reflectivity > 0;
     traits->shaded |= material->shader != SHADER_SILHOUETTE;
+    traits->checkers |= material->check_size > 0;
 }
 
 static uint32_t material_of(const FlatScene *flat, uint32_t triangle)
@@ -334,6 +338,7 @@ SceneTraits traits_general(SceneTraits needed)
                          .mirrors = true,
                          .shaded = true,
                          .colors = true,
+                         .checkers = needed.checkers,
                          .statistics = needed.statistics};
 }
 
@@ -341,7 +346,7 @@ void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS
 {
     snprintf(options, TRAITS_OPTIONS_SIZE,
              "-DCLRT_SPHERES=%d -DCLRT_TRIANGLES=%d -DCLRT_BVH=%d -DCLRT_MIRRORS=%d "
-             "-DCLRT_SHADED=%d -DCLRT_COLORS=%d -DCLRT_STATISTICS=%d",
+             "-DCLRT_SHADED=%d -DCLRT_COLORS=%d -DCLRT_CHECKERS=%d -DCLRT_STATISTICS=%d",
              traits->spheres, traits->triangles, traits->bvh, traits->mirrors, traits->shaded,
-             traits->colors, traits->statistics);
+             traits->colors, traits->checkers, traits->statistics);
 }

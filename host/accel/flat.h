@@ -56,6 +56,7 @@ typedef struct {
     bool mirrors;    // a used material reflects
     bool shaded;     // a used material is more than a silhouette
     bool colors;     // a mesh has colors of vertices
+    bool checkers;   // a used material has a checker
     bool statistics; // the kernels count rays and tests
 } SceneTraits;
 
@@ -65,10 +66,10 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics);
 float flat_reflectivity(const FlatScene *flat);
 
 // Returns the traits of the general program that renders a scene with the needed traits. General
-// programs render every scene, except that they have only the needed statistics.
+// programs render every scene, except that they have only the needed checkers and statistics.
 SceneTraits traits_general(SceneTraits needed);
 
-#define TRAITS_OPTIONS_SIZE 160
+#define TRAITS_OPTIONS_SIZE 192
 
 // Writes the compiler options that set the switches, as a zero-terminated string.
 void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS_SIZE]);

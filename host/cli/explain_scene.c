@@ -49,16 +49,19 @@ static json_t *parts_json(const Session *session, const SceneForm *form, bool co
     json_t *colors = needed.colors
                          ? json_sprintf("%u triangles have colors of vertices", flat->colors_count)
                          : json_string("no mesh shows colors of vertices");
+    json_t *checkers = json_string(needed.checkers ? "a material in use has a checker"
+                                                   : "no material in use has a checker");
     json_t *statistics = json_string(needed.statistics ? "--stats counts rays and tests"
                                                        : "not requested: no --stats");
     return json_pack(
-        "[o, o, o, o, o, o, o]",
+        "[o, o, o, o, o, o, o, o]",
         part_json("spheres", needed.spheres, is_special, count_reason(flat->sphere_count)),
         part_json("triangles", needed.triangles, is_special, count_reason(flat->triangle_count)),
         part_json("tree", needed.bvh, is_special, tree_reason(session, form, needed.bvh)),
         part_json("lights", needed.shaded, is_special, lights),
         part_json("mirrors", needed.mirrors, is_special, mirrors),
         part_json("colors", needed.colors, is_special, colors),
+        part_json("checkers", needed.checkers, true, checkers),
         part_json("statistics", needed.statistics, true, statistics));
 }
 

@@ -92,6 +92,11 @@ typedef enum { CLRT_SHADING_SILHOUETTE, CLRT_SHADING_MATTE, CLRT_SHADING_BLINN_P
 // SILHOUETTE, shaded is diffuse. For MATTE, shaded is diffuse * (ambient + kd * D), where D sums
 // light * cosine over the visible lights, and light is intensity * color. BLINN_PHONG adds specular
 // * ks * S, where S sums light * (normal . half vector) ^ shininess. shaded is limited to 1.
+//
+// If check_size is above 0, cubes of this size have the colors that replace diffuse. Even and odd
+// cubes alternate along each axis, and a cube has a corner at 0 0 0. A triangle shows the color of
+// the cube behind it, and a sphere that of the cube inside it, as if they were cut out of a block
+// of cubes.
 typedef struct {
     size_t size;
     ClrtShading shading;
@@ -99,6 +104,8 @@ typedef struct {
     double kd, ks;                  // in [0, 1000]
     double shininess;               // in [0, 1e9]
     double reflectivity;            // in [0, 1]
+    double check_size;              // in scene units; 0, or in [1e-30, 1e30]; rounded to float
+    double even[3], odd[3];         // R G B in [0, 1]; the cube from 0 0 0 is even
 } ClrtMaterial;
 
 // Adds a material and stores its number in *number.

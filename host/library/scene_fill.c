@@ -12,7 +12,12 @@ static bool check_material(const ClrtMaterial *material, ClrtError *error)
            check_number(error, "kd", material->kd, 0, FACTOR_MOST) &&
            check_number(error, "ks", material->ks, 0, FACTOR_MOST) &&
            check_number(error, "the shininess", material->shininess, 0, SHININESS_MOST) &&
-           check_number(error, "the reflectivity", material->reflectivity, 0, 1);
+           check_number(error, "the reflectivity", material->reflectivity, 0, 1) &&
+           (material->check_size == 0 ||
+            check_number(error, "the size of checks", material->check_size, RADIUS_LEAST,
+                         RADIUS_MOST)) &&
+           check_color(error, "the color of even cubes", material->even) &&
+           check_color(error, "the color of odd cubes", material->odd);
 }
 
 bool clrt_scene_add_material(ClrtScene *scene, const ClrtMaterial *material, uint32_t *number,
@@ -27,10 +32,13 @@ bool clrt_scene_add_material(ClrtScene *scene, const ClrtMaterial *material, uin
     Material made = {.kd = (float)given.kd,
                      .ks = (float)given.ks,
                      .shader = (Shader)given.shading,
-                     .reflectivity = (float)given.reflectivity};
+                     .reflectivity = (float)given.reflectivity,
+                     .check_size = (float)given.check_size};
     for (int channel = 0; channel < 3; channel++) {
         made.diffuse[channel] = (float)given.diffuse[channel];
         made.specular[channel] = (float)given.specular[channel];
+        made.checks[0][channel] = (float)given.even[channel];
+        made.checks[1][channel] = (float)given.odd[channel];
     }
     material_set_shininess(&made, (float)given.shininess);
     const size_t place = scene->scene.materials.count;

@@ -9,18 +9,23 @@
 #include <stddef.h>
 #include <string.h>
 
+// The first number is in [least, most], and all others in [0, 1].
 static const struct {
     const char *name;
     size_t offset; // of the floats in Material
     int count;
-    double most;
+    double least, most;
     bool is_shine; // only Blinn-Phong materials use it
-} properties[] = {{"diffuse", offsetof(Material, diffuse), 3, 1, false},
-                  {"kd", offsetof(Material, kd), 1, FACTOR_MOST, false},
-                  {"specular", offsetof(Material, specular), 3, 1, true},
-                  {"ks", offsetof(Material, ks), 1, FACTOR_MOST, true},
-                  {"shininess", offsetof(Material, shininess), 1, SHININESS_MOST, true},
-                  {"reflectivity", offsetof(Material, reflectivity), 1, 1, false}};
+} properties[] = {{"diffuse", offsetof(Material, diffuse), 3, 0, 1, false},
+                  {"checker", offsetof(Material, check_size), 7, RADIUS_LEAST, RADIUS_MOST, false},
+                  {"kd", offsetof(Material, kd), 1, 0, FACTOR_MOST, false},
+                  {"specular", offsetof(Material, specular), 3, 0, 1, true},
+                  {"ks", offsetof(Material, ks), 1, 0, FACTOR_MOST, true},
+                  {"shininess", offsetof(Material, shininess), 1, 0, SHININESS_MOST, true},
+                  {"reflectivity", offsetof(Material, reflectivity), 1, 0, 1, false}};
+
+// The numbers of a checker are its size and its colors.
+_Static_assert(offsetof(Material, checks) == offsetof(Material, check_size) + sizeof(float), "");
 
 #define PROPERTY_COUNT (sizeof properties / sizeof *properties)
 
@@ -47,8 +52,10 @@ static bool read_property(Tokens *tokens, Token property, Material *material)
         return unknown_property(tokens, property);
     float *values = (float *)(void *)((char *)material + properties[i].offset);
     for (int place = 0; place < properties[i].count; place++) {
+        const double least = place == 0 ? properties[i].least : 0;
+        const double most = place == 0 ? properties[i].most : 1;
         double value;
-        if (!tokens_number_within(tokens, &value, 0, properties[i].most))
+        if (!tokens_number_within(tokens, &value, least, most))
             return false;
         values[place] = (float)value;
     }
@@ -88,10 +95,11 @@ void material_write(const Material *material, FILE *stream)
 {
     fputs(shader_names[material->shader], stream);
     for (size_t i = 0; i < PROPERTY_COUNT; i++) {
-        if (properties[i].is_shine && material->shader != SHADER_BLINN_PHONG)
+        const void *values = (const char *)material + properties[i].offset;
+        if ((properties[i].is_shine && material->shader != SHADER_BLINN_PHONG) ||
+            (values == &material->check_size && material->check_size == 0))
             continue;
         fprintf(stream, " %s", properties[i].name);
-        const void *values = (const char *)material + properties[i].offset;
         for (int place = 0; place < properties[i].count; place++)
             number_write_float(stream, ((const float *)values)[place]);
     }

@@ -4,6 +4,7 @@
 #include "scene/normalize.h"
 
 #define LARGEST_RATIO   0x1p40
+#define LARGEST_RATE    0x1p60 // so that products with coordinates stay finite
 #define LARGEST_PICTURE 0x1p20 // so that pictures of any aspect stay below LARGEST_RATIO
 
 static BoundingBox box_of(const Scene *scene)
@@ -52,6 +53,20 @@ Vec3 normalize_light(const Normalization *normalization, const Light *light)
 {
     return light->is_sun ? vec3_scale(vec3_normalize(light->position), SUN_DISTANCE)
                          : normalize_point(normalization, light->position);
+}
+
+// The shift is reduced by an even number of cubes, which keeps its precision far from the origin.
+void normalize_checker(Material *material, const Normalization *normalization)
+{
+    const double size = (double)material->check_size;
+    const Vec3 center = normalization->center;
+    if (!(size > 0))
+        return;
+    const double rate = 1 / (size * normalization->scale);
+    material->check_rate = (float)fmax(fmin(rate, LARGEST_RATE), 1 / LARGEST_RATE);
+    vec3_store(material->check_shift,
+               vec3(remainder(center.x / size, 2), remainder(center.y / size, 2),
+                    remainder(center.z / size, 2)));
 }
 
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point)

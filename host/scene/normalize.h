@@ -37,6 +37,10 @@ Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 // Returns the normalized position of a point light or sun.
 Vec3 normalize_light(const Normalization *normalization, const Light *light);
 
+// Sets check_rate and check_shift of a material with a checker, and changes no other material. Even
+// cubes stay even.
+void normalize_checker(Material *material, const Normalization *normalization);
+
 // Returns the scene coordinates of a normalized point.
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 

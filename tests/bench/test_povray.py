@@ -24,7 +24,7 @@ SCENE = f"""\
 background 0.2 0.4 0.9
 ambient 0.1
 light 5 9 4.5 0.9 1 0.8 0.6
-define stone matte diffuse 0.9 0.85 0.75 kd 0.9 reflectivity 0.25
+define stone matte checker 0.3 0.9 0.85 0.75 0.3 0.5 0.6 kd 0.9 reflectivity 0.25
 up 0 1 0
 camera 2.35 1.15 2  0.08 0.42 0  28
 up 0 0 1

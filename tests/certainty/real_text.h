@@ -392,6 +392,59 @@ static bool see_lights(const Path *path, const Surface *surface, RealDecisions *
     return settled;
 }
 
+// A surface's place among the cubes of a checker, along one axis.
+typedef struct {
+    NUMBER rate, shift;
+    NUMBER coordinate, face; // face: of the unit normal, which points away from the cube
+    NUMBER tolerance;
+} CheckAxis;
+
+// Adds the number of the cube to *sum. Returns whether rounding certainly does not change it.
+static bool add_cube(const CheckAxis *axis, long long *sum)
+{
+    const NUMBER move = (axis->rate + 1) / 524288, parallel = (NUMBER)1 / 1024;
+    const bool behind = axis->face > parallel;
+    const NUMBER place = axis->coordinate * axis->rate + axis->shift + (behind ? -move : move);
+    long long cube = (long long)place;
+    cube -= (NUMBER)cube > place;
+    *sum += cube;
+    const NUMBER inside = smallest(place - (NUMBER)cube, (NUMBER)(cube + 1) - place);
+    return inside > axis->tolerance * (axis->rate + size_of(place) + 1) &&
+           size_of(axis->face - parallel) > axis->tolerance;
+}
+
+static NUMBER component_of(Vector v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+// Returns the corners' common coordinate or, if they differ, that of the point.
+static NUMBER level_coordinate(const Surface *surface, int axis)
+{
+    const TriangleData *t = surface->triangle;
+    const bool is_level = t != NULL && t->a[axis] == t->b[axis] && t->b[axis] == t->c[axis];
+    return is_level ? t->a[axis] : component_of(surface->point, axis);
+}
+
+// Notes whether the surface shows an odd cube, unless it has no checker.
+static bool see_check(const Path *path, const Surface *surface, RealDecisions *decisions)
+{
+    const Material *material = &path->view->flat->materials[surface->material];
+    const Vector face = unit(surface->face);
+    long long sum = 0;
+    bool settled = true;
+    if (!(material->check_rate > 0))
+        return true;
+    for (int i = 0; i < 3; i++) {
+        const CheckAxis axis = {material->check_rate, material->check_shift[i],
+                                level_coordinate(surface, i), component_of(face, i),
+                                path->tolerance * GROWTH};
+        settled = add_cube(&axis, &sum) && settled;
+    }
+    note(decisions, (uint32_t)(sum & 1));
+    return settled;
+}
+
 // The length of the direction is near 1, but not exactly 1.
 static Path reflected(const Path *path, const Surface *surface)
 {
@@ -442,6 +495,7 @@ RealDecisions DECIDE(const RealView *view, uint32_t column, uint32_t row)
             surface = nearest.stop.id < view->flat->sphere_count
                           ? sphere_surface(&path, &nearest.stop)
                           : triangle_surface(&path, &nearest.stop);
+            settled = see_check(&path, &surface, &here) && settled;
             settled = see_lights(&path, &surface, &here) && settled;
         }
         decisions.signature = here.signature;

@@ -200,6 +200,7 @@ TEST(certain_pixels_of_small_scenes_are_decided_as_by_real_arithmetic)
     check_file(&sum, CLRT_SOURCE_FOLDER "/tests/image/painted.scn", 950);
     check_file(&sum, CLRT_SOURCE_FOLDER "/tests/image/orthographic.scn", 950);
     check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/steps.scn", 950);
+    check_file(&sum, CLRT_SOURCE_FOLDER "/scenes/checkers.scn", 850);
     judge(&sum);
 }
 

@@ -276,7 +276,7 @@ class Scenes(Explain):
     def test_the_text_lists_compiled_and_omitted_features_and_uploads(self):
         told = self.clrt("explain", "ball.scn", "--tune", "specialize=always")
         left_out = told.split("\nleft out\n")[1].split("\nuploaded")[0]
-        self.assertEqual(left_out.count("\n  ") + 1, 5, told)
+        self.assertEqual(left_out.count("\n  ") + 1, 6, told)
         self.assertIn("  tree        there are no triangles to find", left_out)
         self.assertIn("  triangles   there are none", left_out)
         for part in "  spheres     1 of them", "  spheres     48 bytes", " nodes triangles looks normals colors":
@@ -302,6 +302,12 @@ class Scenes(Explain):
                    painted_ply=(ROOT / "tests/image/painted.ply").read_bytes())
         found = self.expect_parts(["gray.scn", *special], colors=(False, False, "no mesh shows colors of vertices"))
         self.assertEqual(found["uploaded_bytes"]["colors"], 0)
+
+    def test_only_scenes_with_a_checker_compile_it(self):
+        general = ["--tune", "specialize=never"]
+        self.expect_parts(["ball.scn", *general], checkers=(False, False, "no material in use has a checker"))
+        self.write(checks_scn="define a matte checker 1 1 1 1 0 0 0\nmaterial a\nsphere 0 0 0 1\n")
+        self.expect_parts(["checks.scn", *general], checkers=(True, True, "a material in use has a checker"))
 
     def test_silhouettes_are_not_lit_and_few_triangles_get_no_tree(self):
         self.expect_parts(["flat.scn", "--tune", "specialize=always"],

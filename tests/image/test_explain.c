@@ -108,6 +108,7 @@ TEST(explanations_give_the_bits_of_pixels_in_every_form)
     check_scene(SOURCE_SCENE("tests/image/painted.scn"), 1);
     check_scene(SOURCE_SCENE("tests/image/orthographic.scn"), 1);
     check_scene(SOURCE_SCENE("tests/image/suns.scn"), 1);
+    check_scene(SOURCE_SCENE("tests/image/checkered.scn"), 1);
 }
 
 TEST(explanations_of_several_samples_give_the_bits_of_pixels)

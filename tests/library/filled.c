@@ -25,7 +25,10 @@ static const ClrtMaterial materials[2] = {{.size = sizeof(ClrtMaterial),
                                            .kd = 1.1,
                                            .ks = 0,
                                            .shininess = 3,
-                                           .reflectivity = 0.6}};
+                                           .reflectivity = 0.6,
+                                           .check_size = 0.7,
+                                           .even = {0.9, 0.8, 0.1},
+                                           .odd = {0.2, 0.3, 0.4}}};
 
 const ClrtCamera filled_cameras[2] = {
     {.size = sizeof(ClrtCamera), .eye = {4, -6, 3}, .look_at = {0, 0, 0.5}, .fov_degrees = 40},

@@ -182,7 +182,7 @@ static Vec3 trace(const OracleView *view, OracleRay ray, uint32_t level, OracleD
         return scene->background;
     }
     const OracleSurface surface = surface_at(scene, &ray, hit);
-    sign(decisions, 2 * (uint64_t)surface.object + surface.front);
+    sign(decisions, 4 * (uint64_t)surface.object + 2 * surface.odd + surface.front);
     const Vec3 shaded = shade(oracle, &surface, decisions);
     const double reflectivity = (double)scene->materials.data[surface.material].reflectivity;
     if (!(reflectivity > 0))

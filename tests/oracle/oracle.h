@@ -32,7 +32,7 @@ OracleView oracle_view(const Oracle *oracle, const Viewpoint *viewpoint, uint32_
                        uint32_t height, uint32_t max_level);
 
 // The decisions of a ray tree. For the camera ray and each reflected ray, they are the hit object,
-// its side, and the lights that reach the point.
+// its side, whether its cube is odd, and the lights that reach the point.
 typedef struct {
     uint64_t signature; // a hash of all decisions
     bool grazes;        // a light is so low that rounding may decide whether it shines

@@ -87,6 +87,18 @@ static void round_mesh(Mesh *mesh, const Normalization *normalization)
     }
 }
 
+static void round_checker(Material *material, const Normalization *normalization)
+{
+    const Vec3 center = normalization->center;
+    const double size = (double)material->check_size;
+    if (!(size > 0))
+        return;
+    material->check_rate = (float)(1 / (size * normalization->scale));
+    material->check_shift[0] = (float)remainder(center.x / size, 2);
+    material->check_shift[1] = (float)remainder(center.y / size, 2);
+    material->check_shift[2] = (float)remainder(center.z / size, 2);
+}
+
 bool stored_round(Scene *scene, const Normalization *normalization, Error *error)
 {
     for (size_t i = 0; i < scene->lights.count; i++) {
@@ -101,6 +113,8 @@ bool stored_round(Scene *scene, const Normalization *normalization, Error *error
         light->color =
             vec3(rounded(light->color.x), rounded(light->color.y), rounded(light->color.z));
     }
+    for (size_t i = 0; i < scene->materials.count; i++)
+        round_checker(&scene->materials.data[i], normalization);
     for (size_t i = 0; i < scene->spheres.count; i++)
         round_sphere(&scene->spheres.data[i], normalization);
     for (size_t i = 0; i < scene->objects.count; i++) {

@@ -7,7 +7,8 @@
 #include "oracle/oracle.h"
 #include "scene/normalize.h"
 
-// Moves and rounds the scene, except cameras, and materials, which are floats already.
+// Moves and rounds the scene, except cameras. Checkers move too; all other numbers of materials are
+// floats already.
 bool stored_round(Scene *scene, const Normalization *normalization, Error *error);
 
 // Returns the oracle's view of a picture. The camera must be made for the picture's size, with one

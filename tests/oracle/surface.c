@@ -3,6 +3,8 @@
 // sphere's `normal` always points outward.
 #include "oracle/surface.h"
 
+#include "scene/normalize.h"
+
 // The largest error of a hit point, relative to its coordinates and distance. New rays ignore hits
 // that are nearer than this error.
 #define POINT_ERROR 1e-10
@@ -11,6 +13,47 @@ static Vec3 diffuse_of(const Scene *scene, uint32_t material)
 {
     const float *diffuse = scene->materials.data[material].diffuse;
     return vec3((double)diffuse[0], (double)diffuse[1], (double)diffuse[2]);
+}
+
+// A surface whose normal leans at most this much toward an axis runs along the axis.
+#define LEAN 0x1p-10
+
+// The layers of cubes perpendicular to an axis. A coordinate's place is rate * coordinate + shift.
+typedef struct {
+    double rate, shift;
+    double step; // the sum of 2^-19 of a cube and 2^-19 of the unit of clrt's frame, in cubes
+} Layers;
+
+static Layers layers_of(const Scene *scene, const Material *material, int axis)
+{
+    const double size = (double)material->check_size, rate = (double)material->check_rate;
+    const double unit = 1 / (size * normalization_of(scene).scale);
+    if (rate > 0) // in the frame (stored.h)
+        return (Layers){rate, (double)material->check_shift[axis], 0x1p-19 * (1 + rate)};
+    return (Layers){1 / size, 0, 0x1p-19 * (1 + unit)};
+}
+
+// Returns the number of the layer of a coordinate. The layer is that of a point slightly behind the
+// surface or, along an axis to which the surface is parallel, slightly farther along the axis.
+static double layer_at(Layers layers, double coordinate, double lean)
+{
+    const double place = layers.rate * coordinate + layers.shift;
+    return floor(lean > LEAN ? place - layers.step : place + layers.step);
+}
+
+// Colors a surface of a material with a checker by its cube. Neighbors have different colors.
+// `side` points away from the cube.
+static void check(OracleSurface *surface, const Scene *scene, Vec3 side)
+{
+    const Material *material = &scene->materials.data[surface->material];
+    if (!(material->check_size > 0))
+        return;
+    const double sum = layer_at(layers_of(scene, material, 0), surface->point.x, side.x) +
+                       layer_at(layers_of(scene, material, 1), surface->point.y, side.y) +
+                       layer_at(layers_of(scene, material, 2), surface->point.z, side.z);
+    surface->odd = fmod(sum, 2) != 0;
+    const float *color = material->checks[surface->odd ? 1 : 0];
+    surface->body = vec3((double)color[0], (double)color[1], (double)color[2]);
 }
 
 static void sphere_surface(OracleSurface *surface, const Scene *scene)
@@ -22,6 +65,7 @@ static void sphere_surface(OracleSurface *surface, const Scene *scene)
     surface->normal = vec3_normalize(vec3_sub(surface->point, sphere->center));
     surface->front = vec3_dot(surface->normal, surface->toward_viewer) >= 0;
     surface->face = vec3_scale(surface->normal, surface->front ? 1 : -1);
+    check(surface, scene, surface->normal);
 }
 
 // Returns the weight of a corner: twice the area between the point and the opposite edge.
@@ -106,13 +150,15 @@ static void triangle_surface(OracleSurface *surface, const Scene *scene)
     const Shares shares = shares_of(&owner->mesh, corners, surface->point, surface->face);
     if (owner->mesh.normals != NULL)
         surface->normal = interpolated_normal(&owner->mesh, corners, &shares, surface->face);
-    surface->body = owner->mesh.colors != NULL ? mixed_color(&owner->mesh, corners, &shares)
-                                               : diffuse_of(scene, owner->material);
     surface->front = vec3_dot(surface->face, surface->toward_viewer) > 0;
     if (!surface->front) {
         surface->face = vec3_scale(surface->face, -1);
         surface->normal = vec3_scale(surface->normal, -1);
     }
+    surface->body = diffuse_of(scene, owner->material);
+    check(surface, scene, surface->face);
+    if (owner->mesh.colors != NULL)
+        surface->body = mixed_color(&owner->mesh, corners, &shares);
 }
 
 bool surface_blocks(const OracleSurface *surface, Vec3 toward_light)

@@ -13,6 +13,7 @@ typedef struct {
     uint32_t id, material;
     uint32_t object; // the sphere's index, or the mesh's index plus the count of spheres
     bool front;
+    bool odd;  // in an odd cube of a checker
     Vec3 body; // the diffuse color
 } OracleSurface;
 

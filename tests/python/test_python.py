@@ -76,6 +76,16 @@ class Pictures(unittest.TestCase):
             file.flush()
             self.assertEqual(clrt.hash(scene.render(32, 32)), clrt.hash(clrt.load(file.name).render(32, 32)))
 
+    def test_checkers_look_as_in_scene_files(self):
+        scene = clrt.Scene()
+        scene.sphere((0, 0, 0), 1, scene.material("silhouette", checker=(0.3, (1, 0.5, 0), (0, 0.25, 1))))
+        scene.camera((9, 0, 0), fov=30)
+        with tempfile.NamedTemporaryFile("w", suffix=".scn") as file:
+            file.write("define a silhouette checker 0.3 1 0.5 0 0 0.25 1\nmaterial a\nsphere 0 0 0 1\n"
+                       "camera 9 0 0 0 0 0 30\n")
+            file.flush()
+            self.assertEqual(clrt.hash(scene.render(32, 32)), clrt.hash(clrt.load(file.name).render(32, 32)))
+
     def test_narrow_orthographic_pictures_have_the_least_width(self):
         scene = clrt.Scene()
         scene.sphere((0, 0, 0), 1, scene.material("silhouette", diffuse=(0, 0, 0)))

@@ -273,5 +273,5 @@ TEST(traits_become_compiler_options)
     traits_write_options(&traits, options);
     assert_string_equal(options, "-DCLRT_SPHERES=1 -DCLRT_TRIANGLES=0 -DCLRT_BVH=0 "
                                  "-DCLRT_MIRRORS=1 -DCLRT_SHADED=0 -DCLRT_COLORS=0 "
-                                 "-DCLRT_STATISTICS=1");
+                                 "-DCLRT_CHECKERS=0 -DCLRT_STATISTICS=1");
 }

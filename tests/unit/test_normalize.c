@@ -219,3 +219,15 @@ TEST(a_shift_moves_samples_by_parts_of_their_distance)
     assert_float_equal(camera.forward[2], 0.005, 1e-9);
     assert_true(camera.forward[0] == -1);
 }
+
+// The cube at the scene's origin stays even. It is 2.5, -3 and 0 cubes from the frame's center.
+TEST(checkers_move_into_the_frame)
+{
+    const Normalization normalization = {{1.25, -1.5, 0}, 0.25};
+    Material material = {.check_size = 0.5f}, plain = {.kd = 1};
+    normalize_checker(&material, &normalization);
+    normalize_checker(&plain, &normalization);
+    assert_true(material.check_rate == 8);
+    assert_true(material.check_shift[0] == 0.5f && fabsf(material.check_shift[1]) == 1);
+    assert_true(material.check_shift[2] == 0 && plain.check_rate == 0);
+}

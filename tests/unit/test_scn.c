@@ -91,6 +91,16 @@ TEST(a_definition_starts_from_its_kind)
     assert_true(wax->diffuse[0] == 1 && wax->kd == 1 && wax->reflectivity == 0);
 }
 
+TEST(a_checker_has_a_size_and_two_colors)
+{
+    FREED_BY(scene_free)
+    Scene scene = parsed("define a matte checker 2.5 0.1 0.2 0.3 1 0 1 diffuse 0 1 0");
+    const Material *material = &scene.materials.data[COURSE_MATERIALS];
+    const float colors[2][3] = {{0.1f, 0.2f, 0.3f}, {1, 0, 1}};
+    assert_true(material->check_size == 2.5f && material->diffuse[0] == 0);
+    assert_memory_equal(material->checks, colors, sizeof colors);
+}
+
 TEST(only_small_integer_shininess_goes_by_squaring)
 {
     Scene scene =
@@ -205,6 +215,10 @@ TEST(faults_name_line_column_and_the_statement)
         {"define gold matte\nmaterial gild",
          "2:10: undefined material (did you mean 'gold'?): found 'gild'" STATEMENT
          "'material NUMBER|NAME|own [NUMBER|NAME]'"},
+        {"define a matte checker 0 1 1 1 0 0 0",
+         "1:24: expected a number between 1e-30 and 1e+30: found '0'" DEFINE},
+        {"define a matte checker 1 1 1 1 0 0 1.1",
+         "1:36: expected a number between 0 and 1: found '1.1'" DEFINE},
         {"define a matte difuse 1 1 1",
          "1:16: unknown property (did you mean 'diffuse'?): found 'difuse'" DEFINE},
         {"size 0 5", "1:6: expected an integer between 1 and 131072: found '0'" STATEMENT
@@ -218,8 +232,8 @@ TEST(faults_name_line_column_and_the_statement)
                                              "choose another, as 'up 0 0 1': found "
                                              "'camera'" CAMERA},
         {"define jade matte color 0.2 0.7 0.4",
-         "1:19: expected a property of a material (diffuse, kd, specular, ks, shininess, "
-         "reflectivity): found 'color'" DEFINE},
+         "1:19: expected a property of a material (diffuse, checker, kd, specular, ks, "
+         "shininess, reflectivity): found 'color'" DEFINE},
         {"up 0 1 0", "1:1: no camera follows this 'up': found 'up'" STATEMENT "'up X Y Z'"},
         {"normals smooth 180.5",
          "1:16: expected a number between 0 and 180: found '180.5'" NORMALS},

@@ -44,8 +44,8 @@ def settings_of(text):
 
 def finish_of(words, ambient):
     """Returns the texture of a define statement. Ambient and diffuse light are scaled by 1 -
-    reflectivity, as in clrt."""
-    figures = {"diffuse": ["1", "1", "1"], "kd": ["1"], "reflectivity": ["0"]}
+    reflectivity, as in clrt. The first colors of both checkers start at 0 0 0."""
+    figures = {"diffuse": ["1", "1", "1"], "kd": ["1"], "reflectivity": ["0"], "checker": None}
     if words[0] != "matte":
         refuse(words[0])
     name = None
@@ -55,7 +55,10 @@ def finish_of(words, ambient):
         else:
             figures[name].append(word)
     mirror, kd = float(figures["reflectivity"][0]), float(figures["kd"][0])
-    return (f"texture {{ pigment {{ rgb {vector(figures['diffuse'])} }} finish {{ "
+    pigment = f"rgb {vector(figures['diffuse'])}"
+    if checker := figures["checker"]:
+        pigment = f"checker rgb {vector(checker[1:4])} rgb {vector(checker[4:])} scale {checker[0]}"
+    return (f"texture {{ pigment {{ {pigment} }} finish {{ "
             f"ambient {ambient * (1 - mirror):.7g} diffuse {kd * (1 - mirror):.7g} "
             f"reflection {mirror:.7g} }} }}")
 

@@ -18,7 +18,7 @@ syntax match clrtString contained /"[^"]*"/
 
 syntax keyword clrtStatement contained ambient background camera define light material max_level
 syntax keyword clrtStatement contained mesh normals ply_file sides size sphere sun up
-syntax keyword clrtProperty contained diffuse specular kd ks shininess reflectivity
+syntax keyword clrtProperty contained diffuse checker specular kd ks shininess reflectivity
 syntax keyword clrtProperty contained up scale rotate translate
 syntax keyword clrtConstant contained silhouette matte blinn_phong own one two smooth flat orthographic
 

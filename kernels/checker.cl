@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Computes the color of a checkered surface. Cubes fill the scene, and a cube is odd if the sum of
+// its three indices is odd. A triangle shows the cube behind it, seen from the ray, and a sphere
+// shows the cube inside it. A solid then looks as if it were cut out of a block of cubes.
+//
+// Floors often lie in a plane between cubes, where rounding would choose the cube of each pixel.
+// Two rules prevent this (docs/numerics.md, B19):
+//  - Each coordinate moves by CHECK_MOVE behind the surface. On axes that are parallel to the
+//    surface, it moves to the greater coordinate. The edge between two checks of a floor therefore
+//    belongs to one of them.
+//  - If all corners of a triangle have the same coordinate, all its points have this coordinate.
+#ifndef CLRT_CHECKER_CL
+#define CLRT_CHECKER_CL
+#include "surface.cl"
+
+// The move, as a fraction of 1 plus the number of cubes in a normalized unit.
+#define CHECK_MOVE 0x1p-19f
+
+// A surface is parallel to an axis if its unit normal has at most this component.
+#define CHECK_PARALLEL 0x1p-10f
+
+// The cubes of a material. Cube i of an axis contains the places from i to i + 1, and the place of
+// a coordinate is rate * coordinate + shift.
+typedef struct {
+    Real rate; // 0 if the material has no checker
+    Real3 shift;
+} Cubes;
+
+static inline Cubes fetch_cubes(const Tracer *tracer, UInt material)
+{
+    const Record record = record_at(tracer->materials, material * WORDS(Material));
+    return (Cubes){record_real(&record, 19), record_real3(&record, 20, 1)};
+}
+
+static inline Real cube_place(const Cubes *cubes, Real shift, Real coordinate)
+{
+    return fma(coordinate, cubes->rate, shift);
+}
+
+static inline Real place_move(const Cubes *cubes)
+{
+    return CHECK_MOVE * (cubes->rate + 1.0f);
+}
+
+// Returns whether the place is in an odd cube. Only a place in cube -1 is rounded, and it stays
+// odd.
+static inline Mask place_is_odd(Real place)
+{
+    const Real pairs = 0.5f * place;
+    return pairs - floor(pairs) >= 0.5f;
+}
+
+// `face` is a component of the unit normal on the side opposite to the cube.
+static inline Mask axis_is_odd(const Cubes *cubes, Real shift, Real coordinate, Real face)
+{
+    const Real move = place_move(cubes);
+    const Real place = cube_place(cubes, shift, coordinate);
+    return place_is_odd(place + (face > CHECK_PARALLEL ? -move : move));
+}
+
+// Returns the coordinate that all corners share or, if they differ, the point's coordinate.
+static inline Real level_coordinate(Real a, Real b, Real c, Real point)
+{
+    return a == b && b == c ? a : point;
+}
+
+static inline Mask check_is_odd(const Cubes *cubes, const Surface *surface)
+{
+    const Real3 a = surface->a, b = surface->b, c = surface->c, p = surface->point;
+    const Real3 shift = cubes->shift;
+    const Real3 face = choose3(surface->index == NOTHING, surface->normal, surface->face);
+    return axis_is_odd(cubes, shift.x, level_coordinate(a.x, b.x, c.x, p.x), face.x) ^
+           axis_is_odd(cubes, shift.y, level_coordinate(a.y, b.y, c.y, p.y), face.y) ^
+           axis_is_odd(cubes, shift.z, level_coordinate(a.z, b.z, c.z, p.z), face.z);
+}
+
+// Returns the color of the surface's check, or `plain` where the material has no checker.
+static inline Real3 checked_color(const Tracer *tracer, const Surface *surface, Real3 plain)
+{
+    const Cubes cubes = fetch_cubes(tracer, surface->material);
+    const Mask has_checks = cubes.rate > 0.0f;
+    if (!any_lane(has_checks))
+        return plain;
+    const Record record = record_at(tracer->materials, surface->material * WORDS(Material));
+    const Real3 even = record_real3(&record, 13, 1), odd = record_real3(&record, 16, 1);
+    return choose3(has_checks, choose3(check_is_odd(&cubes, surface), odd, even), plain);
+}
+
+#endif
