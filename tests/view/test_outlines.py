@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Tests that OpenGL and rays show the same outlines in all views of scenes of the course and of
 clrt. Each object gets its own color, and the two pictures may differ only within two pixels of an
-edge. Both must also show the same lit sides of a coarse convex mesh with smooth normals, and the same
-colors of vertices. Usage: CLRT=path/to/clrt test_outlines.py"""
+edge. Both must also show the same lit sides of a coarse convex mesh with smooth normals, the same colors
+of vertices, and the same checks. Usage: CLRT=path/to/clrt test_outlines.py"""
 
 import pathlib
 import tempfile
@@ -145,6 +145,24 @@ def colors_of_vertices_agree(screen, folder):
     print(f"         {near_edges} of {SIZE[0] * SIZE[1]} pixels differ by more than 2 of 255")
     assert max(near_edges) < 300, near_edges
     assert len(set(traced[2::4])) > 100, "the ball has few colors"
+
+
+def checks_agree(screen, folder):
+    """The floor lies between two layers of cubes. Only edges of checks and objects may differ."""
+    scene = folder / "checks.scn"
+    scene.write_text("background 0 0 0\ndefine floor silhouette checker 0.5 0.2 0 0 0.8 0 0\n"
+                     "define ball silhouette checker 0.3 0.4 0 0 1 0 0\nmaterial floor\n"
+                     f"mesh {ROOT}/scenes/square.ply scale 2 translate 7 8 3\nmaterial ball\n"
+                     f"sphere 6.3 8 3.6 0.6\nmesh {ROOT}/scenes/box.ply scale 0.9 translate 7.2 7.5 3\n"
+                     "camera 6 2 6 7 7.8 3.2 40\n")
+    window = opened(screen, scene, size=SIZE)
+    traced = window.read()
+    window.press("r", "OpenGL")
+    drawn = window.read()
+    window.close()
+    apart = compare("checks", "1", drawn, traced)
+    print(f"         checks: {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")
+    assert len(set(traced[2::4])) > 4, "the objects have no checks"
 
 
 if __name__ == "__main__":

@@ -86,14 +86,19 @@ bool triangle_view_load(const Drawing *view, const Model *model, Error *error)
     return true;
 }
 
-static void set_material(GLuint program, const Material *material)
+// Sets the material of an object. The colors of vertices replace the checker.
+static void set_material(GLuint program, const Model *model, const MeshObject *object)
 {
-    float vectors[3][4];
-    light_store_material(vectors, material);
-    glUniform4fv(glGetUniformLocation(program, "diffuse"), 1, vectors[0]);
-    glUniform4fv(glGetUniformLocation(program, "specular"), 1, vectors[1]);
-    glUniform4fv(glGetUniformLocation(program, "look"), 1, vectors[2]);
-    glVertexAttrib3fv(TINT, material->diffuse);
+    static const char *const names[MATERIAL_VECTORS] = {"diffuse", "specular", "look",
+                                                        "even",    "odd",      "shift"};
+    float vectors[MATERIAL_VECTORS][4];
+    Material material = model->scene.materials.data[object->material];
+    if (object->mesh.colors != NULL)
+        material.check_size = 0;
+    light_store_material(vectors, &material, &model->normalization);
+    for (int i = 0; i < MATERIAL_VECTORS; i++)
+        glUniform4fv(glGetUniformLocation(program, names[i]), 1, vectors[i]);
+    glVertexAttrib3fv(TINT, material.diffuse);
 }
 
 void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens, const Tone *tone)
@@ -107,7 +112,7 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
     for (size_t i = 0; i < scene->objects.count; i++) {
         const MeshObject *object = &scene->objects.data[i];
         (object->two_sided ? glDisable : glEnable)(GL_CULL_FACE);
-        set_material(view->program, &scene->materials.data[object->material]);
+        set_material(view->program, model, object);
         (object->mesh.colors != NULL ? glEnableVertexAttribArray
                                      : glDisableVertexAttribArray)(TINT);
         glDrawElements(GL_TRIANGLES, (GLsizei)(3 * object->mesh.triangle_count), GL_UNSIGNED_INT,
@@ -122,9 +127,9 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
 // the eye is computed in fp64. Float would lose the eye's height above a ground sphere of radius
 // 1e9.
 
-// Floats per sphere: center, radius, and the material's three vectors. The material's unused float,
-// at HEIGHT_PLACE, holds the eye's height above the sphere.
-#define SPHERE_NUMBERS 16
+// Floats per sphere: center, radius, and the material's vectors. The material's unused float, at
+// HEIGHT_PLACE, holds the eye's height above the sphere.
+#define SPHERE_NUMBERS (4 + 4 * MATERIAL_VECTORS)
 #define HEIGHT_PLACE   13
 
 bool sphere_view_open(SphereView *view, Error *error)
@@ -135,7 +140,10 @@ bool sphere_view_open(SphereView *view, Error *error)
                                           {"sphere", 1, 4, 0},
                                           {"diffuse", 1, 4, 4 * sizeof(float)},
                                           {"specular", 1, 4, 8 * sizeof(float)},
-                                          {"look", 1, 4, 12 * sizeof(float)}}};
+                                          {"look", 1, 4, 12 * sizeof(float)},
+                                          {"even", 1, 4, 16 * sizeof(float)},
+                                          {"odd", 1, 4, 20 * sizeof(float)},
+                                          {"shift", 1, 4, 24 * sizeof(float)}}};
     *view = (SphereView){0};
     const bool ok = drawing_open(&view->drawing, &layout, error);
     cube_fill_faces(&view->drawing);
@@ -157,11 +165,12 @@ bool sphere_view_load(SphereView *view, const Model *model, Error *error)
 
 static void store_sphere(float *numbers, const Model *model, const Sphere *sphere, Vec3 eye)
 {
-    float material[3][4];
+    float material[MATERIAL_VECTORS][4];
     const Vec3 place = normalize_point(&model->normalization, sphere->center);
     const Vec3 offset = vec3_sub(place, eye);
     const double radius = sphere->radius * model->normalization.scale;
-    light_store_material(material, &model->scene.materials.data[sphere->material]);
+    light_store_material(material, &model->scene.materials.data[sphere->material],
+                         &model->normalization);
     vec3_store(numbers, offset);
     numbers[3] = (float)radius;
     memcpy(numbers + 4, material, sizeof material);

@@ -214,8 +214,11 @@ void light_apply(const Scene *scene, const Normalization *normalization, const T
     shader_set_integer(program, "is_srgb", tone->is_srgb);
 }
 
-void light_store_material(float vectors[3][4], const Material *material)
+void light_store_material(float vectors[MATERIAL_VECTORS][4], const Material *material,
+                          const Normalization *normalization)
 {
+    Material placed = *material;
+    normalize_checker(&placed, normalization);
     memcpy(vectors[0], material->diffuse, sizeof material->diffuse);
     vectors[0][3] = material->kd;
     memcpy(vectors[1], material->specular, sizeof material->specular);
@@ -224,4 +227,10 @@ void light_store_material(float vectors[3][4], const Material *material)
     vectors[2][1] = 0;
     vectors[2][2] = material->shininess;
     vectors[2][3] = material->reflectivity;
+    memcpy(vectors[3], placed.checks[0], sizeof placed.checks[0]);
+    vectors[3][3] = placed.check_rate;
+    memcpy(vectors[4], placed.checks[1], sizeof placed.checks[1]);
+    vectors[4][3] = 0;
+    memcpy(vectors[5], placed.check_shift, sizeof placed.check_shift);
+    vectors[5][3] = 0;
 }

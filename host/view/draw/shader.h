@@ -22,7 +22,7 @@ typedef struct {
     size_t offset;
 } Attribute;
 
-#define ATTRIBUTES_MOST 5
+#define ATTRIBUTES_MOST 8
 
 typedef struct {
     const char *shader;
@@ -76,9 +76,12 @@ typedef struct {
 void light_apply(const Scene *scene, const Normalization *normalization, const Tone *tone,
                  GLuint program);
 
-// Packs a material into three vectors: diffuse and kd; specular and ks; shader, 0, shininess and
-// reflectivity.
-void light_store_material(float vectors[3][4], const Material *material);
+// Packs a material into six vectors: diffuse and kd; specular and ks; shader, 0, shininess and
+// reflectivity; the color of even cubes and check_rate; the color of odd cubes and 0; check_shift
+// and 0.
+#define MATERIAL_VECTORS 6
+void light_store_material(float vectors[MATERIAL_VECTORS][4], const Material *material,
+                          const Normalization *normalization);
 
 // The projection with which OpenGL draws the same picture as the rays of a camera.
 typedef struct {

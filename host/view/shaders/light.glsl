@@ -18,6 +18,9 @@ struct Surface {
     vec4 diffuse;  // color and kd
     vec4 specular; // color and ks
     vec4 look;     // shader, unused, shininess, reflectivity
+    vec4 even;     // color of even cubes, and cubes per unit; 0 for no checker
+    vec4 odd;      // color of odd cubes
+    vec4 shift;    // of the cubes along each axis
 };
 
 vec3 encoded(vec3 color)
@@ -25,6 +28,18 @@ vec3 encoded(vec3 color)
     vec3 shown = clamp(color * gain, 0.0, 1.0);
     vec3 curve = 1.055 * pow(shown, vec3(1.0 / 2.4)) - 0.055;
     return is_srgb ? mix(curve, 12.92 * shown, lessThanEqual(shown, vec3(0.0031308))) : shown;
+}
+
+// Returns the color of the cube behind the surface, as in the traced picture (kernels/checker.cl).
+// Interpolated places are less precise than traced points, so the move is 32 times as far. On axes
+// that are parallel to the surface, it would cross the edges of solids, so there is none.
+vec3 checked(Surface surface)
+{
+    float move = (surface.even.w + 1.0) / 16384.0;
+    vec3 face = normalize(surface.face);
+    vec3 moves = -move * sign(face) * step(1.0 / 1024.0, abs(face));
+    vec3 cubes = floor(surface.place * surface.even.w + surface.shift.xyz + moves);
+    return mod(cubes.x + cubes.y + cubes.z, 2.0) > 0.5 ? surface.odd.rgb : surface.even.rgb;
 }
 
 vec3 shaded(Surface surface)
@@ -49,6 +64,8 @@ vec3 shaded(Surface surface)
 vec4 seen(Surface surface)
 {
     bool is_flat = surface.look.x < SILHOUETTE;
+    if (surface.even.w > 0.0)
+        surface.diffuse.rgb = checked(surface);
     vec3 color = is_flat ? surface.diffuse.rgb : shaded(surface);
     return vec4(encoded(mix(color, background, surface.look.w)), 1.0);
 }

@@ -6,7 +6,9 @@ in vec3 corner;
 in vec4 sphere; // center relative to the eye, and radius
 in vec4 diffuse, specular;
 in vec4 look; // the second number is the eye's height above the sphere
+in vec4 even, odd, shift;
 flat out vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
+flat out vec4 even_shown, odd_shown, shift_shown;
 
 void main()
 {
@@ -14,11 +16,15 @@ void main()
     diffuse_shown = diffuse;
     specular_shown = specular;
     look_shown = look;
+    even_shown = even;
+    odd_shown = odd;
+    shift_shown = shift;
     gl_Position = projected(sphere.xyz + 1.01 * sphere.w * corner);
 }
 #else
 #include "light.glsl"
 flat in vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
+flat in vec4 even_shown, odd_shown, shift_shown;
 out vec4 color;
 
 // Returns the distance to the nearest hit in front of a ray's start. Without such a hit, the
@@ -56,6 +62,6 @@ void main()
     gl_FragDepth = depth_of(offset);
     vec3 face = dot(normal, direction) > 0.0 ? -normal : normal;
     color = seen(Surface(eye + offset, normal, face, -direction, diffuse_shown, specular_shown,
-                         look_shown));
+                         look_shown, even_shown, odd_shown, shift_shown));
 }
 #endif

@@ -17,7 +17,7 @@ void main()
 #include "light.glsl"
 in vec3 place, bend, paint;
 out vec4 color;
-uniform vec4 diffuse, specular, look;
+uniform vec4 diffuse, specular, look, even, odd, shift;
 
 void main()
 {
@@ -29,6 +29,6 @@ void main()
     if (dot(bend, bend) > 0.0)
         normal = gl_FrontFacing ? bend : -bend;
     color = seen(Surface(place, normalize(normal), face, toward_viewer, vec4(paint, diffuse.w),
-                         specular, look));
+                         specular, look, even, odd, shift));
 }
 #endif
