@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The kernel of error and time goals: requests for samples of pixels -> the sums of these samples.
 // It is compiled after render.cl, and only if requested.
+//
+// A pixel's samples are points of Sobol's two-dimensional sequence ("On the distribution of points
+// in a cube and the approximate evaluation of integrals", 1967). If a pixel is divided into 2^k
+// equal rectangles whose sides are powers of two, each rectangle holds one of the first 2^k points.
+// The new samples of a higher rung therefore lie in the gaps between the earlier samples.
+//
+// Owen's scrambling keeps this property ("Randomly permuted (t,m,s)-nets and (t,s)-sequences",
+// 1995). Its random numbers are hashes of the pixel. If one random number per pixel were XORed with
+// all points instead, stripes about as fine as the samples would alias, and smooth waves would take
+// 2.6 times as many samples for an error of 0.2 %.
 
 // The number of samples per work-item. If the number of requests were limited instead, a work-item
 // could take 1024 samples, and short lists would leave cores idle.
@@ -22,24 +32,51 @@ typedef struct {
 #define LANE_NUMBER (LANE_Y * PACKET_WIDTH + LANE_X)
 #endif
 
-// Returns `value` in lanes whose number has this bit set, and 0 in the others.
-static inline UInt times_bit(UInt number, uint bit, uint value)
+// Returns a hash of the bits (Wellons, "Prospecting for hash functions", 2018).
+static inline UInt mixed(UInt bits)
 {
-    return (number >> bit & 1) * value;
+    bits = (bits ^ bits >> 16) * 0x21f0aaadu;
+    bits = (bits ^ bits >> 15) * 0xd35a2d97u;
+    return bits ^ bits >> 15;
 }
 
-// These functions return coordinates of the first 16 points of Sobol's sequence
-// (host/refine/ladder_requests.h).
-static inline UInt point_x(UInt point)
+// Flips each bit by a hash of the seed and of the bits below it (Laine and Karras, "Stratified
+// sampling for stochastic transparency", 2011). The constants are from Vegdahl, "Building a better
+// LK hash", 2021.
+static inline UInt scrambled(UInt bits, UInt seed)
 {
-    return times_bit(point, 0, 512) | times_bit(point, 1, 256) | times_bit(point, 2, 128) |
-           times_bit(point, 3, 64);
+    bits ^= bits * 0x3d20adeau;
+    bits = (bits + seed) * (seed >> 16 | 1);
+    bits ^= bits * 0x05526c56u;
+    return bits ^ bits * 0x53a22864u;
 }
 
-static inline UInt point_y(UInt point)
+// Returns a coordinate below LADDER_GRID from its bits in reverse order.
+static inline UInt reversed(UInt bits)
 {
-    return times_bit(point, 0, 512) ^ times_bit(point, 1, 768) ^ times_bit(point, 2, 640) ^
-           times_bit(point, 3, 960);
+    bits = (bits & 0x5555) << 1 | (bits >> 1 & 0x5555);
+    bits = (bits & 0x3333) << 2 | (bits >> 2 & 0x3333);
+    bits = (bits & 0x0f0f) << 4 | (bits >> 4 & 0x0f0f);
+    bits = (bits & 0x00ff) << 8 | (bits >> 8 & 0x00ff);
+    return bits / (0x10000 / LADDER_GRID);
+}
+
+// Returns the bits of a point's y in reverse order; the reversed bits of x are `point` itself. Bit
+// i is the sum modulo 2 of the bits k of `point` whose binomial coefficient, k over i, is odd.
+static inline UInt sobol_y(UInt point)
+{
+    point ^= point >> 1 & 0x5555;
+    point ^= point >> 2 & 0x3333;
+    point ^= point >> 4 & 0x0f0f;
+    return point ^ (point >> 8 & 0x00ff);
+}
+
+// Moves each sample to the point with this number in its pixel's sequence.
+static inline void place_samples(PixelSamples *samples, UInt point)
+{
+    const UInt seed = mixed(samples->pixel_x + mixed(samples->pixel_y));
+    samples->x = 2 * reversed(scrambled(point, seed)) + 1;
+    samples->y = 2 * reversed(scrambled(sobol_y(point), mixed(seed))) + 1;
 }
 
 // Returns the samples with the numbers `start` to `start` + CLRT_LANES - 1 of a list of requests.
@@ -52,13 +89,11 @@ static inline PixelSamples samples_of(global const PixelRequest *requests, uint 
     const uint samples_log2 = 31 - clz(samples);
     const UInt word = (present >> samples_log2) * (uint)(sizeof(PixelRequest) / sizeof(uint));
     global const uint *words = (global const uint *)requests;
-    const UInt offset = gather(words, word + 2), point = present & (samples - 1);
-    const bool is_center = samples == 1;
-    const UInt x = point_x(point) ^ offset % LADDER_GRID;
-    const UInt y = point_y(point) ^ offset / LADDER_GRID;
-    return (PixelSamples){gather(words, word), gather(words, word + 1),
-                          is_center ? (UInt)(LADDER_GRID) : 2 * x + 1,
-                          is_center ? (UInt)(LADDER_GRID) : 2 * y + 1, sample < end};
+    PixelSamples result = {gather(words, word), gather(words, word + 1), (UInt)(LADDER_GRID),
+                           (UInt)(LADDER_GRID), sample < end};
+    if (samples > 1)
+        place_samples(&result, gather(words, word + 2) + (present & (samples - 1)));
+    return result;
 }
 
 static NOT_INLINE void pixel_sample_colors(const Tracer *tracer,

@@ -217,12 +217,11 @@ CLRT_SAME_SIZE(SampleData, 16)
 // The most samples in a request. A pixel's requests together have up to LADDER_GRID samples.
 #define REQUEST_SAMPLES 16
 
-// A request for samples of a pixel: 1 at its center, or the first 4 or REQUEST_SAMPLES points of a
-// sequence. Each coordinate of a point is XORed with one of the two digits of `offset` in base
-// LADDER_GRID.
+// A request for samples of a pixel: 1 at its center, or 4 or REQUEST_SAMPLES consecutive points of
+// the pixel's sequence.
 typedef struct {
     uint x, y;
-    uint offset;
+    uint first; // number of the first point; a multiple of `samples`
     uint samples;
 } PixelRequest;
 CLRT_SAME_SIZE(PixelRequest, 16)

@@ -101,12 +101,10 @@ static void list_pixel(Ladder *ladder, uint32_t pixel)
 {
     PixelRequests *requests = &ladder->requests;
     const uint32_t width = ladder->picture->width;
-    const uint32_t place[2] = {pixel % width, pixel / width};
-    const uint64_t hash = ladder_hash(pixel, SCRAMBLE_SEED);
     const RungSamples next = samples_from(rung_of(ladder, pixel));
     for (uint32_t i = 0; i < next.requests; i++)
-        requests->requests[requests->count++] =
-            pixel_request(place, next.first + i * next.samples, next.samples, hash);
+        requests->requests[requests->count++] = (PixelRequest){
+            pixel % width, pixel / width, next.first + i * next.samples, next.samples};
 }
 
 static double mean_square_change(const float before[3], const float after[3])

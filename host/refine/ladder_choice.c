@@ -30,11 +30,6 @@ typedef struct {
 // The number of upper hash bits that are compared with a limit.
 #define HASH_BITS 53
 
-uint64_t ladder_hash(uint32_t pixel, uint64_t seed)
-{
-    return XXH3_64bits_withSeed(&pixel, sizeof pixel, seed);
-}
-
 // Converts the strata's fractions into limits. If a stratum's fraction and pixels have not
 // changed, it has no new pixel to select. Skipping these strata avoids most hashes. Returns false
 // if no stratum selects pixels.
@@ -57,8 +52,9 @@ static bool is_selected(const Choosing *choosing, uint32_t pixel)
 {
     const uint32_t stratum = choosing->ladder->strata[pixel];
     const uint64_t limit = choosing->limits[stratum];
+    const uint32_t rung = strata_rung(stratum);
     return limit > 0 &&
-           ladder_hash(pixel, RUNG_SEED + strata_rung(stratum)) >> (64 - HASH_BITS) < limit;
+           XXH3_64bits_withSeed(&pixel, sizeof pixel, rung) >> (64 - HASH_BITS) < limit;
 }
 
 // Appends each selected pixel from `first` to `end` - 1. Returns the end of the list.

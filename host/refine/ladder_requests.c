@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A pixel's samples are points of a Sobol sequence, scrambled by a hash of the pixel. If a pixel is
-// divided into 2^k equal rectangles whose sides are powers of two, each rectangle holds one of the
-// first 2^k points. The new samples of a higher rung therefore lie in the gaps between the earlier
-// samples. The kernel adds the samples in fixed point, so sums are exact in any order.
+// The kernel adds the samples of a pixel in fixed point, so sums are exact in any order.
 //
 // Centers are requested in blocks of PACKET_SIDE x PACKET_SIDE pixels, so neighbors share packets.
 #include "refine/ladder_requests.h"
@@ -12,21 +9,6 @@
 
 #define BLOCK_PIXELS   (PACKET_SIDE * PACKET_SIDE)
 #define BLOCKS_OF_TASK 256
-
-// Coordinate x of a point is the bit-reversed index of the point. The bits of y are sums of
-// binomial coefficients modulo 2. Both coordinates are linear over GF(2), so point `first + i` is
-// point `first` XOR point `i`. This function computes point `first`; the kernel computes point `i`.
-PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples, uint64_t hash)
-{
-    uint32_t x = 0, y = 0, y_bits = LADDER_GRID / 2;
-    for (uint32_t x_bit = LADDER_GRID / 2; x_bit != 0; x_bit /= 2, first /= 2) {
-        x ^= (first & 1) * x_bit;
-        y ^= (first & 1) * y_bits;
-        y_bits ^= y_bits / 2;
-    }
-    const uint32_t scramble = (uint32_t)(hash % (LADDER_GRID * LADDER_GRID));
-    return (PixelRequest){pixel[0], pixel[1], scramble ^ (x + LADDER_GRID * y), samples};
-}
 
 bool pixel_requests_are_whole(const PixelRequests *requests)
 {

@@ -21,13 +21,6 @@ typedef struct {
     uint32_t count;                 // requests in the list
 } PixelRequests;
 
-// Returns a request for the samples `first` to `first` + `samples` - 1 of a pixel. `samples` is 4
-// or REQUEST_SAMPLES, and `first` is a multiple of `samples`. The sample positions are points of
-// the two-dimensional Sobol sequence, XORed with the low bits of hash (Sobol, "On the distribution
-// of points in a cube and the approximate evaluation of integrals", 1967).
-PixelRequest pixel_request(const uint32_t pixel[2], uint32_t first, uint32_t samples,
-                           uint64_t hash);
-
 // Returns false if the observer has stopped a trace.
 bool pixel_requests_are_whole(const PixelRequests *requests);
 

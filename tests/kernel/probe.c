@@ -6,8 +6,8 @@
 
 #include <stdio.h>
 
-// kernels/certify.cl, embedded at build time. The certificate computes in fp64.
-extern const char certify_source[];
+// kernels/certify.cl, which computes in fp64, and kernels/ladder.cl, embedded at build time.
+extern const char certify_source[], ladder_source[];
 
 static bool probe_open(Probe *probe, const char *path, Precision precision, Error *error)
 {
@@ -15,7 +15,8 @@ static bool probe_open(Probe *probe, const char *path, Precision precision, Erro
     char source[1 << 18];
     *probe = (Probe){0};
     bool ok = file_read(&file, path, error) && device_open(&probe->device, NULL, error);
-    snprintf(source, sizeof source, "%s\n%s", precision == PRECISION_FP64 ? certify_source : "",
+    snprintf(source, sizeof source, "%s\n%s",
+             precision == PRECISION_FP64 ? certify_source : ladder_source,
              ok ? (const char *)file.bytes : "");
     const KernelEntry entry = {.source = source};
     const ProgramSource program = {.device = &probe->device,

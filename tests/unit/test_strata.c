@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Tests strata with populations of pixels whose errors are known, and the positions and sums of a
-// pixel's samples.
+// Tests strata with populations of pixels whose errors are known, and the sums of a pixel's
+// samples.
 #include "refine/ladder.h"
 #include "refine/ladder_strata.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 
 #include <math.h>
-#include <string.h>
 
 #define PIXELS      20000
 #define POPULATIONS 200
@@ -195,68 +194,6 @@ TEST(no_more_samples_are_planned_than_may_be_taken)
     for (uint32_t i = 0; i < STRATA_COUNT; i++)
         planned += 4 * (strata.strata[i].fraction - before[i]) * (double)strata.strata[i].entered;
     assert_true(planned > 0 && planned < 2 * 1600);
-}
-
-#define HASH 0x5bd1e995u
-
-// Points of the sequence that are XORed with the request's offset, as in kernels/ladder.cl.
-static const uint32_t points[REQUEST_SAMPLES][2] = {
-    {0, 0},    {512, 512}, {256, 768}, {768, 256}, {128, 640}, {640, 128}, {384, 384}, {896, 896},
-    {64, 960}, {576, 448}, {320, 192}, {832, 704}, {192, 320}, {704, 832}, {448, 576}, {960, 64}};
-
-// Stores the positions of samples first to end - 1 of a pixel in places. Each request has `samples`
-// samples.
-static void place(uint32_t first, uint32_t end, uint32_t samples, uint32_t places[][2])
-{
-    const uint32_t pixel[2] = {3, 5};
-    for (uint32_t i = first; i < end; i++) {
-        const uint32_t point = i % samples;
-        const PixelRequest request = pixel_request(pixel, i - point, samples, HASH);
-        assert_int_equal(request.x, 3);
-        assert_int_equal(request.y, 5);
-        assert_int_equal(request.samples, samples);
-        places[i][0] = points[point][0] ^ request.offset % LADDER_GRID;
-        places[i][1] = points[point][1] ^ request.offset / LADDER_GRID;
-    }
-}
-
-// The first 16 samples come from requests of four samples each.
-static void place_all(uint32_t count, uint32_t places[][2])
-{
-    const uint32_t fours = count < REQUEST_SAMPLES ? count : REQUEST_SAMPLES;
-    place(0, fours, 4, places);
-    place(fours, count, REQUEST_SAMPLES, places);
-}
-
-// Divides the pixel into columns x rows rectangles, and expects one sample in each.
-static void expect_one_in_each(uint32_t columns, uint32_t rows)
-{
-    static uint32_t places[LADDER_GRID][2];
-    static bool is_taken[LADDER_GRID];
-    const uint32_t count = columns * rows;
-    place_all(count, places);
-    memset(is_taken, 0, sizeof is_taken);
-    for (uint32_t i = 0; i < count; i++) {
-        assert_true(places[i][0] < LADDER_GRID && places[i][1] < LADDER_GRID);
-        const uint32_t column = places[i][0] * columns / LADDER_GRID,
-                       row = places[i][1] * rows / LADDER_GRID;
-        assert_false(is_taken[row * columns + column]);
-        is_taken[row * columns + column] = true;
-    }
-}
-
-TEST(every_rung_has_one_sample_in_each_rectangle_of_its_size)
-{
-    for (uint32_t count = 4; count <= LADDER_GRID; count *= 4)
-        for (uint32_t columns = 1; columns <= count; columns *= 2)
-            expect_one_in_each(columns, count / columns);
-}
-
-TEST(hashes_move_the_samples)
-{
-    const uint32_t pixel[2] = {0, 0};
-    assert_int_equal(pixel_request(pixel, 0, 4, 1).offset, 1);
-    assert_int_equal(pixel_request(pixel, 0, 4, 2 * LADDER_GRID).offset, 2 * LADDER_GRID);
 }
 
 TEST(sums_give_mean_and_variance)

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// Returns the positions of ladder.cl's samples to test_samples.c. It is appended to ladder.cl.
+
+// The first request has the same number of samples as all others. places receives pairs {x, y}.
+kernel void probe_places(global const PixelRequest *requests, global uint *places)
+{
+    const uint item = get_global_id(0), count = get_global_size(0);
+    const PixelSamples sample = samples_of(requests, requests[0].samples, item, count);
+    places[2 * item] = sample.x;
+    places[2 * item + 1] = sample.y;
+}
