@@ -171,26 +171,3 @@ const char *integer_parse(const char *text, const char *end, int64_t *value)
     *value = negative ? sum : -sum;
     return stop;
 }
-
-static void write_digits(FILE *stream, double value, int digits, bool is_float)
-{
-    char text[32];
-    for (const int most = is_float ? 9 : 17; digits <= most; digits++) {
-        double again = 0;
-        const int length = snprintf(text, sizeof text, "%.*g", digits, value);
-        if (number_parse(text, text + length, &again) != NULL &&
-            (is_float ? (double)(float)again == value : again == value))
-            break;
-    }
-    fprintf(stream, " %s", text);
-}
-
-void number_write(FILE *stream, double value)
-{
-    write_digits(stream, value, 15, false);
-}
-
-void number_write_float(FILE *stream, float value)
-{
-    write_digits(stream, (double)value, 6, true);
-}

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Parses and writes numbers in text, correctly rounded and independent of the locale.
+// Parses numbers in text, correctly rounded and independent of the locale.
 #pragma once
 
 #include <stdint.h>
-#include <stdio.h>
 
 // Parses one decimal number between text and end: an optional sign, digits with an optional point,
 // and an optional exponent. Hexadecimal numbers, "inf" and "nan" are not accepted. Returns the end
@@ -14,8 +13,3 @@ const char *number_parse(const char *text, const char *end, double *value);
 // Parses a decimal integer with an optional sign. Returns its end. Returns NULL if text does not
 // start with an integer, or if the integer does not fit in int64_t.
 const char *integer_parse(const char *text, const char *end, int64_t *value);
-
-// Write a blank and the number, with 15 digits for a double and 6 for a float, or with as many more
-// as are necessary to read back the same number.
-void number_write(FILE *stream, double value);
-void number_write_float(FILE *stream, float value);

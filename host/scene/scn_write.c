@@ -77,11 +77,36 @@ typedef struct {
     bool is_own;         // the files' colors replace the diffuse color of current.material
 } Writer;
 
+// Writes value with `digits` digits, or with as many more as are necessary to read back the same
+// number.
+static void write_digits(FILE *stream, double value, int digits, bool is_float)
+{
+    char text[32];
+    for (const int most = is_float ? 9 : 17; digits <= most; digits++) {
+        double again = 0;
+        const int length = snprintf(text, sizeof text, "%.*g", digits, value);
+        if (number_parse(text, text + length, &again) != NULL &&
+            (is_float ? (double)(float)again == value : again == value))
+            break;
+    }
+    fprintf(stream, " %s", text);
+}
+
+static void write_number(FILE *stream, double value)
+{
+    write_digits(stream, value, 15, false);
+}
+
+static void write_float(FILE *stream, float value)
+{
+    write_digits(stream, (double)value, 6, true);
+}
+
 static void write_vector(FILE *stream, Vec3 v)
 {
-    number_write(stream, v.x);
-    number_write(stream, v.y);
-    number_write(stream, v.z);
+    write_number(stream, v.x);
+    write_number(stream, v.y);
+    write_number(stream, v.z);
 }
 
 static void write_picture(const Writer *writer)
@@ -90,7 +115,7 @@ static void write_picture(const Writer *writer)
     fprintf(writer->stream, "size %u %u\nbackground", scene->width, scene->height);
     write_vector(writer->stream, scene->background);
     fputs("\nambient", writer->stream);
-    number_write(writer->stream, scene->ambient);
+    write_number(writer->stream, scene->ambient);
     fprintf(writer->stream, "\nmax_level %u\n", scene->max_level);
 }
 
@@ -113,9 +138,9 @@ void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream)
     const double width = orthographic ? camera->width : camera->width_degrees;
     if (orthographic)
         fputs(" orthographic", stream);
-    number_write(stream, orthographic ? camera->height : camera->fov_degrees);
+    write_number(stream, orthographic ? camera->height : camera->fov_degrees);
     if (width > 0)
-        number_write(stream, width);
+        write_number(stream, width);
     fputc('\n', stream);
 }
 
@@ -184,11 +209,27 @@ static const char *name_of(const Writer *writer, size_t material)
     return writer->names.list.data[material - COURSE_MATERIALS].name;
 }
 
+// Omits the properties that the material's shader ignores, and the checker of plain materials.
+static void write_material(FILE *stream, const Material *material)
+{
+    fputs(shader_names[material->shader], stream);
+    for (size_t i = 0; i < MATERIAL_PROPERTIES; i++) {
+        const MaterialProperty *property = &material_properties[i];
+        const float *values = (const void *)((const char *)material + property->offset);
+        if ((property->is_shine && material->shader != SHADER_BLINN_PHONG) ||
+            (values == &material->check_size && material->check_size == 0))
+            continue;
+        fprintf(stream, " %s", property->name);
+        for (int place = 0; place < property->count; place++)
+            write_float(stream, values[place]);
+    }
+}
+
 static void write_defines(const Writer *writer)
 {
     for (size_t i = COURSE_MATERIALS; i < writer->scene->materials.count; i++) {
         fprintf(writer->stream, "define \"%s\" ", name_of(writer, i));
-        material_write(&writer->scene->materials.data[i], writer->stream);
+        write_material(writer->stream, &writer->scene->materials.data[i]);
         fputc('\n', writer->stream);
     }
 }
@@ -199,7 +240,7 @@ static void write_lights(const Writer *writer)
         const Light *light = &writer->scene->lights.data[i];
         fputs(light->is_sun ? "sun" : "light", writer->stream);
         write_vector(writer->stream, light->position);
-        number_write(writer->stream, light->intensity);
+        write_number(writer->stream, light->intensity);
         if (light->color.x < 1 || light->color.y < 1 || light->color.z < 1)
             write_vector(writer->stream, light->color);
         fputc('\n', writer->stream);
@@ -226,7 +267,7 @@ static void write_spheres(Writer *writer)
         select_material(writer, sphere->material, false);
         fputs("sphere", writer->stream);
         write_vector(writer->stream, sphere->center);
-        number_write(writer->stream, sphere->radius);
+        write_number(writer->stream, sphere->radius);
         fputc('\n', writer->stream);
     }
 }
