@@ -37,7 +37,7 @@ char *file_path_beside(const char *beside, const char *path, Error *error);
 
 // Stores the path of a companion file of the running program. The file is in the program's own
 // folder, as in a build tree, or else in `folder`, which is relative to the program's folder.
-// Returns false if the system does not report the program's folder, because /proc is missing. The
-// current folder would be no safe fallback, because it may contain anybody's files.
+// Returns false if the program's folder is unknown, for example without /proc. The current folder
+// would be no safe fallback, because it may contain anybody's files.
 #define COMPANION_PATH_SIZE (2 * PATH_MAX)
 bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *folder);

@@ -23,7 +23,8 @@ bool progress_on_terminal(void);
 // compiled.
 void progress_show_compiling(bool begins);
 
-// Does the same while a scene is loaded or its tree is built, unless this takes less than 0.5 s.
+// Shows a line with the elapsed seconds while a scene is loaded or its tree is built, but not in
+// the first 0.5 s.
 void progress_show_loading(bool begins);
 
 // Implements RenderObserver::tile_done; context is a Progress. Returns false after a signal.

@@ -94,9 +94,9 @@ typedef enum { CLRT_SHADING_SILHOUETTE, CLRT_SHADING_MATTE, CLRT_SHADING_BLINN_P
 // * ks * S, where S sums light * (normal . half vector) ^ shininess. shaded is limited to 1.
 //
 // If check_size is above 0, cubes of this size have the colors that replace diffuse. Even and odd
-// cubes alternate along each axis, and a cube has a corner at 0 0 0. A triangle shows the color of
-// the cube behind it, and a sphere that of the cube inside it, as if they were cut out of a block
-// of cubes.
+// cubes alternate along each axis, and a cube has a corner at 0 0 0. A point of a triangle shows
+// the color of the cube behind the triangle. A point of a sphere shows the color of the cube just
+// inside the sphere. Solids then look as if they were cut out of a block of cubes.
 typedef struct {
     size_t size;
     ClrtShading shading;

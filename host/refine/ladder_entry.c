@@ -55,8 +55,8 @@ static inline float bend_along(const float *color, ptrdiff_t step)
     return fabsf(2 * *color - color[-step] - color[step]);
 }
 
-// Measures the bends of up to AREA_WIDTH + 2 * RADIUS pixels of a row. Their distances to neighbors
-// must be equal.
+// Measures the bends of up to AREA_WIDTH + 2 * RADIUS pixels of a row. `next` must apply to all of
+// them.
 static void measure_pixels(const float *colors, Neighbors next, uint32_t count, float *bends)
 {
     float most[3 * (AREA_WIDTH + 2 * RADIUS)];

@@ -52,8 +52,8 @@ typedef struct {
     bool is_open, is_running;
 } Session;
 
-// Starts a thread that opens the device. Until session_await returns, the caller may call
-// session_take but no other function of the session.
+// Starts a thread that opens the device. Until session_await returns, the caller may call only
+// session_take, session_save and session_close.
 void session_begin(Session *session);
 
 // The work of a run's pictures. The session chooses kernels by it.

@@ -2,7 +2,7 @@
 // Changes the state by keys and mouse actions. status_text_help lists them for users.
 #include "view/controls.h"
 
-// All these constants except the last are those of the course's viewer.
+// All these constants except the last come from the course's viewer.
 
 #define DEGREES_PER_PIXEL  0.25
 #define LENGTH_PER_PIXEL   0.15

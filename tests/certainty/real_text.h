@@ -214,8 +214,8 @@ static bool nearest_is_settled(const Nearest *nearest)
     return nearest->other > stop->t + (stop->t - stop->low);
 }
 
-// Returns whether two triangles have the same corners, which are stored sorted. A ray hits both at
-// one point, and a ray that leaves either starts on both.
+// Returns whether two triangles have the same corners, which are stored sorted. A ray hits both
+// triangles at the same point, and a ray that starts on one also starts on the other.
 static bool are_coincident(const TriangleData *one, const TriangleData *other)
 {
     return memcmp(one->a, other->a, sizeof one->a) == 0 &&

@@ -105,7 +105,8 @@ class Pages(Work):
         self.assertEqual((done.stderr, done.returncode), ("", 0))
 
 
-# bash and zsh run in terminals. The tests press the tab key and read the completions.
+# bash and zsh complete words only in a terminal. The tests press the tab key there and read the
+# completions. fish needs no terminal (ask_fish).
 SETUP = {
     "bash": (
         ["bash", "--norc", "--noprofile", "-i"],

@@ -16,7 +16,7 @@ from pictures import read_header
 from work import HAS_EXR, SCENE, Work, main
 
 NAME = "a.exr" if HAS_EXR else "a.pfm"
-# LONG takes minutes and has many tiles. ONE_TILE takes as long and has one.
+# LONG takes minutes and has many tiles. ONE_TILE takes as long, but has only one tile.
 LONG = [SCENE, "-s", "3000x3000", "--aa=16"]
 ONE_TILE = [*LONG, "--tune", "tile=3000x3000"]
 EARLY = "clrt: stopped before the first tile: no picture is written\n"

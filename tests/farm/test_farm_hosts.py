@@ -22,7 +22,7 @@ from skips import leave  # noqa: E402
 
 CLRT = str(pathlib.Path(sys.argv[1]).resolve())
 SCENE = str(ROOT / "scenes/reflections.scn")
-# 32 tiles for each part, and a few seconds for each host.
+# SLOW gives each of the PARTS parts 32 tiles, and keeps each host busy for a few seconds.
 PARTS = 8
 SLOW = [SCENE, "-s", "512x512", "--tune", "tile=32x32", "--aa=16", "--precision=fp64", "-j", "1"]
 TURN = [SCENE, "-s", "96x72", "--aa=8", "-j", "1", "--turntable", "1000"]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Runs the stages one after another. A stage that fails leaves an empty value. All pictures of a
-// program share a session, so kernels are compiled or loaded once.
+// Runs the stages one after another. A stage that fails leaves an empty value. Consecutive pictures
+// with the same compiler options and GPU share a session, so their kernels are compiled or loaded
+// once.
 #include "image/picture.h"
 
 #include "image/form.h"

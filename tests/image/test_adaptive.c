@@ -38,8 +38,8 @@ TEST(every_form_threads_and_tree_refine_the_same)
 
 #define SIDE 240
 
-// The requirement for a contrast: at most 1.1 times the error of side x side samples per pixel, and
-// at most 1 / times of these samples.
+// With this contrast, the error must be at most 1.1 times the error of `side` x `side` samples per
+// pixel. The number of samples must be at most 1 / `times` of `side` x `side` per pixel.
 typedef struct {
     float contrast;
     uint32_t side, times;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Pictures must have the recorded hashes on every device, PoCL target and compiler setting.
-// Usage: test_hashes [SIZE [VIEWS]] checks the recorded pictures of size SIZE (128) and of views up
-// to VIEWS. `test_hashes refined` checks refined pictures, with two settings each of --aa-adaptive
-// and --error. With `list` before these words, the test prints the records with rendered hashes. A
-// new record starts with the hash 0. CLRT_TEST_SCENES limits the scenes to the listed ones.
+// Usage: test_hashes [list] [SIZE [VIEWS]], or test_hashes [list] refined
+// The first form checks the recorded pictures of views 1 to VIEWS (default: all) at SIZE x SIZE
+// pixels (default: 128). The second form checks refined pictures, with two settings each of
+// --aa-adaptive and --error. With `list`, the test prints the records with rendered hashes. A new
+// record starts with the hash 0. CLRT_TEST_SCENES limits the scenes to the listed ones.
 // CLRT_TEST_OPTIONS contains options for the compiler of kernels.
 #include "image/course.h"
 #include "image/rendered.h"

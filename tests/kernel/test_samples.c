@@ -18,8 +18,8 @@ static void trace(const PixelRequest *requests, uint32_t count, uint32_t places[
                           (ProbeInput){places, samples * sizeof *places}));
 }
 
-// Stores the positions of the first LADDER_GRID samples of a pixel. A request has `samples`
-// samples.
+// Stores the positions of the first LADDER_GRID samples of a pixel. Each request takes `samples` of
+// them.
 static void place_all(uint32_t x, uint32_t y, uint32_t samples, uint32_t places[LADDER_GRID][2])
 {
     PixelRequest requests[LADDER_GRID];

@@ -18,7 +18,7 @@ typedef struct {
     double inverse_area; // of twice the area
 } Facet;
 
-// The sums and marks of a block of points.
+// A block of points. Each point has a sum of solid angles and a number of near triangles.
 typedef struct {
     double points[3][BLOCK], sums[BLOCK], nears[BLOCK];
 } Block;

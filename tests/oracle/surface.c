@@ -33,8 +33,9 @@ static Layers layers_of(const Scene *scene, const Material *material, int axis)
     return (Layers){1 / size, 0, 0x1p-19 * (1 + unit)};
 }
 
-// Returns the number of the layer of a coordinate. The layer is that of a point slightly behind the
-// surface or, along an axis to which the surface is parallel, slightly farther along the axis.
+// Returns the index of the layer that contains a coordinate. First moves the coordinate slightly
+// behind the surface. If the surface is parallel to the axis, moves the coordinate slightly farther
+// along the axis instead.
 static double layer_at(Layers layers, double coordinate, double lean)
 {
     const double place = layers.rate * coordinate + layers.shift;

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds the Python wheel in one bare Debian, also as the conda recipe does, and installs it in a virtual
-# environment of another, which has only Python and PoCL. There runs the README's Python example, and
-# prints its seconds. Exit status 77: this machine cannot make the roots. Needs root, mmdebstrap, git
-# and PyPI.
+# Builds the Python wheel in a bare Debian, and runs the commands of the conda recipe. Installs the
+# wheel in a virtual environment in a second bare Debian, which has only Python and PoCL. Runs and
+# times the README's Python example there. Exits with status 77 if this machine cannot create bare
+# Debians. Needs root, mmdebstrap, git and PyPI.
 # Usage: fresh_wheel.sh SUITE (bookworm or trixie)
 set -eu
 . "$(dirname "$(readlink -f "$0")")/bare_debian.sh"

@@ -110,7 +110,8 @@ static const struct {
     {TETRAHEDRON, "0 1 2  0 3 1  0 2 3  1 3 2", 6, .is_closed = true, .is_inside_out = true},
     // A triangle is missing.
     {TETRAHEDRON, "0 1 3  0 3 2  1 2 3", 6, .open = {3, 0}},
-    // Only one triangle at the edge from 1 to 2 is split at the edge's middle, vertex 4.
+    // The edge between vertices 1 and 2 is split at its middle, vertex 4, in only one of its
+    // triangles.
     {TETRAHEDRON "  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3", 9, .open = {3, 0}},
     // A triangle is turned over.
     {TETRAHEDRON, "0 2 1  0 1 3  0 3 2  1 3 2", 6, .turned = {3, 0}},

@@ -17,7 +17,7 @@ static const struct {
     // NVIDIA's GPUs with 20 and 132 multiprocessors. Registers limit the second one's groups.
     {{.compute_units = 20, .group_limit = 1024, .group_multiple = 32}, {8, 8}, 163840},
     {{.compute_units = 132, .group_limit = 256, .group_multiple = 32}, {8, 8}, 1048576},
-    // AMD's GPUs, and Mali with small groups.
+    // AMD's GPUs, Mali with small groups, and a device with groups of one work-item.
     {{.compute_units = 8, .group_limit = 256, .group_multiple = 64}, {8, 8}, 65536},
     {{.compute_units = 304, .group_limit = 256, .group_multiple = 128}, {16, 8}, 1048576},
     {{.compute_units = 4, .group_limit = 64, .group_multiple = 16}, {8, 8}, 32768},
@@ -39,7 +39,7 @@ TEST(groups_and_launches_fit_the_device)
     }
 }
 
-// Returns the longest of 100 launches except the first, in seconds. An item takes `seconds`.
+// Returns the time of the longest of launches 2 to 100, in seconds. An item takes `seconds`.
 static double longest_launch(const LaunchShape *shape, double samples, double seconds)
 {
     double longest = 0;

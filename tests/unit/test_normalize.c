@@ -29,7 +29,7 @@ TEST(the_largest_side_of_the_triangles_comes_to_between_one_and_two)
 
 #define PLACES 300
 
-// Coordinates of maps are in the millions, with nine decimals.
+// Map coordinates can be in the millions and have nine decimals.
 TEST(places_of_many_digits_are_kept_to_the_last_bit)
 {
     double positions[PLACES][3];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws the same picture as clrt with Embree 3, for the comparison in tools/bench. Prints the
+// Uses Embree 3 to draw the picture that clrt draws, for the comparison in tools/bench. Prints the
 // measurements as JSON.
 #include "base/clock.h"
 #include "image/pfm.h"

@@ -28,7 +28,7 @@ static void write_sentence(FILE *stream, const char *text)
     fputs(".\n", stream);
 }
 
-// Writes the words of a choice, or the name of the value.
+// Writes an option's argument, with .Cm for literal words and .Ar for other values.
 static void write_words(FILE *stream, const Option *option)
 {
     char words[128];

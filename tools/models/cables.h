@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A bundle of cables: long thin triangles oblique to the axes, whose boxes are mostly empty.
+// A bundle of cables. Its triangles are long, thin and oblique to the axes, so their boxes are
+// mostly empty.
 #pragma once
 
 #include "surface.h"

@@ -5,7 +5,7 @@
 
 #include "surface.h"
 
-// Writes vertices (x y z nx ny nz, float; red green blue, uchar, unless color is NULL) and two
-// triangles per quad. If the file cannot be written
-// completely, returns false, and error receives the file's name and the system's reason.
+// Writes each vertex as floats x y z nx ny nz and, if color is not NULL, uchars red green blue.
+// Writes each quad as two triangles. If the file cannot be written completely, returns false, and
+// error receives the file's name and the system's reason.
 bool ply_file_write(const Surface *surface, PointColor *color, const char *path, Error *error);

@@ -65,7 +65,7 @@ static double sleeves(Vec3 p)
     return sleeve(shape_mirror(p), vec3(0.0, 0.30, 0.45), vec3(0.16, 0.29, 0.37));
 }
 
-// Folds run along the leg and end before the knee.
+// Folds run along the shin and obliquely across the thigh. They fade out near the knee.
 static double leg(Vec3 p, Vec3 hip, Vec3 knee, Vec3 ankle)
 {
     const double thigh = shape_capsule(p, hip, knee, 0.11, 0.088);

@@ -45,8 +45,8 @@ static inline Vec3 shape_mirror(Vec3 p)
     return vec3(p.x, fabs(p.y), p.z);
 }
 
-// Return the point in the coordinates of a frame at center, which is rotated by `turns` about x, y
-// or z.
+// These functions return the point in the coordinates of a frame. The frame is centered at `center`
+// and rotated by `turns` about x, y or z.
 static inline Vec3 shape_turn_x(Vec3 p, Vec3 center, double turns)
 {
     const double c = wave_cosine(turns), s = wave_sine(turns);

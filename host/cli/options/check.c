@@ -121,7 +121,7 @@ static bool check_window(const Options *options, Error *error)
 #endif
 }
 
-// Advice on film formats that clrt does not write. The caller appends the film's path.
+// Advice for films in unsupported formats. check_format appends the output path.
 #define FILM "; for a film, draw -o turn.####.png and run ffmpeg -framerate 20 -i turn.%04d.png "
 
 static bool check_format(Options *options, Error *error)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ten thousand triangles share a vertex. Rays at this vertex and at edges must hit. Test 25
-// compares the trees of a smaller fan, and test 20 expects the lowest id.
+// compares the trees on a fan of 400 triangles. Test 20 checks, on a cube, that the lowest id wins
+// among triangles at equal distances.
 #include "support/rig.h"
 #include "support/shapes.h"
 

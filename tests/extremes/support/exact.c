@@ -6,12 +6,12 @@
 
 #include <math.h>
 
-// The largest distance by which rounding of corners, shear and edge functions moves an outline,
-// relative to the largest distance between the ray's origin and a corner.
+// A bound on how far rounding of corners, shear and edge functions moves an outline, relative to
+// Sheared::reach.
 #define DOUBT (34 * 0x1p-24L)
 
-// The same for the error of depth: triangle_depth_error's bound (kernels/triangle.inc.cl) with the
-// least accurate division that OpenCL allows.
+// The bound for the error of depth, also relative to Sheared::reach. It is triangle_depth_error's
+// bound (kernels/triangle.inc.cl) with the least accurate division that OpenCL allows.
 #define DEPTH_DOUBT (27 * 0x1p-24L)
 
 typedef struct {

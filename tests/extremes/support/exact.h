@@ -15,7 +15,7 @@ typedef struct {
 // Returns the nearest hit in a scene of two-sided triangles without spheres.
 Verdict exact_nearest(const Triangles *triangles, const TestRay *ray);
 
-// A ray and a single triangle.
+// The result of testing a ray against a single triangle.
 typedef struct {
     bool met;
     double t;        // of the hit, if met

@@ -54,10 +54,10 @@ void ray_batch_close(RayBatch *batch);
 int ray_batch_setup(void **state);
 int ray_batch_teardown(void **state);
 
-// Replaces the scene by a copy of flat, which must have the layout of form_choice.
+// Replaces the scene with a copy of flat, which must have the layout of form_choice.
 void ray_batch_upload(RayBatch *batch, const FlatScene *flat);
 
-// Replaces the scene by one sphere.
+// Replaces the scene with a single sphere.
 void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 
 // Returns the hits in the order of `rays`; the caller frees them. task is BATCH_NEAREST or
