@@ -5,7 +5,6 @@
 #include "refine/ladder_requests.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define BLOCK_PIXELS   (PACKET_SIDE * PACKET_SIDE)
 #define BLOCKS_OF_TASK 256

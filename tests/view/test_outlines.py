@@ -72,6 +72,16 @@ def compare(name, view, drawn, traced):
     return apart.bit_count()
 
 
+def both_pictures(screen, scene):
+    """Returns the traced picture of the scene and OpenGL's."""
+    window = opened(screen, scene, size=SIZE)
+    traced = window.read()
+    window.press("r", "OpenGL")
+    drawn = window.read()
+    window.close()
+    return traced, drawn
+
+
 def count_views(text):
     return text.count("\ncamera ") or 6
 
@@ -120,11 +130,7 @@ def light_falls_on_the_same_side_of_a_convex_mesh(screen, folder):
     for light in "light", "sun":
         scene.write_text(f"background 0 0 0\nambient 0\nmaterial 1\n{light} -3 1 -2 1e6\n"
                          f"ply_file {ROOT}/tests/image/ball.ply\ncamera 0.4 -2.1 0.6 0 0 0 60\n")
-        window = opened(screen, scene, size=SIZE)
-        traced = window.read()
-        window.press("r", "OpenGL")
-        drawn = window.read()
-        window.close()
+        traced, drawn = both_pictures(screen, scene)
         apart = compare(f"ball, {light}", "1", drawn, traced)
         print(f"         {light}: {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")
 
@@ -135,11 +141,7 @@ def colors_of_vertices_agree(screen, folder):
     scene.write_text("background 0 0 0\ndefine paper silhouette diffuse 0 1 0.5\nmaterial own paper\n"
                      f"mesh {ROOT}/tests/image/painted.ply\nmesh {ROOT}/scenes/cube.ply translate 2.5 0 0\n"
                      "camera 1.2 -6 2 1.2 0 0.3 50\n")
-    window = opened(screen, scene, size=SIZE)
-    traced = window.read()
-    window.press("r", "OpenGL")
-    drawn = window.read()
-    window.close()
+    traced, drawn = both_pictures(screen, scene)
     near_edges = [sum(abs(a - b) > 2 for a, b in zip(traced[channel::4], drawn[channel::4]))
                   for channel in range(3)]
     print(f"         {near_edges} of {SIZE[0] * SIZE[1]} pixels differ by more than 2 of 255")
@@ -155,11 +157,7 @@ def checks_agree(screen, folder):
                      f"mesh {ROOT}/scenes/square.ply scale 2 translate 7 8 3\nmaterial ball\n"
                      f"sphere 6.3 8 3.6 0.6\nmesh {ROOT}/scenes/box.ply scale 0.9 translate 7.2 7.5 3\n"
                      "camera 6 2 6 7 7.8 3.2 40\n")
-    window = opened(screen, scene, size=SIZE)
-    traced = window.read()
-    window.press("r", "OpenGL")
-    drawn = window.read()
-    window.close()
+    traced, drawn = both_pictures(screen, scene)
     apart = compare("checks", "1", drawn, traced)
     print(f"         checks: {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")
     assert len(set(traced[2::4])) > 4, "the objects have no checks"
