@@ -16,7 +16,7 @@ const KernelChoice form_all[FORMS] = {
 
 const KernelChoice form_few[FORMS_FEW] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
                                           {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
-                                          {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32},
+                                          {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32},
                                           {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
 
 static const struct {

@@ -11,8 +11,8 @@
 #define FORMS_FP32 (FORMS - 1)
 extern const KernelChoice form_all[FORMS];
 
-// One number of lanes, for kernels whose own code is the same for every number: channels and
-// explanations. fp64 is last.
+// Only the device's own number of lanes, for kernels whose own code is the same for every number:
+// channels and explanations. Other tests compile these kernels too. fp64 is last.
 #define FORMS_FEW 4
 extern const KernelChoice form_few[FORMS_FEW];
 
