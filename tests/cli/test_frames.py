@@ -85,7 +85,7 @@ class Frames(Work):
 
     @needs_exr
     def test_a_stopped_film_holds_its_pictures(self):
-        process = self.start(SCENE, "-s", "300x300", "--aa=4", "--turntable", "500", "-o", "a.gif", "--hash",
+        process = self.start(SCENE, "-s", "150x150", "--aa=2", "--turntable", "1000", "-o", "a.gif", "--hash",
                              stdout=subprocess.PIPE)
         process.stdout.readline()
         process.send_signal(signal.SIGINT)
