@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes aims and shoots rays at them. A ray is cast only if all triangles around its aim face its
+// Makes aims, and rays toward them. A ray is cast only if all triangles around its aim face its
 // origin. In a closed mesh, the exact ray then hits one of them, so a ray that passes shows a leak.
 // The bounds on rounding are generous: aims get no ray if angles are too sharp or triangles too
 // small.

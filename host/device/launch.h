@@ -26,6 +26,6 @@ LaunchShape launch_shape(const LaunchFacts *facts);
 // samples.
 uint32_t launch_first_items(const LaunchShape *shape, double samples);
 
-// Returns the work-items of the next launch, from 1 to shape->items. The previous launch could have
-// up to `items` items. It had `done` items, at least 1, and took `seconds`.
+// Returns the work-items of the next launch, from 1 to shape->items. The previous launch was
+// limited to `items` items. It had `done` items, at least 1, and took `seconds`.
 uint32_t launch_next_items(const LaunchShape *shape, uint32_t items, uint32_t done, double seconds);

@@ -253,8 +253,8 @@ typedef struct {
 // program sets the environment variable POCL_MAX_PTHREAD_COUNT (in later versions
 // POCL_CPU_MAX_CU_COUNT) before the first OpenCL call.
 //
-// This call, clrt_device_count and clrt_device_get read environment variables, and PoCL sets some
-// when it is called first. During these calls, other threads must not use the environment, because
+// This call, clrt_device_count and clrt_device_get read environment variables, and PoCL's first
+// call sets some. During these calls, other threads must not use the environment, because
 // most versions of getenv and setenv are not thread-safe. Later calls only read the environment,
 // and only while they compile or store kernels.
 //

@@ -56,8 +56,8 @@ typedef struct {
 // edge.
 bool edges_next(const Edges *edges, Edge *edge);
 
-// Fans: sets of corners at one point, whose triangles the caller has joined across edges. A corner
-// is a number: 3 * triangle + 0, 1 or 2.
+// Fans. Each is a set of corners at one point, which the caller joins across edges. A corner is a
+// number: 3 * triangle + 0, 1 or 2.
 typedef struct {
     const Mesh *mesh;
     const Weld *weld;

@@ -4,9 +4,9 @@
 // draws a tile of sky in 70 us waits for the host.
 //
 // On CPUs, a launch is a tile. All launches use one padded grid with offset 0, because PoCL
-// compiles another version of a kernel for each local size, for offsets and for large grids. The
-// kernels receive the position by FrameData instead of by the offset. On other devices, the size of
-// a launch follows the device and the time of the previous launch (device/launch.h).
+// compiles another version of a kernel for each local size, for offsets and for large grids.
+// FrameData passes the tile's position instead. On other devices, the size of a launch follows the
+// device and the time of the previous launch (device/launch.h).
 //
 // Invariant: callers receive the tiles in the order of their numbers, so a count of finished tiles
 // identifies them.

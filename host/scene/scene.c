@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Creates scenes with the constants of the UvA course "Graphics and Game Technology", and frees
-// them. Computes a scene's hash, its missing parts and the error of a maximum level.
+// them. Computes a scene's hash, its first missing part and the error of a maximum level.
 #include "scene/scene.h"
 
 #include <inttypes.h>

@@ -43,8 +43,8 @@
 
 // The fraction of a time limit that the quick kernels lose, because they take at most half as many
 // samples in that time.
-// Measure: samples.total of `clrt SCENE --time 1 --tune kernel=pair --json`, divided by
-// samples.total with kernel=packet.
+// Measure: 1 - samples.total of `clrt SCENE --time 1 --tune kernel=pair --json` / samples.total
+// with kernel=packet.
 #define LOST_OF_LIMIT 0.5
 
 // A pixel refined toward the error E takes as long as 1 + ERROR_SAMPLES / E samples of --aa. A

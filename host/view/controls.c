@@ -15,8 +15,8 @@
 #define COURSE_FOV         45.0
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// Computes perpendicular axes, of which the last is up. If up is z, the others are x and y, from
-// which the course measures angles.
+// Computes perpendicular axes, of which the last is up. If up is z, the others are the x and y
+// from which the course measures angles.
 static void make_axes(Vec3 axes[3], Vec3 up)
 {
     const Vec3 z = vec3_normalize(up);

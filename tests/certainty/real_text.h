@@ -333,7 +333,7 @@ static int clear_sign(NUMBER value, NUMBER error)
     return value > error ? 1 : value < -error ? -1 : 0;
 }
 
-// Returns the sign of the light's height over the plane perpendicular to the shading normal.
+// Returns 1 if the shading normal faces the light, -1 if not, and 0 if that is unsettled.
 static int side_of_normal(const Path *path, const Surface *surface, Vector apart)
 {
     const NUMBER error = path->tolerance * extent(surface->normal) *

@@ -13,7 +13,7 @@
 static const ClrtPicture picture = {
     .size = sizeof picture, .width = WIDTH, .height = HEIGHT, .samples = 1};
 
-// Expects the program's picture of the scene's file. Frees the scene.
+// Requires the library's picture to equal the program's picture of the file. Frees the scene.
 static void expect_program(ClrtScene *scene, const char *file, const char *options)
 {
     assert_non_null(scene);

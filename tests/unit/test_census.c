@@ -120,7 +120,7 @@ static const struct {
     // Two solids touch at a point.
     {TETRAHEDRON "  -1 0 0  0 -1 0  0 0 -1", FACES "  0 4 5  0 6 4  0 5 6  4 6 5", 12,
      .pinched = {1, 4}},
-    // Triangles have the same corners: first equal vertices, then vertices at equal positions.
+    // Duplicate triangles: in one mesh by vertices, in the next by positions.
     {TETRAHEDRON, "0 1 2  0 1 3  1 2 0  2 1 0", 5, .open = {2, 1}, .crowded = {3, 0},
      .duplicates = {2, 2}},
     {"0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 3 2", 3, .turned = {3, 0}, .duplicates = {1, 1}},

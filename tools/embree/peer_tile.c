@@ -13,7 +13,7 @@
 #define BLOCKS_ABREAST (PACKETS > 1 ? 2 : 1)
 #define BLOCKS_DEEP    (PACKETS / BLOCKS_ABREAST)
 
-// Reflected rays start at this distance from a surface, and shadow rays from a light end there.
+// Reflected rays start at this distance from a surface, and shadow rays end at it.
 // The scene's longest side is 1 to 2.
 #define AWAY 3e-5f
 

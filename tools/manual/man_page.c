@@ -8,8 +8,8 @@
 #include <ctype.h>
 #include <string.h>
 
-// Writes a help text of the table as a sentence, with a capital and a period. Escapes hyphens of
-// option names, so that they remain ASCII hyphens.
+// Writes a help text of the table as a sentence, with a capital and a period. Escapes the
+// leading hyphens of options, so that they remain ASCII hyphens.
 static void write_sentence(FILE *stream, const char *text)
 {
     char before = ' ';

@@ -37,8 +37,8 @@ typedef struct {
     float density;          // pixels per 1/96 inch
 } TextOverlay;
 
-// Opens the view. If no font is installed, stores a message in no_font, returns true, and the view
-// draws nothing.
+// Opens the view. A missing font is no failure: no_font receives a message, and the view draws
+// nothing.
 bool text_view_open(TextView *view, Error *no_font, Error *error);
 void text_view_close(TextView *view);
 

@@ -64,7 +64,8 @@ void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 // BATCH_BLOCKED. Sorts a copy of the rays by kind, signs of the direction, and origin for packets.
 TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
 
-// The id of a ray of ray_batch_leave that hits nothing although the shadow ray along it is blocked.
+// The id of the hit of a ray of ray_batch_leave that hits nothing although its shadow ray is
+// blocked.
 #define LEAVE_SHADOWED 0xfffffffeu
 
 // Returns the hits of rays that leave the surfaces hit by `rays`. Ray i leaves along outward[i] or

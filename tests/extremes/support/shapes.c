@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fills vertices and triangles. The sines are clrt's own, which are equal on every machine.
+// Makes the meshes of shapes. The sines are clrt's own, which are equal on every machine.
 #include "shapes.h"
 
 #include "base/vec.h"
