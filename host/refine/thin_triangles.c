@@ -251,7 +251,7 @@ static bool any_cell(const uint32_t *rows, uint32_t count)
     return any != 0;
 }
 
-// Adds the cells of one pixel that must be subdivided.
+// Adds the cells to subdivide in one pixel.
 static void search_pixel(ThinSearch *search, uint32_t run)
 {
     const uint32_t level = search->level, scale = thin_parts_scale(level);

@@ -74,7 +74,7 @@ Worker *worker_start(const WorkerSetup *setup, const WorkerRequest *request, Err
 void worker_request(Worker *worker, const WorkerRequest *request);
 void worker_poll(Worker *worker, WorkerStatus *status);
 
-// Returns the latest model or NULL. The caller releases the reference.
+// Returns a reference to the latest model, which the caller releases, or NULL.
 Model *worker_model(Worker *worker);
 
 // Returns whether the request is finished, except perhaps for PASS_COUNT.

@@ -3,16 +3,20 @@
 // triangle, so close to the vertex that rounding puts the start on both planes. Neither plane then
 // decides whether a ray hits the other triangle: only their order along the ray does
 // (docs/numerics.md, "Closed mirrors", step 5).
+//
+// fp64 is not tested. Rays would have to start closer to the vertex than the error with which the
+// library moves starts onto their triangle.
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 
 #include <clrt.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { PAIRS = 50, RAYS = 40, VERTICES = 12 };
 
-// Heights over the plane z = 0 are slope[0] * x + slope[1] * y.
+// Heights over the plane z = 0 are slopes[triangle][0] * x + slopes[triangle][1] * y.
 typedef struct {
     double slopes[2][2]; // of the own and the other triangle
     double bearing;      // from the vertex to where the triangles cross
@@ -70,8 +74,8 @@ static Aimed aim(const Pair *pair)
     for (int i = 0; i < RAYS;) {
         const double away = pow(10, random_between(&numbers, -8, -5.5));
         const double bearing = pair->bearing + random_between(&numbers, -0.19, 0.19);
-        const double x = (double)(float)(away * cos(bearing)),
-                     y = (double)(float)(away * sin(bearing));
+        const double x = (double)(float)(away * cos(bearing));
+        const double y = (double)(float)(away * sin(bearing));
         const double start = height(pair, 0, x, y), up = random_below(&numbers, 2) == 0 ? 1 : -1;
         const double ahead = up * (height(pair, 1, x, y) - start);
         if (fabs(ahead) < least * away)
@@ -118,7 +122,8 @@ static int count_wrong(ClrtRenderer *renderer, const Pair *pair)
 
 static void expect_none_wrong(ClrtKernel kernel)
 {
-    const ClrtSettings settings = {.size = sizeof settings, .kernel = kernel};
+    const ClrtSettings settings = {
+        .size = sizeof settings, .device = getenv("CLRT_DEVICE"), .kernel = kernel};
     ClrtRenderer *renderer = clrt_renderer_create(&settings, NULL);
     int wrong = 0;
     assert_non_null(renderer);
@@ -130,7 +135,7 @@ static void expect_none_wrong(ClrtKernel kernel)
     assert_int_equal(wrong, 0);
 }
 
-TEST(rays_that_start_at_a_vertex_hit_the_triangles_ahead_and_no_others)
+TEST(rays_that_start_beside_a_vertex_hit_the_triangles_ahead_and_no_others)
 {
     expect_none_wrong(CLRT_KERNEL_PACKET);
     expect_none_wrong(CLRT_KERNEL_WIDE);
