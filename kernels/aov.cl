@@ -96,7 +96,7 @@ kernel void trace_paths(TRACER_ARGUMENTS, global PathData *paths)
 }
 
 // Fills `tallies` with TALLY_KINDS counts per pixel of the tile, summed over the pixel's samples.
-// Each pixel is traced alone, because tests that the rays of a packet share belong to no single
+// Each pixel is traced alone. The rays of a packet would share tests, which belong to no single
 // pixel.
 kernel void count_tests(TRACER_ARGUMENTS, global uint *tallies)
 {

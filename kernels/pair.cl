@@ -11,7 +11,7 @@
 
 #if !CLRT_WIDE_NODES
 
-// The intervals in which the ray is inside the children's boxes, empty for boxes that it misses.
+// The ray's intervals inside the boxes of the two children. The interval of a missed box is empty.
 typedef struct {
     Real2 entry, leave;
 } Intervals;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traces arrays of rays for clrt check and the library, with the searches that render pictures.
-// Neighbors in an array may be random rays, for which beams are slow. Packets of rays that differ
-// too much are therefore traced ray by ray. The file is compiled after render.cl, and only if
+// Traces arrays of rays for clrt check and the library, with the renderer's searches. Neighbors in
+// an array may be random rays, for which beams are slow. If the rays of a beam differ too much,
+// they are therefore traced ray by ray. The file is compiled after render.cl, and only if
 // requested.
 
 // Reads CLRT_LANES rays from index `start` on, one per lane. Lanes past the array's end are

@@ -84,8 +84,8 @@ typedef struct {
     Real3 backward; // minus the origin, in the order of the axes
 } Search;
 
-// Prepares the tests against boxes. `limit` is as in Search, so the spheres must already have been
-// tested.
+// Prepares the tests against boxes. The caller must have tested the spheres, because `limit` is the
+// distance of the nearest sphere (see Search).
 static inline void search_boxes(Search *search, const Tracer *tracer, const Ray *ray, Real limit)
 {
     search->tracer = tracer;

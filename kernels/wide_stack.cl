@@ -4,8 +4,8 @@
 //
 // Processors cannot predict which children a ray hits and in which order, so every branch on this
 // would be slow. A sorting network has no branches (Batcher, "Sorting networks and their
-// applications", 1968). Compared with insertion sort, it saves 17, 10 and 1 % of the time for
-// pictures of a million, 122 thousand and 6 thousand triangles.
+// applications", 1968). Compared with insertion sort, it saves 17 % of a picture's time with a
+// million triangles, 10 % with 122 thousand, and 1 % with 6 thousand.
 #ifndef CLRT_WIDE_STACK_CL
 #define CLRT_WIDE_STACK_CL
 #include "ray.cl"
