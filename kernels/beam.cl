@@ -116,8 +116,8 @@ static inline uint packets_entering(Beam *beam, uint child, uint packets, uint b
     return entering;
 }
 
-// If rays of the beam's kind end at any hit, removes the packet's lanes with a hit from beam->live.
-// Otherwise, updates the packet's reach.
+// If rays of the beam's kind end at any hit, beam->live keeps only the packet's lanes without a
+// hit. Otherwise, updates the packet's reach.
 static inline void update_packet(Beam *beam, uint number)
 {
     const Hit *hit = &beam->hits[number];

@@ -34,8 +34,8 @@ typedef uint64_t ulong;
 // docs/numerics.md), and the slab arithmetic adds 4 (B9). If division is only accurate to 2.5 ulp,
 // these become 34 and 8.
 //
-// A hit can be behind the ray's start by at most 54 units for the error of its distance, plus 256
-// units of the origin (search_behind). A box there has the origin's coordinates. Both move, so each
+// The error of a hit's distance puts it up to 54 units behind the ray's start, and search_behind
+// allows 256 units of the origin. A box there has the origin's coordinates. Both move, so each
 // needs only 128 of the 256 units. The sum is at most 34 + 8 + 54 + 128 = 224. search_reach
 // (search.cl) covers hits beyond the best one. In measurements, doubling the slack costs no time.
 #define BVH_SLACK 0x1p-16f

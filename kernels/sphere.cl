@@ -28,7 +28,7 @@ static inline TwoFloat two_sum_ordered(Real a, Real b)
     return (TwoFloat){sum, b - (sum - a)};
 }
 
-// Returns a number of the scene, which is stored as two floats. Their sum fits into one double.
+// Returns a number that the scene stores as two floats. Their sum fits into one double.
 static inline TwoFloat two_stored(Real high, Real low)
 {
     return CLRT_FP64 ? two_sum_ordered(high, low) : (TwoFloat){high, low};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Computes the surface at a hit, which is a point with normals, and the rays that leave the
-// surface. The point is interpolated on the triangle or projected onto the sphere, so its error
-// does not grow with the distance traveled (Pharr, Jakob and Humphreys, "Physically based
-// rendering", 4th edition, section 6.8).
+// Computes the surface at a hit (a point with normals) and the rays that leave it. The point is
+// interpolated on the triangle or projected onto the sphere, so its error does not grow with the
+// distance traveled (Pharr, Jakob and Humphreys, "Physically based rendering", 4th edition,
+// section 6.8).
 //
 // New rays start at the point. The side of a triangle's plane on which the point lies decides
 // whether a new ray may stop on the triangle (triangle.inc.cl). No offset is necessary, so contacts

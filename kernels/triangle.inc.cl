@@ -202,8 +202,8 @@ typedef struct {
 // wrongly stop shadow and reflected rays. The ray therefore stops only if its surface point is
 // certainly on the side of the triangle from which the ray comes. On the inner side of two-sided
 // triangles, convex neighbors also meet this condition. There, t must also be certainly positive,
-// except for rays from the eye, which is on no surface. If the light is closer to a triangle than
-// the error of t, this triangle does not shadow the ray.
+// except for rays from the eye, which is on no surface. A triangle that is closer to the light than
+// the error of t does not block the ray.
 //
 // `in_doubt` receives the lanes whose rays may pass by mistake, because of rounding. In a valley,
 // rounding can also put the start beyond the neighbor that stops the ray.
