@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grows ARRAYs by doubling, and reports failed allocations through Error.
+// Allocates memory, and grows ARRAYs by doubling. Reports failures through Error.
 #include "base/array.h"
 
 #include <stdint.h>
@@ -7,12 +7,12 @@
 #include <string.h>
 #include <sys/mman.h>
 
-// Devices that read host arrays in place need this alignment for their longest vectors.
+// Bytes. Some devices read host arrays in place, and their longest vectors need this alignment.
 #define ALIGNMENT ((size_t)64)
 
 // Large arrays request huge pages. Rays read a tree's nodes in random order, so with small pages
-// every second read misses the TLB. In new arrays, the page faults of small pages would also take
-// longer than filling the memory.
+// every second read misses the TLB. The page faults of small pages would also take longer than
+// filling a new array.
 #define HUGE_PAGE ((size_t)1 << 21)
 
 static void *allocate(size_t bytes)

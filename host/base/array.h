@@ -21,7 +21,7 @@
 // then leaves the array unchanged.
 bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, Error *error);
 
-// Appends item. This expression is false if memory runs out.
+// Appends item. Evaluates to false if memory runs out.
 #define array_push(array, item, error)                                                             \
     (array_reserve(&(array)->memory, &(array)->capacity, (array)->count + 1,                       \
                    sizeof *(array)->data, error) &&                                                \
@@ -35,6 +35,6 @@ void *memory_raw(size_t count, size_t size, Error *error);
 // Returns a copy of text, which the caller frees, or NULL if memory runs out.
 char *text_copy(const char *text, Error *error);
 
-// Allocates an array of which parts may stay unused. Unlike memory_raw, this function neither
-// aligns it to 64 bytes nor requests huge pages, so unused parts take no memory.
+// Like memory_raw, but for arrays with unused elements, which then take no physical memory. The
+// array has no huge pages, and no alignment to 64 bytes.
 void *memory_sparse(size_t count, size_t size, Error *error);

@@ -5,7 +5,7 @@
 #include "base/vec.h"
 
 typedef struct {
-    Vec3 low, high; // INFINITY and -INFINITY without points
+    Vec3 low, high; // INFINITY and -INFINITY if the box is empty
 } BoundingBox;
 
 static inline BoundingBox bounding_box_empty(void)

@@ -96,8 +96,8 @@ int child_end(ChildProcess *child)
     return status;
 }
 
-// Waits for data or the end of the data, and then returns CHILD_DONE. Returns CHILD_LATE at the
-// deadline.
+// Returns CHILD_DONE when the socket has data or is closed, CHILD_LATE at the deadline, and
+// CHILD_LOST if poll fails.
 static ChildFate await(int socket, double deadline)
 {
     for (;;) {

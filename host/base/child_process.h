@@ -13,14 +13,15 @@ typedef struct {
     int socket; // to the child
 } ChildProcess;
 
-// Starts the program words[0]. The words up to a NULL are its arguments. Its standard output is the
-// socket, and its standard input and error are /dev/null. Its environment is the one with which
-// this process was started. Any thread may call child_spawn, even while another thread changes the
-// environment. On failure, returns false and stores the reason without a file name in *cause.
+// Starts the program words[0]. Its arguments are `words`, which NULL terminates. Its standard
+// output is the socket, and its standard input and error are /dev/null. Its environment is the one
+// that this process was started with. Any thread may call child_spawn, even while another thread
+// changes the environment. On failure, returns false and stores the reason without a file name in
+// *cause.
 bool child_spawn(ChildProcess *child, const char *const words[], Error *cause);
 
-// Kills the child and closes the socket. A child that has ended by itself keeps its status.
-// Returns the status that waitpid stores, or 0 if there is no child.
+// Kills the child, unless it has already ended, and closes the socket. Returns the child's status
+// from waitpid, or 0 if there is no child.
 int child_end(ChildProcess *child);
 
 typedef struct {

@@ -10,9 +10,9 @@ typedef struct {
     char text[4096]; // empty without a failure; long enough for most build logs
 } Error;
 
-// Records the failure and returns false, so that a caller can `return error_set(...)`. If an error
-// is already recorded, it is kept, because the first cause is the most informative.
+// Records the failure and returns false, so that a caller can `return error_set(...)`. Does not
+// replace a recorded error, because the first cause is the most informative.
 __attribute__((format(printf, 2, 3))) bool error_set(Error *error, const char *format, ...);
 
-// Calls error_set with a message on a failed allocation of `bytes` bytes.
+// Calls error_set with a message about a failed allocation of `bytes` bytes.
 bool error_out_of_memory(Error *error, unsigned long long bytes);

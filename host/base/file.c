@@ -66,8 +66,8 @@ static bool cannot_open(const char *path, Error *error)
     return error_set(error, "%s: cannot be opened: %s", path, strerror(errno));
 }
 
-// Rejects devices, which may never end. Also rejects folders, because reading one would fail with a
-// less clear message.
+// Rejects devices, because their data may never end. Also rejects folders, because reading one
+// would fail with a less clear message.
 static bool check_kind(const char *path, struct stat *status, Error *error)
 {
     if (stat(path, status) != 0)
@@ -127,7 +127,7 @@ char *file_path_beside(const char *beside, const char *path, Error *error)
     return joined;
 }
 
-// Stores the folder of the running program. Links are resolved. Returns false if /proc is missing.
+// Stores the folder of the running program, with links resolved. Returns false if /proc is missing.
 static bool own_folder(char folder[PATH_MAX])
 {
     const ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);

@@ -28,16 +28,17 @@ bool file_read_stream(File *file, FILE *stream, const char *name, Error *error);
 
 void file_free(File *file);
 
-// Returns whether path ends in `ending`, such as ".mtl", and is longer. Ignores case.
+// Returns whether path ends in `ending`, such as ".mtl", and has characters before it. Ignores
+// case.
 bool file_has_ending(const char *path, const char *ending);
 
-// Returns path with the folder of the file `beside` in front, unless path is absolute. The caller
-// frees the result. Returns NULL if memory runs out.
+// If path is relative, puts the folder of the file `beside` in front of it. Returns the new path,
+// which the caller frees, or NULL if memory runs out.
 char *file_path_beside(const char *beside, const char *path, Error *error);
 
 // Stores the path of a companion file of the running program. The file is in the program's own
 // folder, as in a build tree, or else in `folder`, which is relative to the program's folder.
 // Returns false if the program's folder is unknown, for example without /proc. The current folder
-// would be no safe fallback, because it may contain anybody's files.
+// would be an unsafe fallback, because it may contain anybody's files.
 #define COMPANION_PATH_SIZE (2 * PATH_MAX)
 bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *folder);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// An existing file is identified by its device and inode, and a new file by its name and its
-// folder's device and inode. Links are followed first. Sorting makes equal files adjacent, so a
-// plan of a million frames is checked fast.
+// Follows links, then identifies existing files by device and inode, and new files by name and by
+// their folder's device and inode. Sorting makes equal files adjacent, so checking a million frames
+// is fast.
 #include "base/file_plan.h"
 
 #include "base/file.h"
@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define LINKS_MOST 40 // links that follow each other; the system follows no more
+#define LINKS_MOST 40 // length of a chain of links; the system's limit
 
 static void take_identity(PlannedFile *file, const struct stat *status)
 {
@@ -20,7 +20,7 @@ static void take_identity(PlannedFile *file, const struct stat *status)
 }
 
 // Returns the target of the symbolic link at path, as a path from the current folder. Returns NULL
-// if path is not a link. The caller frees the result.
+// if path is not a link or memory runs out. The caller frees the result.
 static char *read_link(const char *path, Error *error)
 {
     char target[4096];

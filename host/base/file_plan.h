@@ -14,7 +14,7 @@ typedef struct {
     const char *role;       // prefix of the path in messages, such as "--json="; borrowed
     char *path;             // as the user wrote it; owned
     uint64_t device, inode; // of the file or, for a new file, of its folder
-    char *name;             // of a new file, in its folder; NULL for an existing file; owned
+    char *name;             // in the folder; NULL for an existing file; owned
 } PlannedFile;
 
 typedef struct {
@@ -22,7 +22,8 @@ typedef struct {
 } FilePlan;
 
 // Adds the file at path; "-" is standard input or output. Ignores pipes and devices, because
-// writing does not replace them. Ignores inputs that do not exist.
+// writing does not replace them. Ignores inputs that do not exist. Returns false if memory runs
+// out.
 bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *path, Error *error);
 
 // Returns false if an output is also an input or another output. The message names both.

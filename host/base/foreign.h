@@ -2,7 +2,7 @@
 // Runs clrt-foreign, the program that reads files with Assimp and OpenImageIO. Hostile files can
 // crash these libraries. A separate process with limits on time and memory keeps such crashes out
 // of clrt: if clrt-foreign crashes, hangs or exhausts its memory, the read fails with one error
-// message. The limits do not confine a library that a file has taken over.
+// message. The limits do not confine a library that a hostile file has taken over.
 //
 // The output of clrt-foreign is a sequence of records. Each consists of a ForeignHead and data.
 //
@@ -17,7 +17,7 @@
 typedef enum {
     FOREIGN_FILE = 1, // a ForeignHash and the path of an input file; the model file comes first
     FOREIGN_MATERIAL, // a ForeignMaterial
-    FOREIGN_PART,     // a binary PLY file; number is the index of its material
+    FOREIGN_PART,     // a binary PLY file; ForeignHead.number is the index of its material
     FOREIGN_NOTE,     // a message about omitted parts
     FOREIGN_PICTURE,  // a StoredImage and its values
     FOREIGN_FAILURE,  // the reason why there is no model or picture; the last record
@@ -35,12 +35,13 @@ typedef struct {
     ChildLimits limits;
 } ForeignReader;
 
-// Replaces all characters that are not printable ASCII, because a terminal could interpret them.
+// Replaces characters that are not printable ASCII by `substitute`, because a terminal could
+// interpret them. `size` is the length of text.
 void foreign_make_printable(char *text, size_t size, char substitute);
 
-// Runs clrt-foreign and collects its output. Its arguments are `words`, and the last words may be
-// NULL. On failure, returns false and stores the reason in *cause, without the name of the file.
-// The caller frees stream.
+// Runs clrt-foreign and collects its output. The arguments of clrt-foreign are `words`, and the
+// last words may be NULL. On failure, returns false and stores the reason in *cause, without the
+// name of the file. The caller frees stream.
 #define FOREIGN_WORDS 3
 bool foreign_run(File *stream, const ForeignReader *reader, const char *const words[FOREIGN_WORDS],
                  Error *cause);

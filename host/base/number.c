@@ -9,8 +9,8 @@
 // 3. All other numbers are rewritten as DIGITSeEXPONENT for strtod. This form has no decimal point,
 // so no locale misreads it.
 //
-// Invariant: the result is the double nearest to the decimal number, and the even one of two
-// equally near doubles. This also holds for numbers of any length.
+// Invariant: the result is the double nearest to the decimal number, which may have any length.
+// Ties go to the even double.
 #include "base/number.h"
 
 #include <float.h>
@@ -48,7 +48,7 @@ static const char *skip_sign(const char *text, const char *end, bool *negative)
     return text < end && (*text == '-' || *text == '+') ? text + 1 : text;
 }
 
-// Appends the digits at text to *mantissa, which wraps on overflow. Returns their end.
+// Appends the digits at text to *mantissa, which wraps on overflow. Returns the end of the digits.
 static const char *gather_digits(const char *text, const char *end, uint64_t *mantissa)
 {
     for (; text < end && is_digit(*text); text++)
@@ -76,9 +76,8 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
     return stop;
 }
 
-// Returns the integer with the digits from text to end, times ten to the power of exponent. If any
-// digit after the first SUFFICIENT_DIGITS is not zero, a single digit 1 replaces all digits after
-// the first SUFFICIENT_DIGITS.
+// Returns the integer with the digits from text to end, times ten to the power of exponent. Keeps
+// only the first SUFFICIENT_DIGITS digits. If a later digit is not zero, a digit 1 follows them.
 static double round_slowly(const char *text, const char *end, int64_t exponent)
 {
     char spelled[SUFFICIENT_DIGITS + 32];
@@ -159,7 +158,7 @@ const char *integer_parse(const char *text, const char *end, int64_t *value)
     bool negative;
     const char *first = skip_sign(text, end, &negative);
     const char *stop = first;
-    int64_t sum = 0; // the negated value, because -INT64_MIN would overflow
+    int64_t sum = 0; // negated, because the magnitude of INT64_MIN would overflow
     for (; stop < end && is_digit(*stop); stop++) {
         const int digit = *stop - '0';
         if (sum < (INT64_MIN + digit) / 10)

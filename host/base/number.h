@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses numbers in text, correctly rounded and independent of the locale.
+// Parses decimal numbers with correct rounding, independently of the locale.
 #pragma once
 
 #include <stdint.h>

@@ -2,9 +2,9 @@
 // Writes a temporary file beside the final name and renames it at the end. Renaming replaces a file
 // atomically for all readers, even if the process is killed.
 //
-// Killed runs leave temporary files, which later runs remove. A living run keeps its file locked,
-// so a run removes only files that it can lock itself. Other machines may not see these locks on a
-// shared disk. A temporary file's name therefore contains the start of the system's boot id, and on
+// Killed runs leave temporary files, which later runs remove. A run locks its file until it ends,
+// so other runs remove only files that they can lock. On a shared disk, other machines may not see
+// these locks. A temporary file's name therefore contains the start of the system's boot id, and on
 // a shared disk a run removes only files with its own id.
 #include "base/output_file.h"
 
@@ -48,8 +48,8 @@ static void read_boot(char digits[BOOT_DIGITS + 1])
         fclose(stream);
 }
 
-// Locks an open file. Returns false if another process has locked or removed it. Returns true on
-// file systems without locks, where other runs cannot lock the file either, and therefore do not
+// Locks an open file. Returns false if another process has locked or removed the file. Returns true
+// on file systems without locks. Other runs cannot lock the file there either, so they do not
 // remove it.
 static bool take_file(int file)
 {

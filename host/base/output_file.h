@@ -11,7 +11,7 @@
 typedef struct {
     const char *path; // the final name, "-" for standard output; borrowed
     char *temporary;  // path of the file to write; owned
-    int lock;         // that file, open and locked, so that no other run removes it
+    int lock;         // the temporary file, open and locked, so that no other run removes it
     bool replaces;    // the temporary file is renamed, not copied
 } OutputFile;
 
@@ -19,8 +19,8 @@ typedef struct {
 bool output_file_begin(OutputFile *file, const char *path, Error *error);
 
 // If ok, renames or copies the temporary file to its final name. Otherwise, removes it. Returns
-// false if ok is false, or if renaming or copying fails. In the second case, cause receives the
-// reason without the path.
+// false if ok is false, or if renaming or copying fails. If renaming or copying fails, cause
+// receives the reason without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
 // Creates the file from the bytes that `write` writes to its stream. If `write` fails, it returns
@@ -33,5 +33,5 @@ bool output_file_write(const char *path, WriteStream *write, void *context, Erro
 // of this machine are removed.
 bool output_file_check(const char *path, Error *error);
 
-// Copies the rest of a stream. On failure, errno has the reason.
+// Copies the rest of a stream. Returns false on failure, with the reason in errno.
 bool stream_copy(FILE *from, FILE *to);

@@ -14,8 +14,8 @@
 // In cgroup version 2, /proc/self/cgroup has one line "0::/path", and a group's limit on processors
 // is in its file cpu.max. In version 1, each controller has a line such as "4:cpu,cpuacct:/path",
 // and a group's quota and period are in two files. In a container, the path can be missing below
-// the mount, because the mount begins at the container's group. The search therefore reads every
-// parent folder up to the mount.
+// the mount, because the mount begins at the container's group. clrt therefore reads the limits in
+// every parent folder up to the mount.
 
 #define PATH_SIZE 4096
 
@@ -32,8 +32,8 @@ static bool read_numbers(const char *folder, const char *name, int count, double
     return found == count;
 }
 
-// Returns the group's quota in processors, rounded up. If the quota is "max" or -1, the group has
-// no limit, and the result is UINT32_MAX.
+// Returns the group's quota in processors, rounded up. Returns UINT32_MAX if the group has no
+// quota, or if the quota is "max" or -1.
 static uint32_t group_grant(const char *folder)
 {
     double time[2]; // quota and period
@@ -70,8 +70,8 @@ static bool names_cpu(char *controllers)
     return false;
 }
 
-// Returns the least quota of a version 1 group and its ancestors. The folder of the controller is
-// named "cpu" or, with other controllers, for example "cpu,cpuacct".
+// Returns the least quota of a version 1 group and its ancestors. The name of the controller's
+// folder is "cpu" or a list of controllers, such as "cpu,cpuacct".
 static uint32_t controller_grant(const char *mount, char *controllers, const char *group)
 {
     char folder[PATH_SIZE];
@@ -119,7 +119,7 @@ uint32_t processors_present(void)
 }
 
 // Returns the number of processors in the affinity mask. If cpu_set_t is too small for the machine,
-// sched_getaffinity fails, and all processors count.
+// sched_getaffinity fails. The result is then the number of all processors.
 static uint32_t allowed_processors(void)
 {
     cpu_set_t set;

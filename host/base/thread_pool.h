@@ -28,10 +28,10 @@ typedef void ThreadPoolPart(void *context, uint32_t first, uint32_t end);
 void thread_pool_share(ThreadPool *pool, uint32_t count, uint32_t part, ThreadPoolPart *work,
                        void *context);
 
-// A usual number of elements in a range.
+// The usual number of elements in a range.
 #define CHUNK_ELEMENTS 16384
 
-// Returns the number of ranges of `part` elements.
+// Returns the number of ranges of `part` elements, including a shorter last range.
 static inline uint32_t range_count(uint32_t elements, uint32_t part)
 {
     return elements / part + (elements % part > 0);

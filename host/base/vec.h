@@ -64,7 +64,7 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
 }
 
 // Return the minimum or maximum of each component. The vectors must not contain NaN. fmin and fmax
-// would be function calls.
+// would be slower, because they are function calls.
 static inline Vec3 vec3_lower(Vec3 a, Vec3 b)
 {
     return (Vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
@@ -98,7 +98,7 @@ static inline Vec3 vec3_normalize(Vec3 a)
 
 // Return the sine and cosine of degrees, which must be below 1e9 in magnitude. The error is at most
 // 2 ulp, and results at multiples of 90 are exact. The C library's functions would change the
-// camera, because their last bits differ between processors with and without fma.
+// camera, because their results differ between processors with and without fma.
 double sine_of_degrees(double degrees);
 double cosine_of_degrees(double degrees);
 
