@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Colors as floats -> bytes. Rounds to the nearest byte, because truncation would double the
-// largest error.
+// Converts colors from floats to bytes. Rounds to the nearest byte, because truncation would double
+// the largest error.
 #include "image/encode.h"
 
 #include <math.h>

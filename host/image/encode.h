@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traced colors -> the values of 8-bit files and of the window.
+// Converts traced colors to the bytes of 8-bit files and of the window.
 #pragma once
 
 #include <stddef.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads and checks the tiles of an EXR file. OpenEXRCore parses the file and decodes tiles. A tile
 // with ZIP compression ends with the Adler-32 checksum of its uncompressed bytes. libdeflate
-// verifies it in half the time of zlib.
+// verifies the checksum in half the time of zlib.
 #include "image/exr_file.h"
 
 #include <errno.h>
@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define DEFLATE_RATIO 1032 // no compressed byte becomes more bytes
+#define DEFLATE_RATIO 1032 // the most bytes that one compressed byte can represent
 
 void exr_file_ignore(exr_const_context_t context, exr_result_t code, const char *message)
 {
@@ -88,7 +88,7 @@ static int64_t query_size(exr_const_context_t context, void *user)
     return fstat(fileno(file->stream), &status) == 0 ? (int64_t)status.st_size : -1;
 }
 
-// The largest header that is read. clrt writes headers of at most 10 KB. OpenEXRCore would take
+// The largest accepted header, in bytes. clrt writes headers of at most 10 KB. OpenEXRCore takes
 // quadratic time for many attributes.
 #define HEADER_MOST 65536
 

@@ -36,15 +36,15 @@ bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
                    unsigned char *scratch);
 
-// Copies the values of a tile into framebuffer and layers. position is the place of the tile's
-// upper left pixel in both. Skips channels that neither has. Returns false if the tile is damaged.
+// Copies the values of a tile into framebuffer and layers. position is X and Y of the tile's upper
+// left pixel in both. Skips channels that are in neither. Returns false if the tile is damaged.
 bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const Framebuffer *framebuffer, const Layers *layers,
                      const size_t position[2]);
 
-// Sets the pointers of a tile's channels to their values in framebuffer and layers. position is the
-// place of the tile's upper left pixel in both. layers may be NULL. Channels that are in neither of
-// them keep their pointers.
+// Sets the pointers of a tile's channels to their values in framebuffer and layers. position is X
+// and Y of the tile's upper left pixel in both. layers may be NULL. Channels that are in neither
+// keep their pointers.
 void exr_place_channels(exr_coding_channel_info_t *channels, int count,
                         const Framebuffer *framebuffer, const Layers *layers,
                         const size_t position[2]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a picture as a tiled EXR file. The file of a part has the header of the whole picture and
-// a table with room for all its tiles, but contains only the part's tiles. clrt merge can then copy
-// tiles without decoding them.
+// a table with room for all tiles of the picture, but contains only the part's tiles. clrt merge
+// can then copy tiles without decoding them.
 //
 // OpenEXRCore writes the header and compresses the tiles, but it cannot omit tiles. The code here
 // therefore writes the table and the tiles itself. Threads compress tiles concurrently and write
@@ -129,7 +129,7 @@ static bool encode(const TileWriter *writer, const size_t position[2],
     if (exr_encoding_run(writer->context, 0, encoder) != EXR_ERR_SUCCESS)
         return false;
     // If compression does not change the size, readers expect uncompressed bytes. OpenEXRCore 3.1
-    // leaves compressed ones.
+    // leaves compressed bytes.
     if (encoder->compressed_bytes == encoder->packed_bytes)
         memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
     return true;

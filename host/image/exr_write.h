@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Framebuffer and channels -> a tiled EXR file.
+// Writes a framebuffer and the picture's other channels as a tiled EXR file.
 #pragma once
 
 #include "image/exr_file.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The traced picture: its colors as floats, filled tile by tile, and the other channels of its
-// pixels.
+// A traced picture: its colors as floats, and its other channels.
 #pragma once
 
 #include "base/array.h"
@@ -20,7 +19,7 @@ void framebuffer_free(Framebuffer *framebuffer);
 #define FRAMEBUFFER_HASH_SIZE 33
 void framebuffer_hash(const Framebuffer *framebuffer, char hash[FRAMEBUFFER_HASH_SIZE]);
 
-// The name and type of a channel. Its values are floats or unsigned integers of 32 bits.
+// The name and type of a channel. The values are floats or 32-bit unsigned integers.
 typedef struct {
     const char *name; // the channel's name in the file; borrowed
     bool is_integer;
@@ -36,7 +35,7 @@ typedef struct {
     uint32_t *values; // width * height * count integers or bits of floats, top row first; owned
 } Layers;
 
-// Allocates the values and sets them to zero. The caller has set list and count.
+// Allocates the values and sets them to zero. The caller must have set list and count.
 bool layers_make(Layers *layers, uint32_t width, uint32_t height, Error *error);
 void layers_free(Layers *layers);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Selects the writer for a format. The table of formats has their limits.
+// Selects the writer for a format. A table lists the formats and the sizes that they can store.
 #include "image/image_file.h"
 
 #include "base/output_file.h"
@@ -24,7 +24,7 @@ typedef struct {
     const char *name;   // also the usual file extension
     const char *module; // OpenImageIO's name of the format; NULL if clrt writes the format itself
     bool is_float;
-    uint32_t side_max; // longest side of a picture, in pixels; 0 if PICTURE_SIZE_MAX is possible
+    uint32_t side_max; // longest side of a picture, in pixels; 0 if only PICTURE_SIZE_MAX limits it
 } Format;
 
 static const Format formats[] = {
@@ -95,8 +95,8 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
                      most);
 }
 
-// Returns a whole picture as width * height * 3 bytes, or NULL if memory runs out. The caller frees
-// them.
+// Returns a whole picture as width * height * 3 bytes, which the caller frees, or NULL if memory
+// runs out.
 static unsigned char *encode_bytes(const Framebuffer *framebuffer, const ImageSettings *settings,
                                    Error *error)
 {

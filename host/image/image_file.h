@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a Framebuffer to a file. libpng writes PNG, pfm.c writes PFM, and OpenEXRCore writes EXR.
-// OpenImageIO writes the other formats, if clrt is built with it. Only these other formats load
-// OpenImageIO, which takes 0.1 s.
+// OpenImageIO writes the other formats, if clrt is built with it. Loading OpenImageIO takes 0.1 s,
+// so clrt loads it only for these formats.
 #pragma once
 
 #include "image/image_settings.h"
@@ -9,7 +9,7 @@
 // Returns the format that the path's extension names, or NULL if this build writes no such format.
 const char *image_format_of_path(const char *path);
 
-// Returns the format called name (also jpeg, tiff), or NULL if this build writes no such format.
+// Returns the format called `name`, or NULL if this build writes no such format. Ignores case.
 const char *image_format_named(const char *name);
 
 // Returns whether the format stores floats. format must be one that this build writes.
@@ -22,7 +22,7 @@ bool image_format_takes_layers(const char *name);
 const char *image_format_names(void);
 
 // Returns half of the smallest step between 8-bit values, in linear color. For formats of floats,
-// returns half of the step below 1.
+// returns half of the step between the largest floats below 1.
 double image_format_half_step(const char *format, Encoding encoding);
 
 // Returns whether the format can store a picture of this size.

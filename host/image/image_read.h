@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture file -> StoredImage.
+// Reads a picture file into a StoredImage.
 #pragma once
 
 #include "image/stored_image.h"

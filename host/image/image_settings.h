@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// How to write a picture file.
+// The settings for writing a picture file.
 #pragma once
 
 #include "image/encode.h"
 #include "image/framebuffer.h"
 
-// A text in the file. PNG stores it under its name. EXR does too, but it names the date differently
-// and omits the hash of the pixels. TIFF and JPEG store clrt:NAME texts as lines of a description.
+// A text in the file. PNG and EXR store it under its name, but EXR renames the date and omits the
+// hash of the pixels. TIFF and JPEG store clrt:NAME texts as lines of a description.
 typedef struct {
     const char *name, *value;
 } ImageText;
 
-// A part of a picture: the tiles that the framebuffer contains, below each other.
+// A part of a picture. The framebuffer contains the part's tiles, one below the other.
 typedef struct {
     uint32_t width, height;           // of the picture or crop that is divided into parts
     uint32_t tile_width, tile_height; // of unclipped tiles
@@ -26,8 +26,8 @@ typedef struct {
     uint32_t frames;    // of a GIF, below each other in the framebuffer; 0 counts as 1
     const ImageText *texts;
     size_t text_count;
-    // A crop's position in the whole picture and the whole picture's size, for formats that store
-    // them; 0 without a crop.
+    // A crop's position in the whole picture, and the size of the whole picture. Some formats store
+    // them. All are 0 without a crop.
     uint32_t left, top, whole_width, whole_height;
     const ImagePart *part; // EXR only; NULL for a whole picture
     const Layers *layers;  // channels other than colors, for formats that store them; may be NULL

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PFM needs no library, so every build reads and writes it.
+// Reads and writes PFM without a library, so every build supports it.
 #include "image/pfm.h"
 
 #include "base/number.h"

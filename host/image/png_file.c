@@ -110,8 +110,8 @@ bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *setting
     return ok && fflush(stream) == 0 && !ferror(stream);
 }
 
-// The largest size of a text or profile in a PNG file, in bytes after decompression, and the
-// largest number of texts and profiles.
+// Limits of the texts and profiles in a PNG file: the size of each after decompression, in bytes,
+// and their number.
 #define CHUNK_SIZE_MAX  1000000
 #define CHUNK_COUNT_MAX 64
 

@@ -43,7 +43,7 @@ typedef struct {
 
 void stored_image_free(StoredImage *image);
 
-// Returns the largest number of values in a picture whose file has `bytes` bytes.
+// Returns the largest number of values that clrt accepts from a file of `bytes` bytes.
 uint64_t stored_values_most(uint64_t bytes);
 
 // Returns whether a picture of this size is within the limits and has at most `most` values.
