@@ -330,23 +330,39 @@ float flat_reflectivity(const FlatScene *flat)
     return largest;
 }
 
+#define TRAIT(name, option, member) name, "CLRT_" option, offsetof(SceneTraits, member)
+
+const Trait trait_table[TRAIT_COUNT] = {
+    {TRAIT("spheres", "SPHERES", spheres), NULL, NULL, false},
+    {TRAIT("triangles", "TRIANGLES", triangles), NULL, NULL, false},
+    {TRAIT("tree", "BVH", bvh), NULL, NULL, false},
+    {TRAIT("lights", "SHADED", shaded), NULL, NULL, false},
+    {TRAIT("mirrors", "MIRRORS", mirrors), "no material in use reflects: no reflected rays",
+     "a material in use reflects", false},
+    {TRAIT("colors", "COLORS", colors), NULL, NULL, false},
+    {TRAIT("checkers", "CHECKERS", checkers), "no material in use has a checker",
+     "a material in use has a checker", true},
+    {TRAIT("statistics", "STATISTICS", statistics), "not requested: no --stats",
+     "--stats counts rays and tests", true}};
+
+bool trait_of(const SceneTraits *traits, const Trait *trait)
+{
+    return *(const bool *)((const char *)traits + trait->offset);
+}
+
 SceneTraits traits_general(SceneTraits needed)
 {
-    return (SceneTraits){.spheres = true,
-                         .triangles = true,
-                         .bvh = true,
-                         .mirrors = true,
-                         .shaded = true,
-                         .colors = true,
-                         .checkers = needed.checkers,
-                         .statistics = needed.statistics};
+    for (size_t i = 0; i < TRAIT_COUNT; i++)
+        *(bool *)((char *)&needed + trait_table[i].offset) |= !trait_table[i].is_rare;
+    return needed;
 }
 
 void traits_write_options(const SceneTraits *traits, char options[TRAITS_OPTIONS_SIZE])
 {
-    snprintf(options, TRAITS_OPTIONS_SIZE,
-             "-DCLRT_SPHERES=%d -DCLRT_TRIANGLES=%d -DCLRT_BVH=%d -DCLRT_MIRRORS=%d "
-             "-DCLRT_SHADED=%d -DCLRT_COLORS=%d -DCLRT_CHECKERS=%d -DCLRT_STATISTICS=%d",
-             traits->spheres, traits->triangles, traits->bvh, traits->mirrors, traits->shaded,
-             traits->colors, traits->checkers, traits->statistics);
+    options[0] = '\0';
+    for (size_t i = 0; i < TRAIT_COUNT; i++) {
+        const size_t length = strlen(options);
+        snprintf(options + length, TRAITS_OPTIONS_SIZE - length, "%s-D%s=%d", i == 0 ? "" : " ",
+                 trait_table[i].option, trait_of(traits, &trait_table[i]));
+    }
 }

@@ -60,13 +60,27 @@ typedef struct {
     bool statistics; // the kernels count rays and tests
 } SceneTraits;
 
+// A member of SceneTraits.
+typedef struct {
+    const char *name;             // in explanations
+    const char *option;           // the switch
+    size_t offset;                // of the member
+    const char *absent, *present; // reasons in explanations; NULL if the reasons have numbers
+    bool is_rare;                 // general programs have it only if the scene needs it
+} Trait;
+
+#define TRAIT_COUNT 8
+extern const Trait trait_table[TRAIT_COUNT];
+
+bool trait_of(const SceneTraits *traits, const Trait *trait);
+
 SceneTraits traits_of(const FlatScene *flat, bool statistics);
 
 // Returns the largest reflectivity of the materials that primitives use.
 float flat_reflectivity(const FlatScene *flat);
 
 // Returns the traits of the general program that renders a scene with the needed traits. General
-// programs render every scene, except that they have only the needed checkers and statistics.
+// programs render every scene, except that they have only the needed rare traits.
 SceneTraits traits_general(SceneTraits needed);
 
 #define TRAITS_OPTIONS_SIZE 192

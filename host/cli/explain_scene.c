@@ -27,42 +27,46 @@ static json_t *count_reason(uint32_t count)
     return count > 0 ? json_sprintf("%u of them", count) : json_string("there are none");
 }
 
-// Describes a kernel feature that can be omitted when the kernels are compiled. General programs
-// also contain features that the scene does not need.
-static json_t *part_json(const char *name, bool is_needed, bool is_special, json_t *reason)
+// Returns why a trait is needed or not. The reasons that are not in the table have numbers.
+static json_t *part_reason(const Session *session, const SceneForm *form, const Trait *trait,
+                           bool is_needed)
 {
-    return JSON(FIELD("name", name), FIELD("needed", is_needed),
-                FIELD("compiled", (bool)(is_needed || !is_special)), FIELD("reason", reason));
+    const FlatScene *flat = &form->flat;
+    if (trait->absent != NULL)
+        return json_string(is_needed ? trait->present : trait->absent);
+    switch (trait->offset) {
+    case offsetof(SceneTraits, spheres):
+        return count_reason(flat->sphere_count);
+    case offsetof(SceneTraits, triangles):
+        return count_reason(flat->triangle_count);
+    case offsetof(SceneTraits, bvh):
+        return tree_reason(session, form, is_needed);
+    case offsetof(SceneTraits, colors):
+        return is_needed ? json_sprintf("%u triangles have colors of vertices", flat->colors_count)
+                         : json_string("no mesh shows colors of vertices");
+    default:
+        return is_needed ? json_sprintf("%u of them shade materials in use", flat->light_count)
+                         : json_string("no material in use is shaded: no shadow rays");
+    }
 }
 
+// Describes the kernel features that can be omitted when the kernels are compiled. General programs
+// also contain features that the scene does not need.
 static json_t *parts_json(const Session *session, const SceneForm *form, bool counts,
                           bool is_special)
 {
-    const FlatScene *flat = &form->flat;
-    const SceneTraits needed = traits_of(flat, counts);
-    json_t *lights = needed.shaded
-                         ? json_sprintf("%u of them shade materials in use", flat->light_count)
-                         : json_string("all materials in use are silhouettes: no shadow rays");
-    json_t *mirrors =
-        json_string(needed.mirrors ? "a material in use reflects"
-                                   : "no material in use reflects: no reflected rays");
-    json_t *colors = needed.colors
-                         ? json_sprintf("%u triangles have colors of vertices", flat->colors_count)
-                         : json_string("no mesh shows colors of vertices");
-    json_t *checkers = json_string(needed.checkers ? "a material in use has a checker"
-                                                   : "no material in use has a checker");
-    json_t *statistics = json_string(needed.statistics ? "--stats counts rays and tests"
-                                                       : "not requested: no --stats");
-    return json_pack(
-        "[o, o, o, o, o, o, o, o]",
-        part_json("spheres", needed.spheres, is_special, count_reason(flat->sphere_count)),
-        part_json("triangles", needed.triangles, is_special, count_reason(flat->triangle_count)),
-        part_json("tree", needed.bvh, is_special, tree_reason(session, form, needed.bvh)),
-        part_json("lights", needed.shaded, is_special, lights),
-        part_json("mirrors", needed.mirrors, is_special, mirrors),
-        part_json("colors", needed.colors, is_special, colors),
-        part_json("checkers", needed.checkers, true, checkers),
-        part_json("statistics", needed.statistics, true, statistics));
+    json_t *parts = json_array();
+    const SceneTraits needed = traits_of(&form->flat, counts);
+    const SceneTraits compiled = is_special ? needed : traits_general(needed);
+    for (size_t i = 0; i < TRAIT_COUNT; i++) {
+        const Trait *trait = &trait_table[i];
+        const bool is_needed = trait_of(&needed, trait);
+        json_array_append_new(parts,
+                              JSON(FIELD("name", trait->name), FIELD("needed", is_needed),
+                                   FIELD("compiled", trait_of(&compiled, trait)),
+                                   FIELD("reason", part_reason(session, form, trait, is_needed))));
+    }
+    return parts;
 }
 
 static const char *scene_family_reason(const Session *session)

@@ -21,7 +21,6 @@ bool session_draw_channels(Session *session, const SessionPicture *request,
     const bool counts = aov_needs(channels->set, AOV_NEEDS_TESTS);
     const RendererUse paths = {.entry = &paths_entry, .counts = counts, .is_general = true};
     const RendererUse tests = {.entry = &tests_entry, .counts = true, .is_general = true};
-    const SceneTraits traits = traits_general((SceneTraits){.statistics = true});
     const SessionScene *scene = &session->scene;
     AovPass pass = {.set = channels->set,
                     .camera = session_camera(session, request, request->settings.samples),
@@ -31,6 +30,9 @@ bool session_draw_channels(Session *session, const SessionPicture *request,
                     .certainty = channels->certainty};
     if (!session_renderer(session, &paths, &request->settings, &pass.paths, error))
         return false;
+    SceneTraits traits = pass.paths.scene->traits;
+    traits.statistics = true;
+    traits = traits_general(traits);
     if (counts)
         pass.tests = session_kernel(session, &tests, &traits, error);
     return (!counts || pass.tests != NULL) && aov_pass_draw(&pass, observer, layers, error);

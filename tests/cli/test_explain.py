@@ -311,7 +311,7 @@ class Scenes(Explain):
 
     def test_silhouettes_are_not_lit_and_few_triangles_get_no_tree(self):
         self.expect_parts(["flat.scn", "--tune", "specialize=always"],
-                          lights=(False, False, "all materials in use are silhouettes: no shadow rays"),
+                          lights=(False, False, "no material in use is shaded: no shadow rays"),
                           tree=(False, False, "testing all 10 triangles is faster"))
 
     def test_spheres_are_there_in_every_layout_of_nodes(self):

@@ -272,6 +272,6 @@ TEST(traits_become_compiler_options)
     const SceneTraits traits = {.spheres = true, .mirrors = true, .statistics = true};
     traits_write_options(&traits, options);
     assert_string_equal(options, "-DCLRT_SPHERES=1 -DCLRT_TRIANGLES=0 -DCLRT_BVH=0 "
-                                 "-DCLRT_MIRRORS=1 -DCLRT_SHADED=0 -DCLRT_COLORS=0 "
+                                 "-DCLRT_SHADED=0 -DCLRT_MIRRORS=1 -DCLRT_COLORS=0 "
                                  "-DCLRT_CHECKERS=0 -DCLRT_STATISTICS=1");
 }
