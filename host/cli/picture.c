@@ -192,7 +192,6 @@ static ExitCode prepare(Picture *picture, Error *error)
         return started;
     if (!stage_request(&picture->request, options, scene, error))
         return EXIT_SCENE;
-    picture->truncation = truncation_bound(scene, picture->request.settings.max_level);
     picture_warn_of_few_tiles(options, &picture->request.settings);
     if (!check_sizes(options, &picture->request.settings, error))
         return EXIT_OUTPUT;

@@ -25,7 +25,6 @@ typedef struct {
     const char *path;       // of the output file
     uint32_t view;          // from 1
     double turned;          // the turntable's angle in degrees
-    double truncation;      // a bound on the error that max_level causes in colors
     Framebuffer framebuffer;
     Framebuffer film; // all frames of an animated file, in a column; empty for other files
     MeasuredReference reference;

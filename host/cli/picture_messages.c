@@ -62,7 +62,7 @@ ExitCode picture_fail_goal(const Picture *picture, Error *error)
                   picture->repetition_seconds[0]);
     else
         error_set(error, "the error may be %.2g %%, more than --error allows",
-                  100 * fmax(picture->drawn.bound, picture->truncation));
+                  100 * fmax(picture->drawn.bound, picture->drawn.truncated));
     return EXIT_FAULTS;
 }
 

@@ -72,7 +72,7 @@ static json_t *settings_json(const Picture *picture)
     return JSON(FIELD("view", picture->view), FIELD("width", render_whole_width(settings)),
                 FIELD("height", render_whole_height(settings)), FIELD("crop", crop_json(settings)),
                 FIELD("samples", settings->samples), FIELD("max_level", settings->max_level),
-                FIELD("truncation_bound", picture->truncation),
+                FIELD("truncation_bound", picture->drawn.truncated),
                 FIELD("tile", json_two(settings->tile_width, settings->tile_height)),
                 FIELD("work_group", json_two(group[0], group[1])),
                 FIELD("specialized", picture->drawn.is_special),

@@ -107,6 +107,7 @@ static bool draw_reference(Drawing *drawing, ClrtError *error)
         memcpy(frame->pixels, reference.picture.pixels,
                (size_t)frame->width * frame->height * sizeof *frame->pixels);
     drawing->drawn.estimate = reference.own_error;
+    drawing->drawn.truncated = drawing->request.truncated;
     drawing->seconds = clock_seconds() - start;
     framebuffer_free(&reference.picture);
     return ok && check_stopped(drawing, error);
@@ -122,7 +123,7 @@ static void fill_result(const Drawing *drawing)
         .height = settings->height,
         .samples = settings->samples,
         .max_level = settings->max_level,
-        .truncation = truncation_bound(drawing->scene, settings->max_level),
+        .truncation = drawn->truncated,
         .goal_missed = drawn->goal_missed,
         .error = drawn->estimate,
         .error_bound = drawn->bound,

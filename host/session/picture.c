@@ -73,6 +73,7 @@ static bool open_renderer(Session *session, const SessionPicture *request, Rende
     result->was_compiled = renderer->kernel->was_compiled;
     result->group[0] = renderer->kernel->launch.group[0];
     result->group[1] = renderer->kernel->launch.group[1];
+    result->truncated = request->truncated;
     return true;
 }
 

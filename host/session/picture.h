@@ -27,6 +27,7 @@ typedef struct {
     PictureGoal goal;
     uint32_t reference_samples; // per pixel of the reference; an even number
     uint32_t reference_level;   // the reference's max_level
+    double truncated;           // bound on the error that RenderSettings::max_level causes
     bool counts;                // rays and tests
     bool keeps_samples;         // stores PictureResult::pixel_samples
 } SessionPicture;
@@ -38,6 +39,7 @@ typedef struct {
     size_t upload_size;
     double upload_seconds, build_seconds;
     uint32_t group[2]; // size of the work-groups
+    double truncated;  // SessionPicture::truncated
     // Set by session_draw.
     RenderProgress progress;
     bool is_complete;

@@ -165,9 +165,10 @@ bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpo
     *picture = (SessionPicture){.goal = request_goal(wanted),
                                 .reference_samples = reference > 0 ? reference : REFERENCE_SAMPLES,
                                 .reference_level = reference_level(wanted, scene),
+                                .truncated = truncation_bound(scene, level),
                                 .counts = wanted->statistics};
     if (wanted->error > 0 && wanted->max_level == 0)
-        picture->goal.truncated = truncation_bound(scene, level);
+        picture->goal.truncated = picture->truncated;
     picture->settings =
         (RenderSettings){.width = wanted->width > 0 ? wanted->width : scene->width,
                          .height = wanted->height > 0 ? wanted->height : scene->height,
