@@ -232,16 +232,15 @@ static inline Answer certify_facing(const UncertainSurface *surface, const RayCo
     return surface->from_behind && normal == ANSWER_YES ? ANSWER_NO : normal;
 }
 
-// Returns the cone of a reflected ray. As in ray_reflected, a ray that would enter the face is
-// mirrored out at the face. The mirrored and the unmirrored direction are equal if the ray lies in
-// the face's plane. Near this plane, either may apply, and their difference is added to the doubt.
-// A sphere's face is parallel to its normal, so its rays are never mirrored out.
-static inline RayCone reflected_cone(const UncertainSurface *surface, const RayCone *before)
+// Returns the cone of a ray that leaves the surface in a direction known within `doubt`. As in
+// ray_leaving, a ray that would enter the face is mirrored out at the face. The mirrored and the
+// unmirrored direction are equal if the ray lies in the face's plane. Near this plane, either may
+// apply, and their difference is added to the doubt. A sphere's face is parallel to its normal, so
+// its rays are never mirrored out.
+static inline RayCone leaving_cone(const UncertainSurface *surface, Real3 direction, Real doubt,
+                                   Real tracer_u)
 {
-    const Real u = before->u + OWN_ROUNDOFF;
-    const Real cosine = dot_product(surface->normal, surface->toward_viewer);
-    Real3 direction = difference(scaled3(2.0f * cosine, surface->normal), surface->toward_viewer);
-    Real doubt = 2.1f * surface->normal_doubt + 1.01f * surface->viewer_doubt + 12.0f * u;
+    const Real u = tracer_u + OWN_ROUNDOFF;
     const Real height = dot_product(direction, surface->face);
     const Real height_doubt = doubt + surface->face_doubt + 4.0f * u;
     if (!surface->is_sphere && height < -height_doubt) {
@@ -256,13 +255,22 @@ static inline RayCone reflected_cone(const UncertainSurface *surface, const RayC
                    .around = radius_of(&start),
                    .spread = may_be_lifted ? INFINITY : spread_of(1.01f * doubt),
                    .length = INFINITY,
-                   .u = before->u,
+                   .u = tracer_u,
                    .own = surface->id,
                    .own_index = surface->index,
                    .kind = RAY_REFLECTED,
                    .start = start};
     set_axis(&ray, unit_vector(direction));
     return ray;
+}
+
+static inline RayCone reflected_cone(const UncertainSurface *surface, const RayCone *before)
+{
+    const Real cosine = dot_product(surface->normal, surface->toward_viewer);
+    const Real3 turn = scaled3(2.0f * cosine, surface->normal);
+    const Real doubt = 2.1f * surface->normal_doubt + 1.01f * surface->viewer_doubt +
+                       12.0f * (before->u + OWN_ROUNDOFF);
+    return leaving_cone(surface, difference(turn, surface->toward_viewer), doubt, before->u);
 }
 
 #endif

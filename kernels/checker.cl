@@ -86,4 +86,15 @@ static inline Real3 checked_color(const Tracer *tracer, const Surface *surface, 
     return choose3(has_checks, choose3(check_is_odd(&cubes, surface), odd, even), plain);
 }
 
+// Returns the surface's material. The colors of vertices replace those of checks.
+static inline MaterialLanes material_at(const Tracer *tracer, const Surface *surface)
+{
+    MaterialLanes material = fetch_material(tracer, surface->material);
+    if (CLRT_CHECKERS)
+        material.diffuse = checked_color(tracer, surface, material.diffuse);
+    if (CLRT_COLORS && any_lane(surface->colored))
+        material.diffuse = choose3(surface->colored, surface->color, material.diffuse);
+    return material;
+}
+
 #endif

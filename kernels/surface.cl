@@ -39,6 +39,14 @@ static inline Mask has_length(Real3 v)
     return largest_component(v) > 0.0f;
 }
 
+// Returns the number that stands for a surface in signatures. Each sphere is a surface of its own,
+// and all triangles of one material are one surface.
+static inline UInt surface_word(const FrameData *frame, const Surface *surface)
+{
+    const UInt of_mesh = frame->sphere_count + surface->material;
+    return surface->id < frame->sphere_count ? surface->id : of_mesh;
+}
+
 // Returns the normal of the triangle's plane. If the corners are on a line, there is no plane, and
 // a ray hits the triangle only by rounding. The result is then toward_viewer.
 static inline Real3 triangle_face(const Corners *corners, Real3 toward_viewer)
@@ -340,14 +348,12 @@ static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Hea
     return point_inside(tracer, surface, heading, sine, near_edge);
 }
 
-// Returns the reflected ray. An interpolated normal can send a ray into the surface that it leaves.
-// This ray is mirrored at the face and leads outward again. Its direction then still changes
-// continuously with the normal.
-static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Mask active)
+// Returns the ray that leaves the surface in a direction. An interpolated normal can send a ray
+// into the surface that it leaves. This ray is mirrored at the face and leads outward again. Its
+// direction then still changes continuously with the normal.
+static inline Ray ray_leaving(const Tracer *tracer, const Surface *surface, Real3 direction,
+                              Mask active)
 {
-    const Real cosine = dot_product(surface->normal, surface->toward_viewer);
-    const Real3 direction =
-        difference(scaled3(2.0f * cosine, surface->normal), surface->toward_viewer);
     const Real height = dot_product(direction, surface->face);
     const Real3 outward = difference(direction, scaled3(2.0f * height, surface->face));
     const Real3 turned = choose3(height < 0.0f, outward, direction);
@@ -356,6 +362,13 @@ static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Ma
     const Real3 point = point_left(tracer, surface, &heading, sine, active);
     return (Ray){read3(&point),  read3(&heading.to), surface->id,
                  surface->index, RAY_REFLECTED,      active};
+}
+
+static inline Ray ray_reflected(const Tracer *tracer, const Surface *surface, Mask active)
+{
+    const Real cosine = dot_product(surface->normal, surface->toward_viewer);
+    const Real3 turn = scaled3(2.0f * cosine, surface->normal);
+    return ray_leaving(tracer, surface, difference(turn, surface->toward_viewer), active);
 }
 
 #endif

@@ -72,14 +72,6 @@ static inline void count_rays(const Paths *paths, uint number, Tally *tally)
     tally->shaded_points += met;
 }
 
-// Returns the number that stands for a surface in signatures. Each sphere is a surface of its own,
-// and all triangles of one material are one surface.
-static inline UInt surface_word(const FrameData *frame, const Surface *surface)
-{
-    const UInt of_mesh = frame->sphere_count + surface->material;
-    return surface->id < frame->sphere_count ? surface->id : of_mesh;
-}
-
 // Sets the reflected ray of each lane that has one. Returns whether any lane has one.
 static inline bool aim_rays(const Tracer *tracer, Paths *paths)
 {
@@ -125,12 +117,7 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
     if (!any_lane(path->met))
         return;
     path->surface = surface_at(tracer, ray, hit, path->met);
-    path->material = fetch_material(tracer, path->surface.material);
-    if (CLRT_CHECKERS)
-        path->material.diffuse = checked_color(tracer, &path->surface, path->material.diffuse);
-    if (CLRT_COLORS && any_lane(path->surface.colored))
-        path->material.diffuse =
-            choose3(path->surface.colored, path->surface.color, path->material.diffuse);
+    path->material = material_at(tracer, &path->surface);
     if (CLRT_MIRRORS)
         path->reflects = path->met && path->material.reflectivity != 0.0f;
     hash_lanes(tracer->tally, number, path->met, surface_word(tracer->frame, &path->surface));
