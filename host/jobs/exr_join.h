@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The EXR files of parts -> the EXR file of the whole picture. The first pass over the parts
-// records the sizes of the compressed tiles. The second pass checks and copies the tiles. Joining
-// takes memory for a few tiles, and eight bytes for each tile of the picture.
+// Joins the EXR files of parts into the EXR file of the whole picture. The first pass over the
+// parts records the sizes of the compressed tiles. The second pass checks and copies the tiles.
+// Joining takes memory for a few tiles, and eight bytes for each tile of the picture.
 #pragma once
 
 #include "image/exr_file.h"
@@ -16,7 +16,7 @@ typedef struct {
     atomic_int write_error; // the errno of a failed write; 0 without one
 } ExrJoin;
 
-// Allocates join->starts for the picture of which `file` has a part. The caller frees the array.
+// Allocates join->starts for the whole picture, which the caller frees. `file` may be any part.
 bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error);
 
 // First pass: records the sizes of the part's tiles. Fails if a tile is missing.
@@ -28,7 +28,7 @@ bool exr_join_measure(ExrJoin *join, const ExrFile *file, const RenderSettings *
 bool exr_join_write_head(ExrJoin *join, const ImageSettings *settings, const RenderSettings *place,
                          FILE *stream);
 
-// Second pass: copies the part's tiles. Fails if writing fails, if a tile is damaged, or if it no
-// longer fits into its place.
+// Second pass: copies the part's tiles. Fails if writing fails, if a tile is damaged, or if its
+// size has changed since the first pass.
 bool exr_join_copy(ExrJoin *join, const ExrFile *file, const RenderSettings *settings, FILE *stream,
                    Error *error);

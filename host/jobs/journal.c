@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The journal is written but not synced to disk. Written records survive if the process is killed.
-// After a power failure, records may be incomplete, which checksums detect.
+// Writes records, but does not sync them to disk. They survive if the process is killed. After a
+// power failure, records may be incomplete. Their checksums detect this.
 #include "jobs/journal.h"
 
 #include "base/output_file.h"
@@ -29,8 +29,8 @@ static bool cannot(const Journal *journal, const char *what, Error *error)
     return error_set(error, "%s: cannot be %s: %s", journal->path, what, strerror(errno));
 }
 
-// Compares the key in the file's head. A process that was killed at its start may have left an
-// incomplete head. The file then gets a new head.
+// Compares the key in the file's head with `key`. A process that was killed at its start may have
+// left an incomplete head, which is replaced.
 static bool check_head(const Journal *journal, const uint64_t key[2], Error *error)
 {
     Head head;
@@ -61,7 +61,7 @@ static bool is_regular(const Journal *journal)
 }
 
 // Locks the journal. On file systems without locks, flock fails with an error other than
-// EWOULDBLOCK. The failure is ignored, and journal_claim is the only protection.
+// EWOULDBLOCK. This failure is ignored, and journal_claim is then the only protection.
 static bool take_lock(Journal *journal, Error *error)
 {
     journal->is_busy =
@@ -122,8 +122,8 @@ bool journal_read(Journal *journal, void *bytes, size_t size)
     return false;
 }
 
-// Copies the records read so far into the new file. The file is locked, but does not have the
-// journal's name yet.
+// Copies the records read so far into `stream`, a locked file without the journal's name. Fails if
+// another process has claimed the journal.
 static bool fill_file(Journal *journal, FILE *stream, Error *error)
 {
     const long end = ftell(journal->stream);
@@ -143,7 +143,7 @@ bool journal_claim(Journal *journal, Error *error)
     Error cause = {0};
     if (!output_file_begin(&file, journal->path, error))
         return false;
-    // The stream keeps the file's lock.
+    // output_file_end closes file.lock, but the stream then still holds the lock.
     const int copy = fcntl(file.lock, F_DUPFD_CLOEXEC, 0);
     FILE *stream = copy < 0 ? NULL : fdopen(copy, "ab+");
     const bool filled = fill_file(journal, stream, error);

@@ -12,8 +12,8 @@
 // every network file system. journal_claim therefore copies the records into a new file under the
 // same name. A process that still has the old file open can only append to the old file.
 //
-// Invariant: all records before the first damaged one are complete and in the order in which they
-// were added.
+// Invariant: all records before the first damaged one are complete, and in the order of the
+// journal_add calls.
 #pragma once
 
 #include "base/error.h"
@@ -37,9 +37,8 @@ bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Err
 // record. All records must be read before journal_claim.
 bool journal_read(Journal *journal, void *bytes, size_t size);
 
-// Replaces the journal by a new file with the records read. journal_add requires this call. If
-// a process on another machine has lost its lock, it writes to the old file and cannot change the
-// new one.
+// Replaces the journal by a new file with the records that were read. journal_add requires this
+// call. A process on another machine may still write to the old file, but not to the new one.
 bool journal_claim(Journal *journal, Error *error);
 
 bool journal_add(Journal *journal, const void *bytes, size_t size, Error *error);

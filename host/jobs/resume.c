@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The journal of a picture contains the colors of its finished tiles, one record for each. Tiles
-// finish in the order of their numbers, so their count identifies the finished tiles. The journal's
-// key is a hash of everything that determines the picture and its tiles. A resumed picture
-// therefore has the same bits as an uninterrupted one.
+// Each record of a picture's journal contains the colors of one finished tile. Tiles finish in the
+// order of their numbers, so the number of records identifies the finished tiles. The journal's key
+// is a hash of everything that determines the picture and its tiles. A resumed picture therefore
+// has the same bits as an uninterrupted one.
 #include "jobs/resume.h"
 
 #include "jobs/stored_tiles.h"
@@ -35,7 +35,6 @@ bool resume_prepare(Resume *resume, const char *path, bool is_exr, Error *error)
     return true;
 }
 
-// Hashes everything that determines the picture and its tiles.
 static void make_key(const Provenance *own, const RenderSettings *settings, uint64_t key[2])
 {
     char text[STORED_TEXTS * STORED_TEXT_SIZE];
@@ -110,8 +109,8 @@ static void read_journal(Resume *resume, RenderSettings *settings, const Framebu
 }
 
 // Copies the tiles of a complete EXR file into framebuffer. Requires the journal's lock, because
-// another run might be about to write the file. If the EXR file is incomplete, the picture is drawn
-// again.
+// another run might be about to write the file. Ignores an incomplete EXR file, so that the picture
+// is drawn again.
 static bool restore_stored(Resume *resume, const Provenance *own, RenderSettings *settings,
                            Framebuffer *framebuffer, Error *error)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The journal FILE.part -> the tiles that an earlier run finished (--resume). This run appends its
-// own tiles to the journal. If FILE is a complete EXR file, all its tiles count as finished.
+// Restores the tiles that an earlier run stored in the journal FILE.part (--resume). This run
+// appends its own tiles to the journal. If FILE is a complete EXR file, all its tiles count as
+// finished.
 #pragma once
 
 #include "image/exr_file.h"
@@ -11,17 +12,18 @@
 typedef struct {
     char *path;              // the journal's path; NULL without --resume; owned
     const char *stored_path; // of the earlier run's EXR file; NULL for other formats
-    ExrFile stored;          // that file, while its tiles are copied
+    ExrFile stored;          // the earlier run's EXR file, while its tiles are copied
     Journal journal;
     bool is_broken; // writing to the journal failed
     float *tile;    // the colors of one tile, row by row; owned
 } Resume;
 
-// Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees it.
+// Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees the
+// result.
 char *resume_journal_name(const char *output_path, Error *error);
 
-// Prepares to resume the picture at path. If is_exr, that file can contain finished tiles too.
-// Fails if the file exists and is not a regular file.
+// Prepares to resume the picture at path. If is_exr, the file at path can also contain finished
+// tiles. Fails if path exists and is not a regular file.
 bool resume_prepare(Resume *resume, const char *path, bool is_exr, Error *error);
 
 // Opens the journal and copies the finished tiles into framebuffer. If the journal has no tiles, a

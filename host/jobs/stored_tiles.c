@@ -31,7 +31,8 @@ static bool read_part(RenderSettings *settings, json_t *json)
     return true;
 }
 
-// Reads the crop. Fails unless it has the image's size and is inside the whole picture.
+// Reads the size of the whole picture, and its crop. Fails unless the crop has the image's size and
+// is inside the whole picture.
 static bool read_place(RenderSettings *settings, json_t *json)
 {
     int width, height, edges[4] = {0};

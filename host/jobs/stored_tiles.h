@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The file of a part or of a picture -> its settings and the pixel values of its tiles.
+// Reads the settings and the tiles' pixel values from the file of a part or of a picture.
 #pragma once
 
 #include "image/exr_file.h"
@@ -25,7 +25,7 @@ void stored_tiles_free(StoredTiles *tiles);
 // parts.
 bool stored_tiles_are_of(const StoredImage *image, const char *settings_text, bool is_part);
 
-// Appends to layers the image's channels other than its colors. Returns false if the image lacks
+// Appends the image's channels, except its colors, to layers. Returns false if the image lacks
 // colors or has a channel unknown to --aov.
 bool stored_tiles_name_layers(const StoredImage *image, Layers *layers);
 
@@ -34,13 +34,13 @@ bool stored_tiles_has_colors(const StoredImage *image);
 // Returns whether the image's channels are exactly the three colors and these layers.
 bool stored_tiles_has(const StoredImage *image, const Layers *layers);
 
-// Lists a part's tiles for its file. The caller frees part->tiles.
+// Fills `part` for image_write. The caller frees part->tiles.
 bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *error);
 
-// A function that works on one tile. Threads call it concurrently for different tiles.
+// Processes one tile. Threads call it concurrently for different tiles.
 typedef bool TileWork(const void *context, const Tile *tile, Error *error);
 
-// Calls work for tiles 0 to count - 1 on all processors. If some fail, returns false and the error
+// Calls work for tiles 0 to count - 1 on all processors. If tiles fail, returns false and the error
 // of the failed tile with the lowest number.
 bool stored_tiles_run(const RenderSettings *settings, uint64_t count, TileWork *work,
                       const void *context, Error *error);
