@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measures the difference of two pictures, checks its limits, and splits it by cause. Each row is
-// summed in doubles, and then the rows' sums are added. Sums of millions of values then keep 12
-// correct digits.
+// Measures the difference of two pictures, compares it with limits, and splits it by cause. Squares
+// are first summed within each row, so that sums of millions of squares keep 12 correct digits.
 #include "compare/difference.h"
 
 #include "base/number.h"
@@ -127,7 +126,8 @@ bool difference_picture_make(Framebuffer *picture, const ComparedImages *compare
     return true;
 }
 
-// The following functions parse limits. Reports use the same names of limits.
+// The following functions parse limits, and compare a difference with them. --fail and reports use
+// the same names of limits.
 
 const char *const limit_names[LIMIT_KINDS] = {"rmse", "max", "psnr", "share1", "share4", "hits"};
 
@@ -192,10 +192,10 @@ bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *diffe
 }
 
 // The following functions find the cause of each pixel's difference. The channels primitive, shadow
-// and bounces describe only the ray through a pixel's center. If one of them differs, it names the
-// cause. If they agree and both pictures have the same samples, the cause is rounding, even of a
-// large difference, because rounding can change a sample's hit. If the samples differ, every
-// difference above rounding counts as coverage.
+// and bounces describe only the ray through a pixel's center. The first of them that differs
+// determines the cause. If they agree and both pictures have the same samples, the cause is
+// rounding. The difference may be large, because rounding can change a sample's hit. If the samples
+// differ, every difference above ROUNDING_MOST counts as coverage.
 
 // If rounding changes no hit and no shadow, it changes a color in [0, 1] by at most this.
 #define ROUNDING_MOST 1e-5
@@ -220,7 +220,7 @@ typedef struct {
 } Side;
 
 // Returns the integer after `name` in the image's settings, which are JSON without blanks. Returns
-// -1 if there is none.
+// -1 if the settings lack `name`.
 static int setting_of(const StoredImage *image, const char *name)
 {
     char pattern[32];
@@ -260,7 +260,8 @@ static bool differ(const Side sides[2], size_t pixel, int channel)
     return memcmp(&a, &b, sizeof a) != 0;
 }
 
-// Returns whether the shorter path ended at its --max-level, and the other --max-level is higher.
+// Returns whether the picture with fewer bounces at this pixel reached its --max-level, and the
+// other picture's --max-level is higher.
 static bool is_truncated(const Side sides[2], size_t pixel)
 {
     const float bounces[] = {side_value(&sides[0], pixel, BOUNCES),
@@ -270,7 +271,7 @@ static bool is_truncated(const Side sides[2], size_t pixel)
            bounces[shorter] >= (float)(sides[shorter].level - 1);
 }
 
-// Returns whether both pictures have the same sample positions according to their settings.
+// Returns whether the settings of both pictures record the same samples.
 static bool have_same_grid(const Side sides[2])
 {
     const char *words[2];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two pictures -> their difference. Values are compared as the files store them, and an 8-bit value
-// v counts as v / 255. All three colors have equal weight.
+// The difference of two pictures. Values are compared as the files store them, and an 8-bit value v
+// counts as v / 255. All three colors have equal weight.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -18,8 +18,8 @@ typedef struct {
     uint64_t pixels;
     double rmse;
     double maximum;
-    uint32_t maximum_x, maximum_y, maximum_color; // of the maximum, or of the first of equal ones
-    uint64_t off_by_1, off_by_4;                  // pixels that differ by more than 1/255; 4/255
+    uint32_t maximum_x, maximum_y, maximum_color; // of the first maximum
+    uint64_t off_by_1, off_by_4;                  // pixels off by more than 1/255, and 4/255
     bool has_hits;                                // both files have the channel of first hits
     uint64_t wrong_hits;                          // pixels with different first hits
 } Difference;
@@ -45,7 +45,8 @@ double difference_psnr(const Difference *difference);
 double compared_images_difference(const ComparedImages *compared, size_t pixel, int color);
 
 // Makes a picture of the absolute differences of two pictures. With for_the_eye, each color is
-// sqrt(difference / (64/255)), at most 1. The scale is fixed, so that users can compare pictures.
+// sqrt(difference / (64/255)), at most 1. The scale does not depend on the pictures, so users can
+// compare maps.
 bool difference_picture_make(Framebuffer *picture, const ComparedImages *compared, bool for_the_eye,
                              Error *error);
 
