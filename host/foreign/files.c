@@ -16,7 +16,7 @@
 typedef struct {
     struct aiFile interface;
     size_t opened; // index in Files::opened
-    size_t place;
+    size_t place;  // of the next byte to read
     Files *files;
 } Reading;
 
@@ -25,7 +25,7 @@ static size_t folder_length(const Files *files)
     return (size_t)(strrchr(files->model, '/') - files->model) + 1;
 }
 
-// Returns whether file is in folder or below. Neither path may contain links.
+// Returns whether file is in folder or in a subfolder. Neither path may contain links.
 static bool is_below(const char *file, const char *folder)
 {
     const size_t length = strcmp(folder, "/") == 0 ? 0 : strlen(folder);
@@ -68,7 +68,7 @@ static bool is_inside(const Files *files, const char *path)
 static bool read_regular(File *file, const char *path, Error *error)
 {
     struct stat status = {0};
-    // Rejects pipes and devices, because they may never end.
+    // Rejects pipes and devices, because their data may never end.
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return error_set(error, "cannot be read: it is not a file");
     limits_allow_file((uint64_t)status.st_size);

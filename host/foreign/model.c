@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads the model with Assimp, and sends its files, its parts and a note about omitted data.
+// Reads a model with Assimp, and sends its files, its parts and a note about omitted data.
 #include "foreign/model.h"
 
 #include "foreign/parts.h"
@@ -20,8 +20,8 @@ static bool fail(Error *error)
                      reason[0] != '\0' ? reason : "no reason is given");
 }
 
-// Returns the model, or NULL on failure. The settings keep Assimp from turning Collada files to y
-// up, and from adding meshes for skeletons.
+// Reads and triangulates the model. Returns NULL on failure. The settings prevent Assimp from
+// rotating Collada files to y up, and from adding meshes for skeletons.
 static const struct aiScene *import(Files *files, Error *error)
 {
     struct aiPropertyStore *settings = aiCreatePropertyStore();

@@ -6,6 +6,6 @@
 
 #include <stdio.h>
 
-// Sends all records of a model except FOREIGN_FAILURE. Returns false and the reason if the model
-// cannot be read or the receiver is gone.
+// Sends all records of a model except FOREIGN_FAILURE. Returns false and stores the reason if the
+// model cannot be read or the receiver has closed the stream.
 bool model_send(FILE *stream, Files *files, Error *error);

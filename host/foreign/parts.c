@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walks Assimp's tree of nodes, multiplies their matrices in fp64, and sends each mesh in the
+// Walks Assimp's tree of nodes, multiplies their matrices in fp64, and sends the meshes in the
 // coordinates of the whole file. Identity matrices are not applied, so that coordinates keep their
 // bits. If a matrix mirrors, the order of corners is reversed, so that front faces stay front
 // faces.
@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// clrt renders two colors and an exponent of a material. The specular color is multiplied by its
-// strength. The values are not clamped here, because the receiver clamps them.
+// clrt takes a material's diffuse color, specular color and exponent. The functions below multiply
+// the specular color by its strength. The receiver clamps the values.
 
 static bool find_color(const struct aiMaterial *material, const char *key, float color[3])
 {
@@ -92,7 +92,7 @@ typedef struct {
     const struct aiScene *scene;
     bool keeps_normals;
     PartCounts *counts;
-    uint32_t *numbers; // per scene material: 1 + its index among the sent ones, or 0 if unsent
+    uint32_t *numbers; // per material of the scene: 1 + its index among sent materials; 0 if unsent
     uint32_t sent_count;
     ForeignPart part; // the part being collected
     ARRAY(Triangle) triangles;
@@ -135,8 +135,8 @@ static bool is_identity(const Placement *placement)
     return true;
 }
 
-// Returns the matrix of cofactors, negated if the placement mirrors. It is a positive multiple of
-// the inverse transpose.
+// Returns the matrix of cofactors, negated if the placement mirrors. This matrix is a positive
+// multiple of the inverse transpose.
 static NormalMatrix normal_matrix_of(const Placement *placement)
 {
     NormalMatrix normal_matrix = {.is_identity = is_identity(placement)};
@@ -273,8 +273,8 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
     return *number - 1;
 }
 
-// Reserves memory for `count` more vertices. If the part has normals or gets some now, vertices
-// without a normal get a zero vector as their normal.
+// Reserves memory for `count` more vertices. If any vertex of the part has a normal, the normals of
+// the other vertices are zero vectors.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals, bool has_colors)
 {
     Mesh *mesh = &sender->part.mesh;

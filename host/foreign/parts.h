@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assimp's scene -> records of its parts. A part is a run of triangles with one material, in the
+// Sends Assimp's scene as records of parts. A part is a run of triangles with one material, in the
 // coordinates of the whole file.
 #pragma once
 
@@ -13,7 +13,7 @@ typedef struct {
     bool is_textured; // the color of a part has a texture, which clrt does not render
 } PartCounts;
 
-// Sends every part after its material. keeps_normals is false for formats that store normals of
-// facets, because the corners determine these normals.
+// Sends each part after its material. keeps_normals is false for formats with one normal for each
+// triangle, because the triangle's corners determine this normal.
 bool parts_send(FILE *stream, const struct aiScene *scene, bool keeps_normals, PartCounts *counts,
                 Error *error);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Assimp takes at least n * n steps for a polygon of n corners. The code here adds up these squares
-// and compares the sum with a limit.
+// Estimates Assimp's time for polygons, and compares it with a limit. Assimp takes at least n * n
+// steps for a polygon of n corners.
 #include "foreign/polygons.h"
 
-// The largest sum of n * n over a model's polygons of n corners. A single polygon may have 30,000
-// corners, which take about five seconds.
+// The largest number of steps for a model. A single polygon of 30,000 corners reaches this limit,
+// and takes about five seconds.
 #define STEPS_MOST 900000000.0
 
 typedef struct {
@@ -36,7 +36,8 @@ bool polygons_check_scene(const struct aiScene *scene, Error *error)
     return check(&polygons, error);
 }
 
-// Returns the position after the line that starts at `begin`. A backslash continues a line.
+// Returns the position after the line that starts at `begin`. A backslash before the line feed
+// continues the line.
 static size_t line_end(const File *file, size_t begin)
 {
     for (size_t i = begin; i < file->size; i++)

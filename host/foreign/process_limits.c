@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Limits this process by setrlimit, and by an alarm for elapsed time.
 //
-// The memory for models has a soft limit, which rises with the size of the files read, up to a hard
-// limit. In some formats, nodes can share children, so a short file can describe a vast model. The
-// soft limit stops such files early.
+// The memory for models has a soft limit. Each file that is read raises it, up to a hard limit. In
+// some formats, nodes can share children, so a short file can describe a vast model. The soft limit
+// stops such files early.
 #include "foreign/process_limits.h"
 
 #include "base/processors.h"
@@ -26,8 +26,8 @@
 #define SECONDS           120               // elapsed time
 #define BYTES_PER_SECOND  2000000 // a file adds a second of processor time for this many bytes
 
-// AddressSanitizer maps more memory than any limit could allow, so memory is then not limited. gcc
-// defines a macro for AddressSanitizer, and clang has __has_feature.
+// AddressSanitizer maps more memory than any limit could allow, so builds with it do not limit
+// memory. gcc defines a macro for AddressSanitizer, and clang has __has_feature.
 #ifndef __has_feature
 #define __has_feature(name) 0
 #endif
@@ -87,7 +87,7 @@ static rlim_t smaller(rlim_t a, rlim_t b)
 }
 
 // Allows at most 3/4 of the machine's memory in addition to the memory that is already mapped,
-// because other processes need some. Forbids threads.
+// because other processes need memory too.
 void limits_take_model(void)
 {
     const rlim_t machine = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE);

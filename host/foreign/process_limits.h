@@ -6,9 +6,9 @@
 
 #include <stdint.h>
 
-// Limits processor time, elapsed time, stack and open files. The process then also ends when the
-// thread that started it ends. From now on, the process gains no privileges, writes no file and
-// dumps no core.
+// Limits processor time, elapsed time, stack and open files. Closes all files but the standard
+// streams. From then on, the process gains no privileges, writes no file and dumps no core. It ends
+// when the thread that started it ends.
 void limits_take(void);
 
 // Limits memory, and forbids threads. limits_allow_file raises the limit of memory for each file.
@@ -17,5 +17,5 @@ void limits_take_model(void);
 // Adds memory and processor time for a model's file of this size, up to the hard limits.
 void limits_allow_file(uint64_t bytes);
 
-// Adds processor time for a picture file of this size, and limits memory to what decoders need.
+// Adds processor time for a picture file of this size, and limits memory to the needs of a decoder.
 void limits_take_picture(uint64_t bytes);

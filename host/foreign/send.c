@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes records to the stream. Nothing is checked here, because the caller tests the stream's
-// error state at the end.
+// Writes records to the stream. The functions ignore failures, because the caller tests the
+// stream's error state at the end.
 #include "foreign/send.h"
 
 #include "mesh/ply_write.h"

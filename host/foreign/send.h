@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-// Starts a record of `size` bytes, which the caller writes.
+// Starts a record. The caller writes its `size` bytes of data.
 void send_head(FILE *stream, ForeignKind kind, uint32_t number, size_t size);
 
 void send_bytes(FILE *stream, ForeignKind kind, const void *bytes, size_t size);
