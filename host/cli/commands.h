@@ -21,7 +21,7 @@ TracingCommand picture_make;
 // clrt SCENE: shows the scene in a window until the user closes it.
 TracingCommand show_scene;
 
-// Prints the window's keys for the man page; prints nothing in a build without a window.
+// Prints the window's keys for the man page. In a build without a window, prints nothing.
 void show_write_keys(FILE *stream);
 
 // clrt warm: compiles kernels in advance.
@@ -61,8 +61,8 @@ ExitCode convert_scene(const Options *options, Error *error);
 // Adds to plan every file that the options name, and the files of scene unless scene is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
 
-// Fails if an output would replace an input or another output. main calls it before any work.
-// stage_start and check_scene call it again when the scene's files are known.
+// Fails if an output would replace an input or another output. main calls this function before any
+// work. stage_start and check_scene call it again when the scene's files are known.
 bool command_files_check(const Options *options, const Scene *scene, Error *error);
 
 // Writes the text of --help.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// clrt convert: writes a scene as scene text with PLY meshes, or as one PLY mesh. It reads all
-// files before it writes any, and never overwrites a file that it read.
+// clrt convert: writes a scene as scene text with PLY meshes, or as one PLY mesh. clrt reads all
+// files before it writes any, and never overwrites a file that it has read.
 #include "cli/commands.h"
 
 #include "base/file.h"

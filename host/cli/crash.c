@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reports a crash with the name of the library in which it happened, found by the program counter.
-// The message blames no library, because the library's caller may be at fault. For example, abort()
-// and damaged heaps crash in the C library.
+// Reports a crash, and names the library that contains the program counter. The message does not
+// blame the library, because its caller may be at fault. For example, abort() and damaged heaps
+// crash in the C library.
 //
 // LLVM installs its own handlers while it compiles a kernel. Its handler of SIGABRT does not call
 // ours, and its other handlers do not restore ours if two threads crash at once. The executable
@@ -60,8 +60,9 @@ static bool read_line(int file, char line[LINE_SIZE])
     return next == '\n';
 }
 
-// Finds the mapped file that contains the address `place`. Returns its name without folders, stored
-// in `line`, or NULL. Reads /proc, because dladdr takes locks that the crashed thread may hold.
+// Returns the name, without folders, of the mapped file that contains the address `place`, or NULL.
+// Stores the name in `line`. Reads /proc, because dladdr takes locks that the crashed thread may
+// hold.
 static const char *file_at(uintptr_t place, char line[LINE_SIZE])
 {
     const int maps = open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
@@ -92,7 +93,7 @@ static _Noreturn void end(const char *message)
     _exit(EXIT_DEVICE);
 }
 
-// Handles a crash signal. Only the process that called crash_watch prints a message, not its forks.
+// Handles a crash signal. Forks of the process that called crash_watch print no message.
 static void handle(int number, siginfo_t *info, void *context)
 {
     char line[LINE_SIZE], message[LINE_SIZE + 160];

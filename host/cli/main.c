@@ -26,8 +26,8 @@ static void limit_threads(uint32_t count)
     setenv("POCL_CPU_MAX_CU_COUNT", text, count > 0);
 }
 
-// Runs a command on a session. Without CLRT_TIDY_EXIT, leaves the session to the operating system,
-// because drivers are slow to close.
+// Runs a command on a session. Closes the session only if CLRT_TIDY_EXIT is set, because drivers
+// are slow to close.
 static ExitCode perform_traced(const Options *options, TracingCommand *command, Error *error)
 {
     Session session = {0};

@@ -2,7 +2,8 @@
 // clrt merge: joins the parts of a picture. A first pass checks all parts, and a second pass copies
 // their tiles into the whole picture. All parts must have the same scene, version and settings, and
 // each part must occur once. If can_join() is true, compressed tiles are copied, and the picture is
-// never in memory. Otherwise, memory for the picture is allocated only if no part is missing.
+// never in memory. Otherwise, tiles are decoded into a picture in memory, which is allocated only
+// if no part is missing.
 #include "cli/commands.h"
 
 #include "base/output_file.h"
@@ -54,7 +55,7 @@ static const char *mismatch_of(const Merging *merging, const StoredTiles *tiles,
     return stored_tiles_has(image, &merging->layers) ? NULL : "other channels";
 }
 
-// Appends the names of the part's device and driver to the texts that do not contain them yet.
+// Appends the part's device and driver to the provenance, unless it contains them already.
 static void note_device(Merging *merging, const StoredImage *image)
 {
     for (int kind = STORED_DEVICE; kind <= STORED_DRIVER; kind++) {
@@ -90,8 +91,8 @@ static bool begin(Merging *merging, const StoredTiles *tiles, const ExrFile *fil
     return exr_join_begin(&merging->join, file, error);
 }
 
-// In the first pass, records the part's tiles. In the second pass, copies the tiles to the stream
-// or, if it is NULL, decodes them.
+// In the first pass, records the part's tiles. In the second pass, copies the tiles to `stream`, or
+// decodes them if `stream` is NULL.
 static bool take_tiles(Merging *merging, const StoredTiles *tiles, const ExrFile *file,
                        FILE *stream, Error *error)
 {
@@ -141,7 +142,7 @@ static bool read_settings(StoredTiles *tiles, const ExrFile *file, const char *p
            error_set(error, "%s: is not a part drawn with --part", path);
 }
 
-// Returns whether the file still contains the part that the first pass found in it.
+// Returns whether the file contains the same part as in the first pass.
 static bool is_checked_part(const Merging *merging, const StoredTiles *tiles, const ExrFile *file,
                             const char *path, Error *error)
 {
@@ -175,7 +176,8 @@ static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *
     return ok;
 }
 
-// Fails if parts are missing. The message lists them in the syntax of a job array, such as 1,3.
+// Fails if parts are missing. The message lists the missing parts in the syntax of a job array,
+// such as 1,3.
 static bool check_missing(const Merging *merging, Error *error)
 {
     char list[1024] = "";

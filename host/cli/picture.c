@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// clrt SCENE -o FILE: renders a scene file to picture files. The steps of a picture are to resume
-// an earlier run, draw the colors, certify them, draw the channels, measure the error, and write
+// clrt SCENE -o FILE: renders a scene file to picture files. For each picture, clrt resumes an
+// earlier run, draws the colors, certifies them, draws the channels, measures the error, and writes
 // the file.
 #include "cli/commands.h"
 
@@ -74,7 +74,7 @@ static bool trace_layers(Picture *picture, Error *error)
     return ok;
 }
 
-// Computes the channels besides the colors. If the picture was stopped, the channels stay zero.
+// Draws the channels besides the colors. If the picture was stopped, the channels stay zero.
 static bool draw_layers(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
@@ -156,7 +156,7 @@ static bool write_statistics(Picture *picture, Error *error)
     return options->json_path == NULL || report_write_json(picture, options->json_path, error);
 }
 
-// Before any work, checks SOURCE_DATE_EPOCH, and whether the outputs can be written and resumed.
+// Checks SOURCE_DATE_EPOCH, and whether the outputs can be written and resumed, before any work.
 static ExitCode check_files(Picture *picture, Error *error)
 {
     const Options *options = picture->options;

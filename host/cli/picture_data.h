@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The data of a picture that clrt renders to a file. The steps of cli/picture.c fill them, and
-// reports read them.
+// The data of a picture that clrt renders to a file. cli/picture.c fills the data, and reports read
+// them.
 #pragma once
 
 #include "cli/stages.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A finished picture -> its certainty, and its error against a reference.
+// Computes a finished picture's certainty, and its error against a reference.
 #pragma once
 
 #include "cli/picture_data.h"
 
 // Appends the error channel. The error of a pixel is the largest difference of its colors from the
 // reference. Does nothing if there is no reference, if the file's format has no channels, or if
-// --aov lists the channel.
+// --aov has already added the channel.
 void reference_name_layer(const Options *options, Layers *layers);
 
 // With --reference, draws the reference of the picture (session/reference.h), measures and prints
@@ -17,6 +17,6 @@ bool reference_measure(Picture *picture, Error *error);
 // Writes the reference to the file that the options name, if any.
 bool reference_write(const Picture *picture, Error *error);
 
-// With --aov certainty, computes the certainty of each pixel of a finished picture, and repairs
-// pixels in fp64. Does nothing to a picture that was stopped.
+// With --aov certainty, computes the certainty of each pixel of a finished picture, and replaces
+// the colors of pixels that fp64 can repair. Does nothing to a picture that was stopped.
 bool picture_certify(Picture *picture, Error *error);

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// If the value of --error is larger, the user may have meant a percentage.
+// Above this value of --error, the user may have meant a percentage.
 #define LARGE_ERROR 0.1
 
 // Parts of at least this many tiles take about equal time (docs/long-jobs.md).

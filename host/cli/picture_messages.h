@@ -10,12 +10,12 @@ void picture_warn_of_goal(const Options *options);
 // Prints a note if the parts have so few tiles that their times may differ much.
 void picture_warn_of_few_tiles(const Options *options, const RenderSettings *settings);
 
-// With --verbose, prints which frame begins or, for a picture with --resume, how many of its tiles
-// were finished before.
+// With --verbose, prints the path of a frame that begins. With --resume, prints how many tiles were
+// finished before.
 void picture_print_beginning(const Picture *picture);
 
 // On a terminal, prints the file's name, the picture's size and the seconds since picture->moment.
-// Sets the moment to the current time.
+// Sets picture->moment to the current time.
 void picture_print_end(Picture *picture);
 
 // These functions fill error for a picture that misses its goal or is stopped, and return the exit

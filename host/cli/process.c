@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Handles SIGINT and SIGTERM, and makes stacks large enough. A handler stays installed until its
-// first signal, so a single signal never interrupts the writing of traced tiles. The second signal
-// ends the process. Before the first tile, the first signal ends the process too, because
-// compilation cannot be interrupted.
+// Handles SIGINT and SIGTERM, and makes stacks large enough for compilers. A handler stays
+// installed until its first signal, so a single signal never interrupts the writing of traced
+// tiles. The second signal ends the process. Before the first tile, the first signal ends the
+// process too, because compilation cannot be interrupted.
 #include "cli/process.h"
 
 #include <pthread.h>
@@ -15,7 +15,7 @@
 static volatile sig_atomic_t stopped_by, waits_for_tiles;
 static pid_t watcher;
 
-// Ends the process. Only the process that installed the handlers prints a message, not its forks.
+// Ends the process. Forks of the process that installed the handlers print no message.
 static void end_process(int number)
 {
     static const char sentence[] = "clrt: stopped before the first tile: no picture is written\n";

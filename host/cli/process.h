@@ -10,14 +10,14 @@
 // Before stop_wait_for_tiles, a signal ends the process with a message and status 128 + its number.
 void stop_watch(void);
 
-// Must be called before the first tile is rendered. Afterwards, the first signal only sets the
+// Call this function before the first tile is rendered. Afterwards, the first signal only sets the
 // result of stop_signal.
 void stop_wait_for_tiles(void);
 
 // Returns the signal that requested the stop, or 0.
 int stop_signal(void);
 
-// Calls work(context) with a stack that is large enough for compilers, regardless of `ulimit -s`,
-// and waits until it returns. If the limit is below 8 MiB, work runs on a new thread with a larger
-// stack, and threads of drivers get larger stacks too.
+// Calls work(context) with a stack that is large enough for compilers, regardless of `ulimit -s`.
+// Returns when `work` has returned. If the limit is below 8 MiB, work runs on a new thread with a
+// larger stack, and threads of drivers get larger stacks too.
 void stack_run(void *(*work)(void *context), void *context);

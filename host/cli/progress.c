@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shows progress on standard error. On a terminal, a single line is rewritten. It shows the
-// remaining time, or the time spent so far on loading the scene or compiling kernels. A log gets a
-// line for every tenth of the picture, but none in the first second.
+// Shows progress on standard error. On a terminal, clrt rewrites a single line. The line shows the
+// remaining time, or how long clrt has been loading the scene or compiling kernels. In a log, clrt
+// prints a line for every tenth of the picture, but none in the first second.
 #include "cli/progress.h"
 
 #include "base/clock.h"
@@ -41,7 +41,7 @@ static struct {
     bool is_shown;
 } stage;
 
-// Rewrites the line, or returns false if all stages of the series have ended.
+// Rewrites the line, and returns true. If all stages of the series have ended, only returns false.
 static bool show_line(uintptr_t series, unsigned seconds)
 {
     pthread_mutex_lock(&lock);
@@ -92,8 +92,8 @@ void progress_show_loading(bool begins)
     show("loading the scene", show_slow, begins);
 }
 
-// Estimates the remaining time from the tiles drawn by this process. Tiles of an earlier run are
-// left out, because this process spent no time on them.
+// Estimates the remaining time from the tiles drawn by this process. Tiles of an earlier run do not
+// count, because this process spent no time on them.
 static void print_progress(Progress *progress, const RenderProgress *render)
 {
     const double elapsed = clock_seconds() - progress->start;

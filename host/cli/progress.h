@@ -4,8 +4,7 @@
 
 #include "session/session.h"
 
-// The context of an observer that prints the progress of tracing on standard error, and stops
-// tracing after a signal.
+// The context of progress_tile_done.
 typedef struct {
     bool silent;
     bool terminal;    // standard error is a terminal, so one line is rewritten
@@ -27,7 +26,8 @@ void progress_show_compiling(bool begins);
 // the first 0.5 s.
 void progress_show_loading(bool begins);
 
-// Implements RenderObserver::tile_done; context is a Progress. Returns false after a signal.
+// Implements RenderObserver::tile_done, and prints the progress of tracing; context is a Progress.
+// Returns false after a signal, which stops tracing.
 bool progress_tile_done(void *context, const RenderProgress *progress);
 
 // Clears the rewritten line. Returns the signal that requested the stop, or 0.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Describes the fields of a run's report once. JSON contains all fields, and the text names some of
+// Lists the fields of a picture's report. JSON contains all fields, and the text contains some of
 // them.
 #include "cli/report.h"
 

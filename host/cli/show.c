@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// clrt SCENE: passes the command line's settings to the window. Builds without a window compile the
-// second half of this file.
+// clrt SCENE: passes the command line's settings to the window. Builds without a window compile
+// only the stubs at the end.
 #include "cli/commands.h"
 
 #ifdef CLRT_WITH_WINDOW
@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-// The seconds that the process waits for its worker thread after the window is closed. The thread
-// may be compiling, and PoCL's files must not be removed while it compiles.
+// The number of seconds that the process waits for its worker thread after the window is closed.
+// The thread may be compiling, and PoCL's files must not be removed while it compiles.
 #define PATIENCE 10
 
 void show_write_keys(FILE *stream)

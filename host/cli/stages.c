@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs the stages from options and a scene file to a session that is ready to draw. All commands
-// that trace use them, except that the window has its own stages.
+// that trace use these stages, except the window, which has its own.
 #include "cli/stages.h"
 
 #include "base/clock.h"
@@ -14,8 +14,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// The default side of a part's tiles. The tiles of a part are smaller than the tiles of a whole
-// picture. Each part then has more tiles, and all parts take about the same time.
+// The default side of a part's tiles, in pixels. It is smaller than for a whole picture. Each part
+// then has more tiles, and all parts take about the same time.
 #define PART_TILE 64
 
 double stage_lap(double *moment)

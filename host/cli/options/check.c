@@ -7,7 +7,7 @@
 
 #define REFINES "aa-adaptive", "error", "time"
 
-// The rules that do not depend on the values of options.
+// These rules do not depend on the values of options.
 const Exclusion exclusion_table[] = {
     {{"aa", REFINES}, {NULL}},
     {{"crop", "part", "tune tile"}, {REFINES}},
@@ -72,7 +72,7 @@ static const char *option_of_setting(const char *setting)
     return setting;
 }
 
-// Checks the request for a picture, because some rules on requests are in no table of this file.
+// Checks the request for a picture. request_check has rules that are in no table of this file.
 static bool check_request(const Options *options, Error *error)
 {
     RequestFault fault;

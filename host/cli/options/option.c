@@ -6,6 +6,7 @@
 #include "base/number.h"
 
 #include <string.h>
+
 bool option_argument_is_optional(const Option *option)
 {
     return option->argument != NULL && option->argument[0] == '[';
@@ -134,7 +135,8 @@ bool option_store(const Option *option, Options *options, const char *text, Erro
     return option->set(options, text, error);
 }
 
-// The following setters serve options of kind OPTION_ODD. set_pixel parses an operand.
+// The following setters serve options of kind OPTION_ODD, except set_pixel, which parses an
+// operand.
 
 bool set_output(Options *options, const char *text, Error *error)
 {

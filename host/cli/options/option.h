@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of options and commands, the setters that rows of options name, and rules on
-// combinations of options. The parser, --help, the man page and the completions all use these
-// tables.
+// The tables of options, of commands and of options that exclude each other, and the setters of
+// options. The parser, --help, the man page and the completions all use these tables.
 #pragma once
 
 #include "cli/options/options.h"
@@ -93,7 +92,8 @@ bool option_names_file(const Option *option);
 // environment variable.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);
 
-// A way to run clrt. A command with several FOR_... bits, such as explain, has a row for each.
+// A way to run clrt. A command with several FOR_... bits, such as explain, has one row for each
+// bit.
 typedef struct {
     const char *name;     // "": clrt shows or renders a scene
     const char *operands; // the words after the name, for --help
@@ -119,7 +119,7 @@ bool command_takes(const char *name, const Option *option);
 void command_write(const Command *command, char text[COMMAND_TEXT_SIZE]);
 
 // A rule on options that exclude each other, regardless of their values. Each of `names` excludes
-// each of `others`. If there are no `others`, any two of `names` exclude each other.
+// each of `others`. If `others` is empty, any two of `names` exclude each other.
 #define EXCLUSION_NAMES 4
 typedef struct {
     const char *names[EXCLUSION_NAMES], *others[EXCLUSION_NAMES]; // NULL: the rest is unused
@@ -139,13 +139,12 @@ void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE])
 // as the picture's format.
 bool options_check(Options *options, const Command *command, Error *error);
 
-// Setters of options of kind OPTION_ODD. set_pixel parses an operand.
+// The setters of options of kind OPTION_ODD, and set_pixel, which parses an operand.
 SetOption set_output, set_format, set_exposure, set_aov, set_hash, set_crop, set_max_level,
     set_error, set_time, set_tune, set_kernel, set_frames, set_part, set_reference,
     set_reference_samples, set_normals, set_pixel, set_fail, set_json;
 
-// The table of all options and of the keys of --tune. The parser, --help, the man page and the
-// completions iterate over it.
+// The table of all options and of the keys of --tune.
 
 #define OPTIONS_MOST 64
 
@@ -153,10 +152,10 @@ SetOption set_output, set_format, set_exposure, set_aov, set_hash, set_crop, set
 extern const Option option_table[];
 extern const size_t option_count; // at most OPTIONS_MOST
 
-// The heading of a group.
+// The headings of the groups.
 extern const char *const option_group_names[OPTION_GROUPS];
 
-// The name of a class and its meaning; both are "" for CLASS_NONE.
+// The names of the classes and their meanings, which are "" for CLASS_NONE.
 extern const char *const option_class_names[OPTION_CLASSES];
 extern const char *const option_class_meanings[OPTION_CLASSES];
 

@@ -57,12 +57,12 @@ bool frames_complete(Frames *frames, Error *error);
 // Returns the number of frames, which is 1 without --frames and --turntable.
 uint32_t frames_count(const Frames *frames);
 
-// Returns the number of the frame at index `place` of the sequence. The index counts from 0.
+// Returns the number of the frame at index `place`, which counts from 0.
 uint32_t frames_at(const Frames *frames, uint32_t place);
 
 // Returns the path of a frame's file. The number with leading zeros replaces the last run of '#'
-// after the last slash of pattern. Without such a run, the number is inserted before the ending, as
-// in ".0001.png". The caller frees the path. Returns NULL if memory is exhausted.
+// after the last slash of pattern. Without a '#', the number is inserted before the ending, as in
+// ".0001.png". The caller frees the path. Returns NULL if memory is exhausted.
 char *frames_name(const char *pattern, uint32_t number, Error *error);
 
 // --crop "X0,Y0,X1,Y1". The numbers are pixels, or fractions of the sides if any number has a dot.
@@ -72,11 +72,12 @@ typedef struct {
     double corners[4]; // left, top, right and bottom; right and bottom are exclusive
 } Crop;
 
-// Parses text; returns false if it is malformed.
+// Returns false if text is malformed.
 bool crop_parse(Crop *crop, const char *text);
 
 // Sets the crop of a picture whose size is set. Rounds fractions to the nearest pixel edge, so
-// neighboring crops neither overlap nor leave gaps.
+// neighboring crops neither overlap nor leave gaps. Fails if the crop contains no pixel or exceeds
+// the picture.
 bool crop_apply(const Crop *crop, ClrtPicture *picture, Error *error);
 
 // Returns [left, top, right, bottom] of the crop, in pixels of the whole picture.

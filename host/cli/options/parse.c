@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Command line -> Options. getopt splits the command line, option.c parses and stores the values,
-// and check.c checks their combination. For an option of another program, the message suggests
-// clrt's option.
+// Parses the command line into Options. getopt splits the command line, option.c parses and stores
+// the values, and check.c checks their combination. If clrt does not have an option, the message
+// suggests a similar one.
 #include "cli/options/options.h"
 
 #include "base/word.h"
