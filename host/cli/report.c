@@ -20,7 +20,8 @@ static uint64_t ray_count(const uint64_t *tallies)
     return tallies[TALLY_CAMERA_RAYS] + tallies[TALLY_SHADOW_RAYS] + tallies[TALLY_REFLECTED_RAYS];
 }
 
-const char *report_tree_name(const Bvh *tree, BvhBuilder builder)
+// Returns the name of the tree's builder as in --tune bvh, or "none" if there is no tree.
+static const char *tree_name(const Bvh *tree, BvhBuilder builder)
 {
     if (tree->node_count == 0)
         return "none";
@@ -45,7 +46,7 @@ static json_t *inner_nodes_json(const Bvh *tree)
 
 static json_t *tree_json(const Bvh *tree, BvhBuilder builder)
 {
-    return JSON(FIELD("builder", report_tree_name(tree, builder)), FIELD("nodes", tree->node_count),
+    return JSON(FIELD("builder", tree_name(tree, builder)), FIELD("nodes", tree->node_count),
                 FIELD("leaves", tree->leaf_count), FIELD("depth", tree->depth),
                 FIELD("inner_nodes", inner_nodes_json(tree)),
                 FIELD("largest_leaf", tree->largest_leaf));
@@ -280,8 +281,8 @@ static void add_tree(json_t *json, const Picture *picture)
         return;
     json_object_set_new(
         json, "bvh",
-        json_string(report_tree_name(&picture->form->tree,
-                                     session_builder(&picture->session->settings.wanted))));
+        json_string(
+            tree_name(&picture->form->tree, session_builder(&picture->session->settings.wanted))));
     json_object_set_new(json, "nodes",
                         json_string(kernel_nodes_name(picture->session->choice.nodes)));
 }

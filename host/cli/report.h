@@ -5,9 +5,6 @@
 #include "cli/picture_data.h"
 #include "image/provenance.h"
 
-// Returns the name of the tree's builder as in --tune bvh, or "none" if there is no tree.
-const char *report_tree_name(const Bvh *tree, BvhBuilder builder);
-
 // Prints the error against the reference, if one was drawn.
 void report_write_error(const MeasuredReference *reference, FILE *stream);
 

@@ -14,10 +14,11 @@ static float value_at(const StoredImage *image, size_t pixel, uint32_t channel)
     return image->values[pixel * image->channel_count + channel];
 }
 
-double compared_images_difference(const ComparedImages *compared, size_t pixel, int color)
+// Returns the absolute difference of one color.
+static double difference_of(const ComparedImages *compared, size_t pixel, int color)
 {
-    return (double)value_at(compared->images[1], pixel, compared->colors[1][color]) -
-           (double)value_at(compared->images[0], pixel, compared->colors[0][color]);
+    return fabs((double)value_at(compared->images[1], pixel, compared->colors[1][color]) -
+                (double)value_at(compared->images[0], pixel, compared->colors[0][color]));
 }
 
 static bool check_finite(const ComparedImages *compared, int side, Error *error)
@@ -53,7 +54,7 @@ static double add_pixel(Difference *difference, const ComparedImages *compared, 
 {
     double squares = 0, largest = 0;
     for (int color = 0; color < 3; color++) {
-        const double off = fabs(compared_images_difference(compared, pixel, color));
+        const double off = difference_of(compared, pixel, color);
         squares += off * off;
         largest = fmax(largest, off);
         if (off > difference->maximum) {
@@ -120,7 +121,7 @@ bool difference_picture_make(Framebuffer *picture, const ComparedImages *compare
     const size_t pixels = (size_t)image->width * image->height;
     for (size_t pixel = 0; pixel < pixels; pixel++)
         for (int color = 0; color < 3; color++) {
-            const double off = fabs(compared_images_difference(compared, pixel, color));
+            const double off = difference_of(compared, pixel, color);
             picture->pixels[pixel][color] = (float)(for_the_eye ? brighten(off) : off);
         }
     return true;
@@ -311,7 +312,7 @@ void causes_find(Causes *causes, const ComparedImages *compared)
     for (size_t pixel = 0; causes->known && pixel < pixels; pixel++) {
         double squares = 0, largest = 0;
         for (int color = 0; color < 3; color++) {
-            const double off = fabs(compared_images_difference(compared, pixel, color));
+            const double off = difference_of(compared, pixel, color);
             squares += off * off / (3 * (double)pixels);
             largest = fmax(largest, off);
         }

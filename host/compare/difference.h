@@ -41,9 +41,6 @@ void difference_measure(Difference *difference, const ComparedImages *compared);
 // Returns the PSNR in decibels, for a peak of 1; INFINITY for equal pictures.
 double difference_psnr(const Difference *difference);
 
-// Returns the difference of one color: the second picture's value minus the first's.
-double compared_images_difference(const ComparedImages *compared, size_t pixel, int color);
-
 // Makes a picture of the absolute differences of two pictures. With for_the_eye, each color is
 // sqrt(difference / (64/255)), at most 1. The scale does not depend on the pictures, so users can
 // compare maps.
