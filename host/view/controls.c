@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Changes the state by keys and mouse actions. status_text_help lists them for users.
+// Applies keys and mouse actions to the state. status_text_help lists these actions for users.
 #include "view/controls.h"
 
 // All these constants except the last come from the course's viewer.
@@ -15,8 +15,8 @@
 #define COURSE_FOV         45.0
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// Computes perpendicular axes, of which the last is up. If up is z, the others are the x and y
-// from which the course measures angles.
+// Computes three perpendicular axes. The last is up. If up is z, the first two are x and y, as the
+// course's angles require.
 static void make_axes(Vec3 axes[3], Vec3 up)
 {
     const Vec3 z = vec3_normalize(up);
@@ -82,7 +82,7 @@ static double limited(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// orbit_turn and orbit_zoom move the camera by a mouse drag, within the course's limits.
+// Turns the camera by a mouse drag, within the course's limits.
 static void orbit_turn(Orbit *orbit, double right, double down)
 {
     orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);
@@ -90,7 +90,8 @@ static void orbit_turn(Orbit *orbit, double right, double down)
         limited(orbit->azimuth - DEGREES_PER_PIXEL * down, -AZIMUTH_LIMIT, AZIMUTH_LIMIT);
 }
 
-// Shows the pivot as large as from this distance. An orthographic camera stays in its place.
+// Makes the pivot appear as large as in a perspective picture from this distance. An orthographic
+// camera does not move.
 static void set_shown_distance(Orbit *orbit, double distance)
 {
     const double shown = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);
@@ -103,7 +104,7 @@ static void set_shown_distance(Orbit *orbit, double distance)
     }
 }
 
-// Switches between perspective and orthographic pictures. The pivot keeps its size.
+// Switches between perspective and orthographic pictures. The pivot appears at the same size.
 static void orbit_switch_perspective(Orbit *orbit)
 {
     const double distance = shown_distance(orbit), height = distance * unit_height(orbit);

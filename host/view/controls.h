@@ -10,8 +10,8 @@ typedef struct {
     Vec3 pivot;       // the center of the orbit
     Vec3 look_at, up; // of the camera
     Vec3 axes[3];     // unit length; the last is up
-    // Degrees of the eye below the plane that is perpendicular to up; negative if the eye is above.
-    // The course uses this name.
+    // The eye's angle in degrees below the plane that contains the pivot and is perpendicular to
+    // up. It is negative if the eye is above this plane. The course uses this name.
     double azimuth;
     double rotation; // degrees around up
     double distance; // from the eye to the pivot
@@ -33,7 +33,7 @@ enum { KEY_ESCAPE = 27, KEY_LEFT = 256, KEY_RIGHT, KEY_UP, KEY_DOWN, KEY_FULL_SC
 typedef enum {
     EVENT_KEY,
     EVENT_TURN, // a drag that turns the camera
-    EVENT_ZOOM, // a drag that changes the distance
+    EVENT_ZOOM, // a drag that zooms
     EVENT_PAN,  // a drag that moves the camera sideways
     EVENT_WHEEL,
     EVENT_CLICK // a click on a pixel
@@ -47,7 +47,7 @@ typedef struct {
     double right, down;
 } Event;
 
-// Commands, as bits of a mask. An event can change the state and give commands.
+// Commands, as bits of a mask. The caller of state_apply runs them.
 enum {
     COMMAND_CAMERA = 1,
     COMMAND_SAVE = 2,

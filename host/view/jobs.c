@@ -124,8 +124,8 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     end_update(worker);
 }
 
-// Reports that a picture cannot be traced. Marks it as reached, so that the worker tries again only
-// after a different request.
+// Reports that a picture cannot be traced. Marks the picture as reached, so that the worker tries
+// again only after a different request.
 static void report_failure(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -195,7 +195,7 @@ static bool take(Worker *worker, const Job *job, Model *model, Error *error)
     return ok;
 }
 
-// Publishes the model for the window. If has_tree is false, the model's tree is not built yet.
+// Publishes the model for the window. has_tree is false while the model's tree is not built.
 static void publish(Worker *worker, Model *model, bool has_tree)
 {
     WorkerStatus *status = begin_update(worker);
@@ -207,8 +207,8 @@ static void publish(Worker *worker, Model *model, bool has_tree)
     model_release(before);
 }
 
-// Publishes the first scene before the device is open, so that the window opens early. Later scenes
-// are published after their kernels are compiled.
+// Loads a scene. Publishes the first scene before the device is open, so that the window opens
+// early. Later scenes are published after their kernels are compiled.
 void jobs_load(Worker *worker, const Job *job)
 {
     Error scene_failure = {0}, failure = {0};

@@ -7,8 +7,8 @@
 
 #define TRACE_SECONDS (PLAN_FRAME_SECONDS * 0.6)
 
-// The intended tracing time of a tile. It is short, because a stopped picture still finishes the
-// three tiles in flight.
+// The intended tracing time of a tile in seconds. It is short, because a stopped picture still
+// finishes the three tiles in flight.
 #define TILE_SECONDS  0.008
 #define TILE_LARGEST  128
 #define TILE_SMALLEST 8

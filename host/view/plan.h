@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Chooses the next pass, so that the camera moves smoothly and a resting picture becomes sharp
 // (compare Bergman, Fuchs, Grant and Spach, "Image rendering by adaptive refinement", 1986). The
-// first pass should take at most a frame's time, at a lower resolution if necessary. The next
-// passes trace all pixels, and then all samples. The last pass counts rays and tests.
+// first pass should take at most a frame's time, at a lower resolution if necessary. The next pass
+// traces all pixels with one sample, and another pass traces all samples. The last pass counts rays
+// and triangle tests.
 #pragma once
 
 #include <stdbool.h>
@@ -28,7 +29,7 @@ typedef struct {
 
 typedef enum {
     PASS_NONE,
-    PASS_MOVING, // should take at most a frame's time; runs on for a while if the camera moves
+    PASS_MOVING, // should take at most a frame's time; camera motion does not stop it at once
     PASS_FULL,   // all pixels, with one sample or with all samples
     PASS_COUNT   // the full picture again, with counters
 } PassKind;

@@ -9,16 +9,16 @@
 
 #define STATUS_TEXT_SIZE 8192
 
-// The contents of the texts.
+// The data that the texts show.
 typedef struct {
     const State *state;
-    const WorkerRequest *request; // the latest; its size is the window's, in pixels
+    const WorkerRequest *request; // the latest request, with the window's size in pixels
     const WorkerStatus *status;
     const char *scene_name;
     const char *up;     // up axis of a mesh without a scene; NULL for a scene
     uint32_t samples;   // along each side of a pixel, with anti-aliasing
     uint32_t box_count; // number of displayed boxes
-    // Empty strings if there is nothing to report.
+    // The strings below are empty if there is nothing to report.
     const char *notice;      // the names of pictures just saved
     const char *missing;     // missing objects or lights of the scene
     const char *hint;        // the key for help
@@ -31,7 +31,7 @@ typedef void StatusText(const Figures *figures, FILE *stream);
 // Writes the state as one line without a line end, for saved pictures and -v.
 StatusText status_text_state;
 
-// Writes the line at the top: messages, state and figures, the most important first.
+// Writes the line at the top: messages, state and figures, in the order of importance.
 StatusText status_text_line;
 
 // Writes the panel: failure, explanation and help.
@@ -39,10 +39,10 @@ StatusText status_text_panel;
 
 StatusText status_text_title;
 
-// Stores one of these texts. Longer texts are truncated.
+// Stores one of these texts in `size` bytes. Longer texts are truncated.
 void status_text_store(StatusText *write, const Figures *figures, char *text, size_t size);
 
-// Writes the camera in the course's terms, and as statements of a scene file.
+// Writes the course's angles and distance, and then the camera as statements of a scene file.
 void status_text_camera(const State *state, FILE *stream);
 
 // Returns the list of keys and mouse actions, one per line. Two blanks separate each key or action

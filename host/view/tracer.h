@@ -28,8 +28,8 @@ void tracer_close(ViewTracer *tracer);
 // Returns the settings of the trees that the device's kernels traverse.
 BvhSettings tracer_tree(const ViewTracer *tracer);
 
-// Switches to the model. Rays then use its tree or, if uses_bvh is false, test all triangles. On
-// failure, the tracer keeps the previous model.
+// Switches to the model and adds a reference to it. If uses_bvh is false, rays test all triangles
+// instead of using the model's tree. On failure, the tracer keeps the previous model.
 bool tracer_take(ViewTracer *tracer, Model *model, bool uses_bvh, Error *error);
 
 // Compiles the kernels again from the kernel folder. On failure, the tracer keeps the previous

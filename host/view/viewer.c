@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The loop's longest sleep in seconds. Files are checked between sleeps. A camera also counts as
-// resting if it has not moved for this time.
+// The loop's longest sleep in seconds. Files are checked between sleeps. A camera that has not
+// moved for this time counts as resting.
 #define REST_SECONDS 0.1
 
 // Returns the number of samples along each side of a pixel. Pictures of a moving camera are not
@@ -95,7 +95,7 @@ static void play_key(Viewer *viewer)
 
 // Updates everything that depends on time: removes an old hint, notices that the camera rests, and
 // advances a camera that turns automatically. In the ray-traced view, such a camera waits until the
-// picture of its current position is traced. It does not turn while a save is requested.
+// picture of its current position is traced. No camera turns while a save is requested.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();
@@ -173,7 +173,7 @@ static bool step(Viewer *viewer, Error *error)
     return viewer_recover(viewer, error);
 }
 
-// Waits for the first scene, because it determines the window's size.
+// Waits for the first scene, which determines the window's size.
 static bool await_scene(Viewer *viewer)
 {
     do {
@@ -217,8 +217,8 @@ static ViewerEnd show(Viewer *viewer, Error *error)
     return VIEWER_CLOSED;
 }
 
-// Stops tracing and frees the viewer. If the driver does not return in time, it may still use the
-// viewer. The viewer is then not freed, and the process ends.
+// Stops the worker and frees the viewer. If the worker does not stop in time, it may still use the
+// viewer. The viewer is then not freed, and the process must end.
 static void close_viewer(Viewer *viewer)
 {
     if (viewer->window.handle != NULL)
@@ -260,8 +260,7 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
     canvas_open(&viewer->canvas, settings->encoding);
     const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, glfwPostEmptyEvent};
     ViewerEnd end = VIEWER_NO_DEVICE;
-    // Starts to watch the files before they are first read, so that changes during the read are
-    // detected.
+    // Watches the files before they are first read, so that changes during the read are detected.
     const char *kernels = settings->tracer.session.kernel_folder;
     if (viewer_watch_files(viewer, error) &&
         watch_set(&viewer->kernel_files, &kernels, kernels != NULL, error))

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene file -> a window that shows it, drawn by OpenGL or ray traced, until the user closes the
-// window.
+// Shows a scene file in a window, drawn by OpenGL or ray traced.
 #pragma once
 
 #include "image/image_file.h"
@@ -12,7 +11,7 @@ typedef struct {
     uint32_t view;          // number of the viewpoint, from 1
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // along each side of a pixel, with anti-aliasing
-    bool smooth, uses_bvh;  // initial values; smooth: anti-aliases a resting picture
+    bool smooth, uses_bvh;  // initial values; smooth: resting pictures are anti-aliased
     Encoding encoding;
     int exposure; // initial, in half stops
     TracerOptions tracer;

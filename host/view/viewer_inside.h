@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The viewer's data, which its source files share. viewer.c runs the loop. viewer_follow.c handles
-// the worker's results and changed files. viewer_show.c draws, prints and saves.
+// The data that the viewer's files share. viewer.c runs the loop. viewer_follow.c handles the
+// worker's results and changed files. viewer_show.c draws, prints and saves.
 #pragma once
 
 #include "base/array.h"
@@ -17,11 +17,11 @@
 // The times between displayed frames while the camera turns automatically.
 typedef struct {
     ARRAY(double) seconds; // from each frame to the next
-    double latest; // clock time of the latest frame; 0 without one or if the camera has stopped
+    double latest; // clock time of the latest frame; 0 at first and after the camera has stopped
 } FrameTimes;
 
-// Prints the statistics. frames is the number of complete pictures of PASS_MOVING. coarse is how
-// many of these pictures have fewer pixels than the window.
+// Prints the statistics. frames is the number of complete pictures of PASS_MOVING. coarse is the
+// number of these pictures with fewer pixels than the window.
 void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream);
 void frame_times_free(FrameTimes *times);
 
@@ -29,8 +29,8 @@ void frame_times_free(FrameTimes *times);
 #define STATE_SIZE  1024
 
 typedef struct {
-    // A copy, because the worker may outlive viewer_run. keys and quit_after shrink as keys are
-    // played and frames are shown.
+    // The viewer has a copy, because the worker may outlive viewer_run. `keys` points to the next
+    // key to play, and `quit_after` counts the frames that remain to be shown.
     ViewerSettings settings;
     Window window;
     Views views;
@@ -41,7 +41,7 @@ typedef struct {
     Model *model; // holds a reference; NULL until the first scene is read
     StateScene scene;
     State state;
-    ARRAY(char *) dropped; // paths; owned, because the worker may still read any of these files
+    ARRAY(char *) dropped; // owned paths of dropped files; the worker may still read these
     Watch scene_files, kernel_files;
     double polled;            // time of the latest check of these files
     bool is_failure_followed; // the scene's folder is watched too, because a read failed
@@ -59,14 +59,14 @@ typedef struct {
     bool is_dirty, quits;
 } Viewer;
 
-// Processes the worker's status. Returns false after a failure of the window or of memory.
+// Processes the worker's status. Returns false if the window fails or memory runs out.
 bool viewer_follow_worker(Viewer *viewer, Error *error);
 
 // Switches to the worker's latest model.
 bool viewer_adopt_model(Viewer *viewer, Error *error);
 
-// Watches the scene's path and, with a model, the model's files. If the latest read failed, also
-// watches the path's folder, because a file may be missing.
+// Watches the scene's path and, if there is a model, the model's files. If the latest read failed,
+// also watches the path's folder, because a file may be missing.
 bool viewer_watch_files(Viewer *viewer, Error *error);
 
 // Switches to a file that was dropped on the window, if any.

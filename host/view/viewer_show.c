@@ -16,7 +16,7 @@
 
 #define NAME_SIZE 512
 
-// The strings of saved files.
+// The strings for saving.
 typedef struct {
     const char *scene_path; // determines the files' names
     const char *state;      // stored in both files
@@ -30,7 +30,7 @@ static bool is_free(const char *stem, const char *ending)
     return access(path, F_OK) != 0;
 }
 
-// Stores the name of the saved files without extension: the scene file's name and a number.
+// Stores the saved files' name without extension: the scene file's name and a number.
 static void write_stem(char stem[NAME_SIZE], const char *scene_path, const char *float_ending)
 {
     const char *slash = strrchr(scene_path, '/');
@@ -205,8 +205,8 @@ static void print_news(Viewer *viewer, const Figures *figures)
         fprintf(stderr, "clrt: %s\n", text);
 }
 
-// Returns false if the camera turns and the traced picture is still the previous one. Such frames
-// are neither timed nor counted.
+// Returns false if the camera turns and the traced picture is the same as in the previous frame.
+// Such frames are neither timed nor counted.
 static bool is_new_frame(const Viewer *viewer)
 {
     return !viewer->state.turning || !viewer->state.traced ||
@@ -244,8 +244,9 @@ bool viewer_draw(Viewer *viewer, Error *error)
     return true;
 }
 
-// Saves the displayed picture and the traced picture, which is read under the canvas's lock. In the
-// OpenGL view, or if there is no traced picture, the displayed picture is saved twice.
+// Saves the displayed picture and the traced picture. Holds the canvas's lock while reading the
+// traced picture. In the OpenGL view, or if there is no traced picture, saves the displayed picture
+// twice.
 static bool save(Viewer *viewer, const Framebuffer *shown)
 {
     char state[STATE_SIZE];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws a frame by OpenGL. In the ray-traced view too, surfaces must hide the lines behind them. If
-// there are lines, OpenGL therefore first draws the scene. The traced picture then replaces the
+// Draws a frame by OpenGL. Surfaces hide the lines behind them, also in the ray-traced view. If
+// there are lines, OpenGL therefore draws the scene first. The traced picture then replaces the
 // colors, but not the depth.
 #include "view/views.h"
 

@@ -33,8 +33,8 @@ static uint64_t signature_of_folder(const char *folder)
     return signature;
 }
 
-// Returns the signature of a file or folder. A missing file has a signature too, so its creation is
-// a change.
+// Returns the signature of a file or folder. A missing file has a signature too, so creating the
+// file counts as a change.
 static uint64_t signature_of_path(const char *path)
 {
     struct stat status;

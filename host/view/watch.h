@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Detects changed files by polling. Unlike notifications of the system, polling also works with
-// editors that replace files and on network file systems.
+// Detects changed files by polling. Unlike inotify, polling also works on network file systems and
+// with editors that replace files.
 #pragma once
 
 #include "base/array.h"
@@ -9,7 +9,7 @@
 
 typedef struct {
     char *path;        // path of a file, or of a folder whose files are watched; owned
-    uint64_t accepted; // the signature (watch.c) at the latest reported change, or initially
+    uint64_t accepted; // signature (see watch.c) at the latest reported change, or at first
     uint64_t seen;     // the latest signature
 } Watched;
 
@@ -22,8 +22,8 @@ typedef struct {
 // so no change is lost.
 bool watch_set(Watch *watch, const char *const *paths, size_t count, Error *error);
 
-// Checks the files. Returns true if they have changed and then stayed the same between two checks,
-// so that no half-written file is read.
+// Checks the files. Reports a change only after two checks with equal signatures, so that no
+// half-written file is read.
 bool watch_poll(Watch *watch);
 
 void watch_free(Watch *watch);

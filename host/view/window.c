@@ -78,7 +78,7 @@ static void take_key(GLFWwindow *handle, int key, int code, int action, int modi
         add_event(handle, (Event){.kind = EVENT_KEY, .key = found});
 }
 
-// Stores the effect of a drag. As in F3D, the left button turns, the middle button pans, Shift with
+// Stores the kind of a drag. As in F3D, the left button turns, the middle button pans, Shift with
 // the left button pans, and the right button zooms. As in Blender, Ctrl with the middle button
 // zooms. Shift and Ctrl must be pressed at the start of the drag. Returns false if no button is
 // pressed.
@@ -97,7 +97,7 @@ static bool find_drag(GLFWwindow *handle, EventKind *kind)
     return left || middle || right;
 }
 
-// Adds a click at the pointer, in pixels.
+// Adds the event of a click, at the pointer's pixel.
 static void add_click(GLFWwindow *handle)
 {
     const Window *window = glfwGetWindowUserPointer(handle);

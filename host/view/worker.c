@@ -17,7 +17,8 @@ static Pass next_pass(const Worker *worker)
     return plan_pass(&plan, &worker->status.reached);
 }
 
-// Returns the kind of the next job. JOB_PASS may have nothing to trace.
+// Returns the kind of the next job. If the kind is JOB_PASS and the pass is PASS_NONE, there is
+// nothing to do.
 static JobKind next_kind(const Worker *worker, const Pass *pass)
 {
     const WorkerRequest *request = &worker->request, *done = &worker->status.done;
@@ -29,7 +30,7 @@ static JobKind next_kind(const Worker *worker, const Pass *pass)
         return JOB_TAKE;
     if (request->explains != done->explains)
         return JOB_EXPLAIN;
-    // If the gain has changed, encodes the latest picture again before any pass but PASS_MOVING.
+    // After a change of gain, only PASS_MOVING may run before the latest picture is encoded again.
     return request->is_traced && request->gain != done->gain && pass->kind != PASS_MOVING
                ? JOB_ENCODE
                : JOB_PASS;

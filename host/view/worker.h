@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A thread that reads scenes and traces pictures, so that the window need not wait. The window
+// A worker thread reads scenes and traces pictures, so that the window need not wait. The window
 // posts requests and polls the status. Besides these, the two threads share only the canvas and
 // published models.
 //
 // A request is not a queue of commands. It describes the whole picture that the window needs now.
 // The worker compares the request with its finished work, and chooses the next job from the
 // difference. A later request replaces an earlier one, so the worker does not lag behind a fast
-// mouse. After each finished tile, the worker compares again, and stops a pass that is no longer
-// needed.
+// mouse. After each finished tile, the worker checks the request again, and stops a pass that is no
+// longer needed.
 //
 // Some work leaves no difference to compare, for example reading a changed file again. The request
 // counts such work in members like `loads`, and the status has the same members for finished work.
@@ -56,16 +56,16 @@ typedef struct {
     uint64_t moving_frames;             // number of complete pictures of PASS_MOVING
     uint64_t moving_coarse;             // number of moving_frames at reduced resolution
     uint64_t tallies[TALLY_KINDS];      // valid if reached.is_counted
-    char explanation[EXPLANATION_SIZE]; // of the latest pixel, or why there is none
+    char explanation[EXPLANATION_SIZE]; // of the latest pixel, or an error message
 } WorkerStatus;
 
 typedef struct Worker Worker;
 
-// The inputs of a worker. They must outlive the worker.
+// The inputs of a worker. The options and the canvas must outlive the worker.
 typedef struct {
     const TracerOptions *options;
     Canvas *canvas;
-    void (*wake)(void); // the worker calls it after every status update
+    void (*wake)(void); // called by the worker after every status update
 } WorkerSetup;
 
 // Starts the worker with a first request. Returns NULL on failure.
@@ -74,10 +74,10 @@ Worker *worker_start(const WorkerSetup *setup, const WorkerRequest *request, Err
 void worker_request(Worker *worker, const WorkerRequest *request);
 void worker_poll(Worker *worker, WorkerStatus *status);
 
-// Returns a reference to the latest model, which the caller releases, or NULL.
+// Returns the latest model with a reference that the caller releases. Returns NULL without a model.
 Model *worker_model(Worker *worker);
 
-// Returns whether the request is finished, except perhaps for PASS_COUNT.
+// Returns whether the request is finished. PASS_COUNT may still be missing.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
 // Stops and frees the worker. If the worker does not stop within this many seconds, worker_stop

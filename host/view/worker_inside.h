@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The worker's data, which its source files share. worker.c chooses jobs, and jobs.c runs them.
+// The data that worker.c and jobs.c share. worker.c chooses jobs, and jobs.c runs them.
 #pragma once
 
 #include "view/worker.h"
@@ -28,7 +28,7 @@ typedef struct {
     Pass pass;
 } Job;
 
-// Run the jobs. The first load also opens the device.
+// Each function runs one kind of job. The first load also opens the device.
 void jobs_load(Worker *worker, const Job *job);
 void jobs_take(Worker *worker, const Job *job);
 void jobs_explain(Worker *worker, const Job *job);

@@ -12,7 +12,7 @@
 #include <pthread.h>
 
 typedef struct {
-    Framebuffer framebuffer; // only for the tracing thread until the layer is complete
+    Framebuffer framebuffer; // used only by the tracing thread until the layer is complete
     unsigned char *bytes;    // 8-bit colors for the window, three bytes per pixel, top row first
     uint64_t pass;           // version of the bytes, from Canvas::passes; 0: empty
     RenderSettings settings; // size and tiles of this pass
@@ -48,7 +48,8 @@ void canvas_end(Canvas *canvas, Layer *layer, bool is_whole);
 // be in progress.
 void canvas_encode_again(Canvas *canvas, double gain);
 
-// Return the latest complete picture, and the picture in progress that is displayed over it, or
-// NULL. The caller holds the lock.
+// canvas_whole returns the latest complete picture. canvas_unfinished returns the picture in
+// progress, unless it is hidden. Both return NULL if there is no such picture. The caller holds the
+// lock.
 Layer *canvas_whole(Canvas *canvas);
 Layer *canvas_unfinished(Canvas *canvas);

@@ -9,7 +9,7 @@
 
 // The following functions draw triangles. Triangles share vertices as in the meshes, and each
 // object takes one draw call. If any mesh has colors, the colors of all vertices follow the
-// vertices in buffer 0. A mesh without colors sets one color for all its vertices.
+// vertices in buffer 0. A mesh without colors is drawn in its material's color.
 
 typedef struct {
     float position[3];
@@ -86,7 +86,7 @@ bool triangle_view_load(const Drawing *view, const Model *model, Error *error)
     return true;
 }
 
-// Sets the material of an object. The colors of vertices replace the checker.
+// Sets the material of an object. An object with vertex colors has no checker.
 static void set_material(GLuint program, const Model *model, const MeshObject *object)
 {
     static const char *const names[MATERIAL_VECTORS] = {"diffuse", "specular", "look",
@@ -123,9 +123,9 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
     glBindVertexArray(0);
 }
 
-// The following functions draw spheres. For every frame, the position of each sphere relative to
-// the eye is computed in fp64. Float would lose the eye's height above a ground sphere of radius
-// 1e9.
+// The following functions draw spheres. For every frame, each sphere's position relative to the eye
+// is computed in fp64. In fp32, rounding would lose the eye's height above a ground sphere of
+// radius 1e9.
 
 // Floats per sphere: center, radius, and the material's vectors. The material's unused float, at
 // HEIGHT_PLACE, holds the eye's height above the sphere.
@@ -239,7 +239,8 @@ typedef struct {
     Error *error;
 } Collection;
 
-// Adds the subtree's boxes at collection->depth. The depth of the tree bounds the recursion.
+// Adds the boxes of a subtree at collection->depth. The subtree's root is the node with this number
+// and depth. The depth of the tree bounds the recursion.
 static bool collect(const Collection *collection, uint32_t number, uint32_t depth)
 {
     const BvhNode *node = &collection->bvh->nodes[number];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model's triangles, spheres and normals, and the boxes of its tree, drawn by OpenGL.
+// Draws a model's triangles, spheres and normals, and the boxes of its tree, by OpenGL.
 #pragma once
 
 #include "base/array.h"
@@ -15,10 +15,10 @@ bool triangle_view_load(const Drawing *view, const Model *model, Error *error);
 void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens,
                         const Tone *tone);
 
-// Draws spheres that are exact in every pixel.
+// Draws spheres by a ray in each pixel, so their outlines are exact.
 typedef struct {
     Drawing drawing;
-    ARRAY(float) numbers; // of all spheres, in OpenGL's layout
+    ARRAY(float) numbers; // the attributes of all spheres
 } SphereView;
 
 bool sphere_view_open(SphereView *view, Error *error);
@@ -36,7 +36,8 @@ typedef struct {
     uint32_t count; // of loaded boxes
 } LineView;
 
-// With is_diagonal, the view draws lines from `low` to `high`. Either may be larger.
+// If is_diagonal, the view draws a line from each box's `low` to its `high`. `low` may then exceed
+// `high`.
 bool line_view_open(LineView *view, bool is_diagonal, Error *error);
 
 void line_view_load(LineView *view, const Box *boxes, size_t count);
@@ -45,11 +46,12 @@ void line_view_draw(const LineView *view, const Lens *lens, const float color[3]
 // The boxes that a LineView draws: boxes at one depth of a Bvh, or normals as diagonals of boxes.
 typedef ARRAY(Box) Boxes;
 
-// Returns the depth of the deepest inner nodes; 0 without any.
+// Returns the depth of the deepest inner nodes, or 0 without inner nodes.
 uint32_t boxes_deepest(const Bvh *bvh);
 
-// Fills an empty array with the boxes of the inner nodes at a depth, where the root has depth 1. If
-// depth is 0, the boxes are those of the leaves. The caller frees them, also after a failure.
+// Fills an empty array with the boxes of the inner nodes at this depth. The root has depth 1. If
+// depth is 0, fills the array with the boxes of all leaves. The caller frees the array, also after
+// a failure.
 bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t depth, Error *error);
 void boxes_free(Boxes *boxes);
 

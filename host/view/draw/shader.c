@@ -121,7 +121,7 @@ static void fill_cube(const Drawing *drawing, const unsigned char *corners, int 
 
 void cube_fill_faces(const Drawing *drawing)
 {
-    // The corners are counter-clockwise, seen from outside.
+    // The corners of each triangle are counter-clockwise, seen from outside.
     static const unsigned char corners[CUBE_FACE_VERTICES] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
                                                               0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3,
                                                               0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
@@ -136,18 +136,18 @@ void cube_fill_edges(const Drawing *drawing)
 }
 
 // The following functions convert a camera. Its step is half a pixel, so half the picture's width
-// has as many steps as the width has pixels.
+// is `width` steps.
 
-// The smallest distance with a depth above 0, in normalized coordinates, where the triangles' box
-// is 1 to 2 long. Nearer points all have depth 0, so the one drawn last is visible.
+// Points up to this distance have depth 0, so the point drawn last is visible. The distance is in
+// normalized coordinates, in which the longest side of the triangles' box is 1 to 2.
 #define NEAREST 0.01f
 
 // Orthographic pictures have distinct depths up to this distance beyond the origin of normalized
 // coordinates. All triangles are nearer to this origin.
 #define BEYOND 2
 
-// Stores a vector in the direction of step. Its dot product with points on the edge of the picture
-// at distance 1 is 1.
+// Stores a vector parallel to step. At distance 1, its dot product with points on one edge of the
+// picture is 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = vec3_of_floats(step);

@@ -13,8 +13,8 @@
 extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_picture[],
     shader_text[];
 
-// An attribute of a shader. Buffer 0 contains attributes per vertex, and buffer 1 attributes per
-// instance.
+// An attribute of a shader. Buffer 0 contains attributes per vertex. Buffer 1 contains attributes
+// per instance or, for meshes, the corners of triangles.
 typedef struct {
     const char *name;
     int buffer;
@@ -51,9 +51,9 @@ void shader_set_number(GLuint program, const char *name, double value);
 void shader_set_integer(GLuint program, const char *name, int value);
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
 
-// Cubes: coordinates are -1 or 1 for faces, and 0 or 1 for edges.
+// Vertices of a cube. Their coordinates are -1 or 1 for faces, and 0 or 1 for edges.
 #define CUBE_FACE_VERTICES 36
-#define CUBE_EDGE_VERTICES 24 // after them, the buffer has the two vertices of a diagonal
+#define CUBE_EDGE_VERTICES 24 // followed by two vertices of a diagonal
 
 // Fill buffer 0 with triangles or lines, three floats per vertex.
 void cube_fill_faces(const Drawing *drawing);
@@ -72,13 +72,13 @@ typedef struct {
     bool is_srgb;
 } Tone;
 
-// Sets the uniforms that objects share: lights, background, tone. program must be the current one.
+// Sets the uniforms that objects share: lights, background, tone. program must be current.
 void light_apply(const Scene *scene, const Normalization *normalization, const Tone *tone,
                  GLuint program);
 
-// Packs a material into six vectors: diffuse and kd; specular and ks; shader, 0, shininess and
-// reflectivity; the color of even cubes and check_rate; the color of odd cubes and 0; check_shift
-// and 0.
+// Packs a material into six vectors of four numbers: diffuse and kd; specular and ks; shader, 0,
+// shininess and reflectivity; the color of even cubes and check_rate; the color of odd cubes and 0;
+// check_shift and 0.
 #define MATERIAL_VECTORS 6
 void light_store_material(float vectors[MATERIAL_VECTORS][4], const Material *material,
                           const Normalization *normalization);

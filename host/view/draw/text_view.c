@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Draws text by a texture of characters, which stb_truetype makes from an installed font. The
-// layout is repeated with smaller fonts until the text fits the window or is below SMALLEST.
+// layout is repeated with smaller fonts until the text fits the window or the font is below
+// SMALLEST.
 #define STB_TRUETYPE_IMPLEMENTATION
 #include "view/draw/text_view.h"
 
@@ -19,8 +20,8 @@
 #define TEXTURE_SIDE 14   // a texture of this width and height holds all characters
 #define FOLDER       "/usr/share/fonts/truetype/"
 
-// The fonts that are tried. Fixed paths avoid a dependency on fontconfig. tools/setup installs the
-// first font.
+// The fonts in the order in which they are tried. Fixed paths avoid a dependency on fontconfig.
+// tools/setup installs the first font.
 static const char *const font_paths[] = {
     FOLDER "dejavu/DejaVuSans.ttf", FOLDER "liberation/LiberationSans-Regular.ttf",
     FOLDER "noto/NotoSans-Regular.ttf", FOLDER "freefont/FreeSans.ttf"};
@@ -75,7 +76,7 @@ static void set_size(Font *font, float size)
     font->size = size;
 }
 
-// Returns a character's number in the font. Unknown characters look like a question mark.
+// Returns a character's number in the font. A question mark replaces unknown characters.
 static int number_of(char character)
 {
     return (character >= ' ' && character <= '~' ? character : '?') - ' ';
@@ -154,7 +155,7 @@ static void put_characters(Pen *pen, const char *text, size_t length)
     pen->widest = fmaxf(pen->widest, pen->x);
 }
 
-// Adds the words up to end. A word that does not fit starts a new line below the first word.
+// Adds the words up to `end`. A word that does not fit starts a new line below the first word.
 static void put_words(Pen *pen, const char *text, const char *end)
 {
     const float left = pen->x;
@@ -172,14 +173,15 @@ static void put_words(Pen *pen, const char *text, const char *end)
     }
 }
 
-// Returns the end of the line's first column: two blanks, or the end of the line.
+// Returns the end of the line's first column, which is before two blanks or at the end of the line.
 static const char *column_end(const char *line)
 {
     const char *end = line + strcspn(line, "\n"), *gap = strstr(line + strspn(line, " "), "  ");
     return gap != NULL && gap < end ? gap : end;
 }
 
-// Returns the width of the first column with its gap, at size 1.
+// Returns the width of the first column and the gap after it, at font size 1. Returns 0 if there is
+// only one column.
 static float column_width(const Font *font, const char *text)
 {
     float widest = 0;
@@ -246,8 +248,8 @@ static float draw_text(TextView *view, const char *text, const TextOverlay *over
     return pen.y;
 }
 
-// Shortens the text until it fits this width at size 1. Repeatedly removes the phrase after the
-// last comma and, if no comma is left, single characters.
+// Shortens the text until it fits this width at font size 1. Repeatedly removes the last comma and
+// the phrase after it. If no comma is left, removes single characters.
 static void shorten(const Font *font, char *text, float width)
 {
     static const char dots[] = "...";

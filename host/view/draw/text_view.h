@@ -31,14 +31,13 @@ typedef struct {
 
 // The texts of a frame. The view shortens the line.
 typedef struct {
-    char *line;             // loses phrases after commas until it fits the window
+    char *line;             // shortened at commas until it fits the window
     const char *panel;      // made smaller to fit the window; two blanks start a second column
     uint32_t width, height; // of the window in pixels
     float density;          // pixels per 1/96 inch
 } TextOverlay;
 
-// Opens the view. A missing font is no failure: no_font receives a message, and the view draws
-// nothing.
+// Opens the view. If no font is found, the view draws nothing and no_font receives a message.
 bool text_view_open(TextView *view, Error *no_font, Error *error);
 void text_view_close(TextView *view);
 

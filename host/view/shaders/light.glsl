@@ -20,7 +20,7 @@ struct Surface {
     vec4 look;     // shader, unused, shininess, reflectivity
     vec4 even;     // color of even cubes, and cubes per unit; 0 for no checker
     vec4 odd;      // color of odd cubes
-    vec4 shift;    // of the cubes along each axis
+    vec4 shift;    // offset of the cubes along each axis
 };
 
 vec3 encoded(vec3 color)

@@ -27,10 +27,9 @@ flat in vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
 flat in vec4 even_shown, odd_shown, shift_shown;
 out vec4 color;
 
-// Returns the distance to the nearest hit in front of a ray's start. Without such a hit, the
-// distance is negative. The start is relative to the eye. The root of smaller magnitude is computed
-// from the other root and the eye's height above the sphere. This avoids cancellation for large
-// spheres.
+// Returns the distance to the nearest hit in front of the ray's start, or a negative number without
+// a hit. The start is relative to the eye. The root of smaller magnitude is computed from the other
+// root and the eye's height above the sphere. This avoids cancellation for large spheres.
 float meeting(vec3 start, vec3 direction)
 {
     vec3 center = sphere_shown.xyz - start;
