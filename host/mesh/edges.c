@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A hash table with open addressing finds the lowest vertex at each position. Sides are first put
-// into one bucket per lower point by a counting sort. Each bucket, of about six sides, is then
-// sorted. Fans are joined by union-find.
+// A hash table with open addressing finds the lowest vertex at each position. A counting sort puts
+// the sides into one bucket per lower point. Each bucket is then sorted. A bucket has about six
+// sides. Fans are joined by union-find.
 #include "mesh/edges.h"
 
 #include "base/array.h"
@@ -239,7 +239,7 @@ void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t oth
     fans->parents[a > b ? a : b] = a > b ? b : a;
 }
 
-// A corner's parent is a lower corner, so the loop has numbered it before.
+// Parents are lower than their children, so the loop numbers the parents first.
 uint32_t fans_number(Fans *fans)
 {
     uint32_t count = 0, *parents = fans->parents;

@@ -17,7 +17,7 @@
 #define WELD_UNUSED UINT32_MAX
 
 typedef struct {
-    uint32_t *points;      // by vertex: the lowest used vertex at its position
+    uint32_t *points;      // by vertex: the lowest used vertex at its position, or WELD_UNUSED
     size_t unused_count;   // vertices that no triangle uses
     size_t repeated_count; // used vertices at the position of a lower used vertex
 } Weld;
@@ -33,8 +33,9 @@ typedef struct {
     uint32_t falling : 1; // the triangle's corners go from the higher point to the lower one
 } EdgeSide;
 
-// Sides [first[point], first[point + 1]) belong to edges from `point` to higher points. They are
-// sorted by higher point, opposite point and triangle, so the sides of one edge are consecutive.
+// Sides [first[point], first[point + 1]) belong to the edges from `point` to higher points. These
+// sides are sorted by higher point, opposite point and triangle, so the sides of one edge are
+// consecutive.
 typedef struct {
     EdgeSide *sides; // three per triangle
     size_t side_count;
@@ -56,8 +57,8 @@ typedef struct {
 // edge.
 bool edges_next(const Edges *edges, Edge *edge);
 
-// Fans. Each is a set of corners at one point, which the caller joins across edges. A corner is a
-// number: 3 * triangle + 0, 1 or 2.
+// The fans of a mesh. Each fan is a set of corners at one point. The caller joins fans across
+// edges. The corners of a triangle have the numbers 3 * triangle + 0, 1 and 2.
 typedef struct {
     const Mesh *mesh;
     const Weld *weld;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads the records one after another. For each kind of record, one function checks the data and
-// adds them to the model. The first invalid record ends the parse, and the model is freed.
+// adds them to the model. The parser stops at the first invalid record and frees the model.
 #include "mesh/foreign_stream.h"
 
 #include "base/limits.h"
@@ -89,7 +89,7 @@ static float within(float value, float most)
     return !(value > 0) ? 0 : value > most ? most : value;
 }
 
-// Replaces characters that are not printable ASCII or have a meaning in scene text.
+// Replaces unprintable characters and characters with a meaning in scene text.
 static void make_word(char *name)
 {
     foreign_make_printable(name, strlen(name), '_');

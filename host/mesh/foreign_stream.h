@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The records that clrt-foreign sends for a model -> ForeignModel. The parser validates everything,
-// because a hostile file may have taken over Assimp.
+// because a hostile file may control clrt-foreign.
 #pragma once
 
 #include "base/array.h"
@@ -37,8 +37,8 @@ typedef struct {
 // matter. Only the extension counts, because most of Assimp's formats have no magic bytes.
 bool foreign_format_is(const char *path);
 
-// Fills model from a stream. name is the model file's name for messages, and parse reads the parts.
-// Returns false if the stream is damaged or reports a failure.
+// Fills model from a stream. name is the model file's name for messages, and parse reads the
+// meshes. Returns false if the stream is damaged or reports a failure, or if memory runs out.
 bool foreign_stream_parse(ForeignModel *model, const File *stream, const char *name,
                           PlyParse *parse, Error *error);
 void foreign_model_free(ForeignModel *model);

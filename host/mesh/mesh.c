@@ -95,7 +95,7 @@ bool mesh_drop_triangles(Mesh *mesh, Error *error)
 }
 
 // dropped[i] - i triangles remain before the i-th dropped triangle. This number never falls as i
-// grows, so a binary search finds the number of dropped triangles before a remaining one.
+// grows, so a binary search finds how many triangles were dropped before a remaining triangle.
 size_t mesh_original_number(const Mesh *mesh, size_t triangle)
 {
     size_t low = 0, high = mesh->dropped.count;

@@ -32,13 +32,13 @@ typedef struct {
     ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
     MeshFault equal_corners; // removed triangles with two equal corners
     MeshFault lost_corners;  // removed triangles with a bad position
-    // Vertices with bad positions, and vertices with bad components of the normal. Bad positions
-    // and bad components became zero. Only tolerant readers accept such vertices.
+    // Vertices with a bad position, and vertices with a bad component of the normal. Such positions
+    // and components are replaced by zero. Only tolerant readers accept these vertices.
     MeshFault bad_positions, bad_normals;
 } Mesh;
 
-// Allocates the arrays of mesh->vertex_count vertices, without values. Fails if memory runs out;
-// the mesh must then be freed.
+// Allocates arrays for mesh->vertex_count vertices, without values. Fails if memory runs out. The
+// caller must then free the mesh.
 bool mesh_allocate_vertices(Mesh *mesh, bool has_normals, bool has_colors, Error *error);
 
 // Extends the box to contain all vertices that triangles use.
@@ -47,8 +47,8 @@ void mesh_add_bounds(const Mesh *mesh, BoundingBox *box);
 // Returns the box of all vertices that triangles use.
 BoundingBox mesh_bounds(const Mesh *mesh);
 
-// Returns the direction from a vertex to another. It has length 1, or is zero if the vertices
-// coincide.
+// Returns the direction from one vertex to another. The direction has length 1, or is zero if the
+// vertices coincide.
 Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to);
 
 // Removes triangles with two equal corners or a NaN position, and lists them in mesh->dropped. Then

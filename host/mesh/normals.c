@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The following functions choose the crease angle of a mesh. The faces of a smooth shape usually
-// meet at small angles, and larger angles are rarer. Technical shapes have chamfers and edges, so
-// some larger angles are frequent.
+// The following functions choose the crease angle of a mesh. The normals of adjacent faces of a
+// smooth shape usually differ by small angles. Technical shapes have chamfers and edges, so some
+// larger angles are frequent.
 
 // Meshes with fewer edges are too small for statistics.
 #define EDGES_LEAST 1000
@@ -60,7 +60,7 @@ bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error)
     return ok;
 }
 
-// Returns the number of edges per degree from one angle to another. The angles are multiples of
+// Returns the number of edges per degree between two angles. The angles are multiples of
 // ANGLE_WINDOW_DEGREES.
 static double density(const EdgeAngles *angles, int from, int to)
 {
@@ -81,15 +81,15 @@ double crease_of_angles(const EdgeAngles *angles)
     return is_round ? ROUND_CREASE_DEGREES : CREASE_DEGREES;
 }
 
-// Edges with more faces are sharp. This limits the number of pairs of faces at an edge.
+// Edges with more faces are sharp. This limit bounds the number of pairs of faces at an edge.
 #define EDGE_FACES_MOST 8
 
 // Rounding must not separate coplanar faces if the crease angle is 0 degrees, or opposite faces if
 // it is 180 degrees.
 #define COSINE_SLACK 0x1p-40
 
-// The sum of the sines of a sliver's angles is about this or less. Rounded coordinates can turn the
-// normal of a sliver by any angle.
+// A triangle is a sliver if the sum of the sines of its angles is below about this limit. Rounded
+// coordinates can turn the normal of a sliver by any angle.
 #define SINE_LEAST 0x1p-20
 
 // Sums of normals shorter than this count as zero, because they are rounding errors of normals that

@@ -5,8 +5,8 @@
 // A file may list its faces before its vertices. Triangles with equal corners are therefore dropped
 // in a last step.
 //
-// Invariant: no count of the file is used before it is checked against the file's size, and no
-// index before it is checked against the vertex count.
+// Invariant: each count is checked against the file's size before it is used. Each vertex index is
+// checked against the vertex count.
 #include "mesh/ply.h"
 
 #include "mesh/ply_header.h"
@@ -28,8 +28,8 @@ static void count_once(MeshFault *fault, size_t *last, size_t vertex)
     *last = vertex;
 }
 
-// Returns value, or a replacement if it is bad. NaN replaces bad coordinates, until the triangles
-// of such vertices are dropped.
+// Returns value, or a replacement if value is bad. NaN replaces bad coordinates until
+// mesh_drop_triangles sets them to zero.
 static double replace_bad_value(Loader *loader, PlyRole role, double value)
 {
     const size_t vertex = (size_t)loader->reader.index;
@@ -194,7 +194,7 @@ static bool allocate_vertices(Loader *loader)
                                   loader->reader.error);
 }
 
-// Returns the size in bytes of an element with empty lists, the smallest possible size.
+// Returns the smallest size of an element in bytes. All lists of the smallest element are empty.
 static size_t smallest_size(const PlyReader *reader, PlyProperties properties)
 {
     size_t size = 0;
@@ -237,7 +237,7 @@ static bool read_elements(Loader *loader)
     return true;
 }
 
-// Fails if the file has no triangles, but has elements that are not read.
+// Fails if the file has no triangles but has elements that the parser skips.
 static bool check_elements(const Loader *loader)
 {
     PlyReader reader = loader->reader;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a PLY file into a Mesh: ascii, or binary of either byte order. Format: Greg Turk, "The PLY
+// Reads a PLY file, ASCII or binary of either byte order, into a Mesh. Format: Greg Turk, "The PLY
 // Polygon File Format", Stanford 1994.
 #pragma once
 
@@ -10,10 +10,11 @@
 
 // Fills mesh from the `size` bytes of a PLY file. Messages call the file `name`.
 //
-// The parser reads x y z nx ny nz red green blue of the element vertex, and the list vertex_indices
-// (or vertex_index) of the elements face and tristrips. It skips all other elements and properties.
-// Colors are uchar, ushort, float or double, and are clamped. Polygons become fans of triangles.
-// Triangles with two equal corners are dropped and counted.
+// The parser reads the properties x y z nx ny nz red green blue of the element vertex. It also
+// reads the list vertex_indices (or vertex_index) of the elements face and tristrips. It skips all
+// other elements and properties. Colors are uchar, ushort, float or double, and the parser clamps
+// them. Polygons become fans of triangles. Triangles with two equal corners are dropped and
+// counted.
 //
 // Returns false if data are truncated, inconsistent, not finite or out of range. Also returns false
 // if a file without triangles has elements that the parser skips. The message gives the line or, in

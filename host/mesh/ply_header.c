@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WORD_LIMIT 6 // the longest statement has one word less
+#define WORD_LIMIT 6 // one more than the words of the longest statement
 
 typedef struct {
     PlyHeader *header;
@@ -74,7 +74,7 @@ static void split_line(Parser *parser, const char *text, const char *end)
     }
 }
 
-// Splits the next line into words and advances past it.
+// Splits the next line into words and advances past the line.
 static bool read_line(Parser *parser)
 {
     PlyReader *reader = parser->reader;
@@ -185,8 +185,8 @@ static bool check_property(const Parser *parser, const PlyProperty *property, Pl
     return true;
 }
 
-// Returns whether the property can be a color. Other integer types do not show which value is the
-// brightest.
+// Returns whether the property can be a color. Integer types other than uchar and ushort have no
+// known brightest value.
 static bool has_color_type(const PlyProperty *property)
 {
     return !property->is_list && (property->type == PLY_UINT8 || property->type == PLY_UINT16 ||
@@ -282,8 +282,8 @@ static bool has_roles(const PlyElement *element, unsigned bits)
     return (element->roles & bits) == bits;
 }
 
-// Returns whether the element has the role `first` and the two after it. If one is missing, marks
-// the others as unused.
+// Returns whether the element has the role `first` and the next two roles. If one of the three is
+// missing, marks the others as unused.
 static bool has_vector(PlyHeader *header, const PlyElement *element, PlyRole first)
 {
     const PlyRole last = first + 2;

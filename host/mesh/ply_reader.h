@@ -54,8 +54,8 @@ PlyQuote ply_reader_quote(PlyWord word);
 // Returns the minimum size in bytes of a value of this type in the reader's format.
 size_t ply_reader_value_size(const PlyReader *reader, PlyType type);
 
-// Fails unless `count` items of `size` bytes each fit into the rest of the file. Callers check a
-// count from the file before they allocate memory or loop.
+// Fails unless `count` items of `size` bytes each fit into the rest of the file. Callers must check
+// each count from the file before they allocate memory or loop.
 bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size);
 
 // Read the next value. ply_reader_read_integer requires an integer type.
@@ -67,6 +67,6 @@ bool ply_reader_skip_values(PlyReader *reader, PlyType type, int64_t count);
 
 bool ply_reader_is_space(char character);
 
-// Returns a component of a color, in [0, 1]. The largest integer of an integer type stands for 1.
-// Clamps floats to [0, 1]; NaN becomes zero.
+// Returns a component of a color, in [0, 1]. The largest uchar and the largest ushort stand for 1.
+// Clamps floats to [0, 1] and turns NaN into zero.
 float ply_reader_color(PlyType type, double value);
