@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Makes aims, and rays toward them. A ray is cast only if all triangles around its aim face its
-// origin. In a closed mesh, the exact ray then hits one of them, so a ray that passes shows a leak.
-// The bounds on rounding are generous: aims get no ray if angles are too sharp or triangles too
-// small.
+// Makes aims, and rays toward the aims. A ray is cast only if all triangles around its aim face its
+// origin. In a closed mesh, the exact ray then hits one of these triangles, so a ray that passes
+// shows a leak. The bounds on rounding are generous: aims get no ray if angles are too sharp or
+// triangles too small.
 #include "check/aims.h"
 
 #include "base/array.h"
@@ -18,14 +18,14 @@
 #define FACING_FROM_CLOSE 0.01
 
 // A ray misses its aim by at most LENGTH_ERROR times its length plus COORDINATE_ERROR times the
-// aim's largest coordinate. With correctly rounded division, triangle.inc.cl accepts hits whose
-// distance from the ray is at most 22 * 2^-24 of the largest coordinate relative to the ray's start
-// (BVH_SLACK in shared.h). Rounding directions and aims to float adds to this.
+// aim's largest coordinate. With correctly rounded division, a hit that triangle.inc.cl accepts is
+// within 22 * 2^-24 Q of the ray. Q is the triangle's largest coordinate relative to the ray's
+// start (BVH_SLACK in shared.h). Rounding directions and aims to float adds to this error.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 
 // An aim divides its edge at this fraction, measured from the point with the lower index. The
-// coordinates of the aim are then rounded. With 1/2, they might be exact.
+// coordinates of such an aim need rounding. With 1/2, they might be exact.
 #define EDGE_PART 0.4
 
 // The distance between an open edge and the aim beyond it, in radii of the mesh. Rounding errors
@@ -238,7 +238,7 @@ void aims_free(Aims *aims)
 }
 
 // Returns the position of an eye. The eyes form a Fibonacci lattice on a sphere: their heights
-// differ by equal steps, and each is turned by the golden angle from the one before.
+// differ by equal steps, and each eye is turned by the golden angle from the previous eye.
 static Vec3 eye_at(const Aims *aims, int eye)
 {
     const double height = 1 - (2 * eye + 1) / (double)EYES;

@@ -3,13 +3,13 @@
 // closed, the ray must hit a triangle at its aim or before it.
 //
 // A renderer leaks if rounding lets a ray pass between two triangles. Random rays almost never come
-// so close to an edge, so the check aims at the edges and points themselves. The first rays start
-// at eyes, which are a few positions around the mesh. An aim that has no such ray, or is hidden
-// from its eye, gets a ray that starts near it.
+// close enough to an edge, so the check aims at the edges and points themselves. The first rays
+// start at eyes, which are a few positions around the mesh. An aim that has no such ray, or is
+// hidden from its eye, gets a ray that starts near the aim.
 //
-// Invariant: a ray is cast only if every triangle around its aim faces the origin so clearly that
-// rounding cannot carry the ray past these triangles. In a closed mesh, every miss is therefore a
-// leak.
+// Invariant: a ray is cast only if every triangle around its aim faces the ray's origin so clearly
+// that rounding cannot carry the ray past these triangles. In a closed mesh, every miss is
+// therefore a leak.
 #pragma once
 
 #include "mesh/edges.h"
@@ -34,7 +34,7 @@ typedef struct {
 
 typedef struct {
     Aim *aims;
-    size_t count, total; // aims kept; all aims of the mesh
+    size_t count, total; // number of kept aims; number of all aims of the mesh
     Vec3 center;         // center of the mesh's bounds
     double radius;       // radius of a sphere around the mesh
 } Aims;
@@ -49,12 +49,12 @@ typedef struct {
 } AimSource;
 
 // Makes an aim at every edge, at every point and just beyond every open edge. If there are more
-// than `most`, keeps only one of n, for the smallest n that suffices.
+// than `most` aims, keeps every n-th aim, for the smallest n that suffices.
 bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error);
 void aims_free(Aims *aims);
 
-// Both functions store rays, which reach their aims at t = 1. They store the index of each ray's
-// aim in targets. They return the number of rays, which is at most aims->count.
+// Both functions store rays that reach their aims at t = 1, and store the index of each ray's aim
+// in targets. They return the number of rays, which is at most aims->count.
 size_t aims_shoot_from_afar(Aims *aims, RayData *rays, uint32_t *targets);
 size_t aims_shoot_from_close(Aims *aims, RayData *rays, uint32_t *targets);
 

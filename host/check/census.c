@@ -106,7 +106,7 @@ bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld,
     return ok;
 }
 
-// Two objects of one kind are duplicates if these bits are equal.
+// Two objects of one kind are duplicates if their identities have equal bits.
 typedef struct {
     double numbers[4];
 } Identity;

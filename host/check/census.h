@@ -42,7 +42,7 @@ typedef struct {
     size_t unused_materials;  // materials that the file defines, but no object uses
 } Census;
 
-// Counts the parts of a scene. `normalization` must be the scene's.
+// Counts the faulty and unused parts of a scene. `normalization` must be the scene's.
 bool census_take(Census *census, const Scene *scene, const Normalization *normalization,
                  Error *error);
 void census_free(Census *census);

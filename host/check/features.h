@@ -27,7 +27,7 @@ typedef struct {
 Features features_of(const Mesh *mesh, const Normalization *normalization);
 
 // The next two functions fail if there are triangles without area. The message names the file of
-// the first such object, its first such triangle and the count.
+// the first object with such triangles, the first triangle and the count.
 
 // Fails if the reader dropped a triangle with two equal corners.
 bool bad_geometry_none_dropped(const Scene *scene, Error *error);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Turns counts and measurements into findings with texts. The check fails if the scene cannot be
 // drawn, or has faults that can cause holes or wrong pixels: values that are not finite, triangles
-// without area, duplicates other than lights, and leaks of closed meshes. Other findings may be
-// intended by the author of the scene.
+// without area, duplicate meshes, triangles and spheres, and leaks of closed meshes. Other findings
+// may be intended by the author of the scene.
 #include "check/findings.h"
 
 #include "scene/camera.h"
@@ -18,8 +18,8 @@ typedef struct {
     size_t object; // the mesh that contains its eye, if sphere is 0
 } EnclosedEyes;
 
-// A mesh contains a point if the signed solid angles of its triangles, seen from the point, add up
-// to more than half of the sphere in magnitude (Van Oosterom and Strackee, "The Solid Angle of a
+// A mesh contains a point if the sum of its triangles' signed solid angles, seen from the point,
+// exceeds half of the full sphere in magnitude (Van Oosterom and Strackee, "The Solid Angle of a
 // Plane Triangle", 1983).
 
 #define TAU 6.283185307179586477

@@ -11,11 +11,11 @@ typedef struct {
     const Scene *scene; // borrowed
     Normalization normalization;
     Census census;
-    const char *device;          // its name; NULL if no rays were traced
-    LeakCount *leaks;            // by object; NULL if no rays were traced; owned
-    Error scale_fault;           // the reason why the scene cannot be drawn; empty if it can
-    Error device_fault;          // the reason why no rays could be traced; empty otherwise
-    ARRAY(ClrtFinding) findings; // in the order of the objects, then those of the scene
+    const char *device; // its name; NULL if no rays were traced
+    LeakCount *leaks;   // by object; NULL if no rays were traced; owned
+    Error scale_fault;  // the reason why the scene cannot be drawn; empty if it can be drawn
+    Error device_fault; // the reason why no rays could be traced; empty otherwise
+    ARRAY(ClrtFinding) findings; // for each object in order, then for the scene
     bool is_cut;                 // memory ran out, so findings are missing
     double seconds;
 } Check;

@@ -11,12 +11,11 @@
 #define LEAKS_AIMS 1048576
 
 typedef struct {
-    size_t total;  // aims of the mesh (aims.h): edges, points and positions beyond open edges
-    size_t aimed;  // aims that got a ray
-    size_t rays;   // rays cast; some aims got two
-    size_t hidden; // aims behind other parts of the mesh
-    MeshFault
-        leaks; // rays that passed through; `first` is a triangle there, numbered as in the file
+    size_t total;    // aims of the mesh (aims.h): edges, points and positions beyond open edges
+    size_t aimed;    // aims that got a ray
+    size_t rays;     // rays cast; some aims got two
+    size_t hidden;   // aims behind other parts of the mesh
+    MeshFault leaks; // rays that passed; `first` is a triangle there, numbered as in the file
 } LeakCount;
 
 typedef struct {

@@ -30,7 +30,7 @@ static json_t *leaks_json(const Check *check, size_t object)
                 FIELD("hidden", leaks->hidden), FIELD("cap", json_count(LEAKS_AIMS)));
 }
 
-// Returns the counts of an object's faults. Leaks are in "leak_test" instead.
+// Returns the counts of an object's faults. The member "leak_test" has the leaks instead.
 static json_t *faults_json(const Check *check, size_t object)
 {
     MeshFault counts[FAULT_KINDS];
@@ -109,8 +109,8 @@ bool check_report_write_json(const Check *check, const char *path, Error *error)
     return json_file_write(report_json(check), path, error);
 }
 
-// Writes the findings of a mesh or, for NOTHING, of the scene. They start at index *next, and *next
-// advances past them.
+// Writes the findings of a mesh or, for NOTHING, of the scene. The findings start at index *next,
+// and *next advances past them.
 static void write_findings(const Check *check, uint32_t mesh, size_t *next, FILE *stream)
 {
     for (; *next < check->findings.count; ++*next) {
