@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Runs the operations on which all pictures depend on a device, and compares the results with the
-// host's. The table holds operands for which common faults give other bits than IEEE 754. These
-// faults are wrong rounding, contracted products, flushed denormals and conversions that truncate.
+// Runs the operations of the kernels on a device, and compares the results with the host's. The
+// table holds operands for which common faults give other bits than IEEE 754. These faults are
+// wrong rounding, contracted products, flushed denormals and conversions that truncate.
 //
-// If a process compiles its first program, program.c appends this test's kernel, because a separate
-// program would take PoCL another 0.5 s. If the first program is from the cache, no program needs
-// the test, because the device has passed it with the same driver and options.
+// If the first program of a process must be compiled, program.c appends this test's kernel to it. A
+// separate program would take PoCL another 0.5 s. If the first program is from the cache, the
+// device has already passed the test with the same driver and options.
 #include "device/arithmetic.h"
 
 #include "device/buffer.h"

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A compiled program is a file KEY.bin: a checksum, then the driver's binary. The key is a hash of
-// everything that determines the binary (program.c). The user's folder is searched first, and then
-// a folder that packages fill for all users. A missing, damaged or rejected file only means that
-// clrt builds the program from source.
+// A compiled program is a file KEY.bin, which has a checksum and then the driver's binary. The key
+// is a hash of everything that determines the binary (program.c). The user's folder is searched
+// first, and then a folder that packages fill for all users. A missing, damaged or rejected file
+// only means that clrt builds the program from source.
 //
 // Writing is atomic: a temporary file gets its name KEY.bin by rename. Concurrent processes need no
 // lock, because a reader sees a whole file or none. Two writers of one key store equivalent
 // binaries.
 //
-// The lock protects only PoCL's own files, and only in the library, which has no private folder. It
-// is an flock, which the system releases when the process dies.
+// The lock protects only PoCL's own files, and only in the library, which has no private folder.
+// The lock is an flock, which the system releases when the process dies.
 #include "device/cache.h"
 
 #include <errno.h>
@@ -26,7 +26,7 @@
 // The following functions choose the cache's folder and hash the environment variables on which its
 // keys depend.
 
-// Creates the folder and its parents. Returns whether it exists.
+// Creates the folder and its parents. Returns whether the folder exists.
 static bool make_folder(const char *path)
 {
     char part[CACHE_PATH_SIZE];
@@ -52,8 +52,9 @@ static bool take_folder(Cache *cache, const char *base, const char *rest)
     return false;
 }
 
-// Hashes the variables of PoCL that can change the compiled code. The folder and the limits on
-// threads cannot. The sum of the hashes does not depend on the order of the variables.
+// Hashes the variables of PoCL that can change the compiled code. The variables of the folder and
+// of the limits on threads are omitted. The sum of the hashes does not depend on the order of the
+// variables.
 static uint64_t hash_settings(void)
 {
     static const char *const neutral[] = {

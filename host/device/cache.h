@@ -18,7 +18,7 @@
 typedef struct {
     char folder[CACHE_PATH_SIZE]; // holds KEY.bin files and possibly private folders; "" for none
     char private_folder[CACHE_PATH_SIZE]; // PoCL's files; "" if PoCL chooses its own folder
-    int private_lock;                     // keeps other processes from removing private_folder
+    int private_lock;  // file lock that keeps other processes from removing private_folder
     uint64_t settings; // hash of the environment variables that change what PoCL compiles
     // Called with true before a program is compiled and with false afterwards, on any thread; may
     // be NULL.
@@ -43,10 +43,10 @@ bool cache_read(const Cache *cache, const char *key, CachedBinary *binary);
 // Writes the binary to the user's folder. If this fails, nothing is stored.
 void cache_write(const Cache *cache, const char *key, const void *bytes, size_t size);
 
-// Returns whether a folder has a file for this key. The file may be damaged.
+// Returns whether cache_read would find a file for this key. The file may be damaged.
 bool cache_has(const Cache *cache, const char *key);
 
 // Waits for the lock that protects PoCL's files while a program is made. Returns the lock for
-// cache_unlock, or -1 if PoCL's files are private or locking fails.
+// cache_unlock, or -1 if PoCL's files are private, the cache has no folder or locking fails.
 int cache_lock(const Cache *cache);
 void cache_unlock(int lock);

@@ -19,8 +19,8 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-// The least free space of a private folder. PoCL unpacks binaries and preprocesses sources in it,
-// and LLVM ends the process if the disk is full.
+// The least free space of a private folder. PoCL unpacks binaries and preprocesses sources in the
+// folder, and LLVM ends the process if the disk is full.
 #define ROOM_LEAST ((unsigned long long)16 << 20)
 
 #define LOCK_NAME    "/lock"
@@ -84,9 +84,10 @@ static void write_prefix(char prefix[PREFIX_SIZE])
 }
 
 // Removes the private folder at path if its process has ended. This may also remove the empty
-// folder of a process that has not locked it yet. That process then makes another (make_private).
-// The lock is the first file in a folder. If a folder has other files but no lock, its process has
-// ended. A network file system can leave such a folder, because it only renames an open file.
+// folder of a process that has not locked it yet. That process then makes another folder
+// (make_private). A process creates the lock before all other files. If a folder has files but no
+// lock, its process has therefore ended. Network file systems can leave such a folder, because they
+// rename open files instead of removing them.
 static void remove_abandoned(const char *path)
 {
     struct stat status;

@@ -24,9 +24,9 @@ typedef struct {
     bool shares_memory;    // reads the host's arrays in place
     bool correct_division; // offers correctly rounded division and square root
     bool has_denormals;    // keeps floats below 2^-126, which other devices set to zero
-    bool has_fma;          // in hardware; other devices calculate fma in software
+    bool has_fma;          // computes fma in hardware; other devices compute fma in software
     bool has_fp64;         // supports double precision
-    bool limits_registers; // its compiler takes -cl-nv-maxrregcount
+    bool limits_registers; // its compiler accepts -cl-nv-maxrregcount
 } Device;
 
 // Opens the first device that matches spec. Valid forms are "PLATFORM:DEVICE" with numbers from

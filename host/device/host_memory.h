@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Memory into which a device copies results. For devices that are not CPUs, the OpenCL
 // implementation allocates the memory. Copies into other memory are slower and make the host wait.
-// Locking the pages takes 0.4 ms per megabyte and unlocking 0.1 ms (NVIDIA H200), so a pool keeps
-// the last freed memory for the next user.
+// For each megabyte, locking the pages takes 0.4 ms and unlocking takes 0.1 ms (NVIDIA H200), so a
+// pool keeps the last freed memory for the next user.
 #pragma once
 
 #include "device/cl_status.h"
@@ -16,15 +16,15 @@ typedef struct {
     cl_mem buffer;  // NULL without a pool
 } HostMemory;
 
-// Returns NULL on failure. The context and the queue are borrowed.
+// Makes an empty pool. Returns NULL on failure. The context and the queue must outlive the pool.
 HostPool *host_pool_make(cl_context context, cl_command_queue queue, Error *error);
 
 // pool may be NULL. None of its memory may be in use.
 void host_pool_free(HostPool *pool);
 
 // Allocates `size` uninitialized bytes. If pool is NULL, the memory is ordinary. After a failure,
-// host_memory_free has nothing to free.
+// host_memory_free does nothing.
 bool host_memory_make(HostMemory *memory, HostPool *pool, size_t size, Error *error);
 
-// No copy into the memory may be in flight.
+// Frees the memory or gives it back to its pool. No copy into the memory may be in flight.
 void host_memory_free(HostMemory *memory);

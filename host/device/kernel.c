@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A set makes each program and each kernel at most once. Few different kernels exist in a process,
-// so lookups compare all of them. PoCL compiles a kernel when it first runs, so every first run is
-// between cache_lock and cache_unlock.
+// A set makes each program and each kernel at most once. A process has few kernels, so lookups
+// compare all of them. PoCL compiles a kernel when it first runs, so every first run is between
+// cache_lock and cache_unlock.
 #include "device/kernel.h"
 
 #include "base/clock.h"
@@ -96,8 +96,8 @@ bool kernel_run(const Kernel *kernel, const KernelRun *run, Error *error)
 }
 
 // Runs a new kernel without work, because some drivers finish compiling in the first run. The frame
-// is empty, all numbers are 0, and each buffer holds NOTHING 16 times. Zeros are not possible,
-// because trace_pixels divides by the number of samples in its first request.
+// is empty, all numbers are 0, and each buffer holds NOTHING 16 times. The buffers cannot hold
+// zeros, because trace_pixels divides by the number of samples in its first request.
 static bool run_empty(const Kernel *kernel, Error *error)
 {
     static const FrameData frame;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernels of a device, each made once. Kernels share a program if their source and their
-// options, choice and traits are the same. A kernel needs the traits of a scene, but not its data.
+// Makes each kernel of a device once. Kernels share a program if they have the same source,
+// options, choice and traits. A kernel depends on the traits of a scene, but not on its data.
 #pragma once
 
 #include "device/launch.h"
@@ -25,7 +25,7 @@ typedef struct {
     ARRAY(Kernel *) kernels;
 } KernelSet;
 
-// A kernel to make. If a member of group is 0, the device determines it (Kernel::launch).
+// A kernel to make. If an element of group is 0, the device determines it (Kernel::launch).
 typedef struct {
     const KernelEntry *entry;
     KernelChoice choice;
@@ -46,12 +46,12 @@ typedef struct {
     cl_command_queue queue;
     const FrameData *frame;
     const cl_mem *scene;                     // FLAT_ARRAYS buffers
-    const void *arguments[KERNEL_ARGUMENTS]; // a cl_mem or cl_uint for each of entry->arguments
-    size_t items[2];                         // work-items, rounded up to whole work-groups
+    const void *arguments[KERNEL_ARGUMENTS]; // pointers to cl_mem or cl_uint (entry->arguments)
+    size_t items[2];                         // work-items; kernel_run rounds up to whole groups
     cl_event *done;                          // NULL if not needed
 } KernelRun;
 
-// Sets the kernel's arguments and enqueues it. The error message names the kernel.
+// Sets the kernel's arguments and enqueues the kernel. The error message names the kernel.
 bool kernel_run(const Kernel *kernel, const KernelRun *run, Error *error);
 
 // Saves new programs to the cache.

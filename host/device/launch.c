@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // On CPUs, a launch is one tile, or CPU_ITEMS work-items of a list. A GPU needs more work-items
 // than a tile has, because each compute unit runs thousands at once. But a GPU cannot update its
-// display during a launch, and drivers end launches of several seconds. The size of launches
-// therefore follows the time of the previous launch.
+// display during a launch, and drivers end launches of several seconds. The size of a launch
+// therefore depends on the time of the previous launch.
 #include "device/launch.h"
 
 #define PAIR_SIDE      8
@@ -13,8 +13,8 @@
 // PoCL compiles a second version of a kernel for grids of 65535 work-items or more.
 #define CPU_ITEMS 4096
 
-// Large GPUs run up to 2048 work-items per compute unit at once. Several times as many keep all
-// units busy while the last work-items of a launch finish.
+// Large GPUs run up to 2048 work-items per compute unit at once. With four times as many, all units
+// stay busy until the last work-items of a launch finish.
 #define UNIT_ITEMS 8192
 #define ITEMS_MOST (1U << 20)
 

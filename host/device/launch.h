@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Facts about a device and a kernel -> the sizes of work-groups and launches. No size changes a bit
-// of a result.
+// Facts about a device and a kernel -> the sizes of work-groups and launches. The sizes do not
+// change results.
 #pragma once
 
 #include <stdbool.h>
@@ -22,10 +22,10 @@ typedef struct {
 
 LaunchShape launch_shape(const LaunchFacts *facts);
 
-// Returns the work-items of a paced picture's first launch, at least 1. Each item traces `samples`
-// samples.
+// Returns the number of work-items of a paced picture's first launch, at least 1. Each item traces
+// `samples` samples.
 uint32_t launch_first_items(const LaunchShape *shape, double samples);
 
-// Returns the work-items of the next launch, from 1 to shape->items. The previous launch was
-// limited to `items` items. It had `done` items, at least 1, and took `seconds`.
+// Returns the number of work-items of the next launch, from 1 to shape->items. The previous launch
+// was limited to `items` items. It had `done` items, at least 1, and took `seconds`.
 uint32_t launch_next_items(const LaunchShape *shape, uint32_t items, uint32_t done, double seconds);

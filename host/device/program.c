@@ -30,16 +30,17 @@ static const KernelEntry *entry_of(const ProgramSource *source)
     return source->entry != NULL ? source->entry : &none;
 }
 
-// Returns whether the program gets the options for GPUs. In fp64, a ray's state does not fit into
-// registers. If all functions are inlined, NVIDIA's compiler (580.159) also takes three times as
-// long for the kernel of certainty, and the kernel then decides some pixels wrongly.
+// Returns whether the program gets the options for GPUs. fp64 programs do not get them, because a
+// ray's state does not fit into registers in fp64. NVIDIA's compiler (580.159) also takes three
+// times as long to inline all functions of the certainty kernel, and this kernel then decides some
+// pixels wrongly.
 static bool is_for_gpu(const ProgramSource *source)
 {
     return !source->device->is_cpu && source->choice.precision == PRECISION_FP32;
 }
 
 // With at most 96 registers instead of 168, an H200 runs almost twice as many work-items at once.
-// More of them can then run while others wait for memory. Pictures take 8 to 23 % less time
+// More work-items can then run while others wait for memory. Pictures take 8 to 23 % less time
 // (docs/devices.md).
 static const char *register_limit(const ProgramSource *source)
 {

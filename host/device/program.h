@@ -11,13 +11,13 @@
 extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
-// A kernel function, defined by the file that launches it. A new kernel first runs with an empty
-// frame, with 0 for each number and with buffers of 64 bytes whose bits are all 1.
+// A kernel function. The file that launches a kernel defines its entry. A new kernel first runs
+// with an empty frame, with 0 for each number and with buffers of 64 bytes whose bits are all 1.
 typedef struct {
     const char *name;
-    const char *source;    // compiled after kernel_source; entries may share it; NULL without any
-    const char *options;   // compiler options; NULL without any
-    const char *arguments; // after the frame and scene: 'b' for a buffer, 'n' for a number
+    const char *source;    // compiled after kernel_source; entries may share it; may be NULL
+    const char *options;   // compiler options; may be NULL
+    const char *arguments; // those after frame and scene: 'b' for a buffer, 'n' for a number
     cl_uint dimensions;    // of the work-items
     uint32_t group;        // work-items of a CPU's work-group; 0 for those of Kernel::launch
 } KernelEntry;
@@ -33,11 +33,11 @@ typedef struct {
     const Device *device;
     const Cache *cache;
     const char *kernel_folder; // replaces kernel_source by the folder's render.cl; may be NULL
-    const char *extra_options; // compiler options after clrt's own; NULL without any
+    const char *extra_options; // compiler options after clrt's own; may be NULL
     const KernelEntry *entry;  // NULL for kernel_source alone
     KernelChoice choice;
     SceneTraits traits;
-    bool arithmetic_is_exact; // the device needs no test
+    bool arithmetic_is_exact; // the device's arithmetic needs no test
 } ProgramSource;
 
 // Builds the program from source and, unless arithmetic_is_exact, tests the device's arithmetic. If
