@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Divides the nodes of a tree. split_midpoint or split_sah chooses a node's split, and build_divide
-// carries it out.
+// applies the split.
 //
 // A split copies a node's triangles from one array to the same range of a second array, left side
-// first. The splits of the children copy them back to the first array. So two arrays suffice, and
-// the ranges of different nodes never overlap. An explicit stack holds the pending nodes, so no
-// recursion overflows.
+// first. The splits of the children copy the triangles back to the first array. Two arrays
+// therefore suffice, and the ranges of pending nodes never overlap. An explicit stack holds the
+// pending nodes, so no recursion overflows.
 //
-// Invariant: a node's triangles, their order, the node's depth and the tree's settings and size
-// determine the split and the order of the triangles on each side. The tree is therefore the same
-// for every number of threads.
+// Invariant: a split and the order of the triangles on each side depend only on the node's
+// triangles, their order, the node's depth, and the tree's settings and size. The tree is therefore
+// the same for every number of threads.
 #include "accel/build.h"
 
 #include <assert.h>
@@ -21,7 +21,7 @@
 // parent along this axis, the next longest axis is tried.
 
 #define LEAF_TRIANGLES 4
-#define LARGEST_CHILD  0.9f // limit of a child's extent along the axis, divided by its parent's
+#define LARGEST_CHILD  0.9f // largest extent of a child, relative to its parent's extent
 
 // Returns the largest number of levels: 10 more than in a balanced tree with four triangles per
 // leaf.
@@ -96,7 +96,7 @@ Split split_midpoint(const BuildRange *range)
 
 // Costs are relative to one test of a leaf, which covers one triangle or one block.
 typedef struct {
-    uint32_t unit, unit_bits; // triangles per test, and their binary logarithm
+    uint32_t unit, unit_bits; // triangles per test, and the binary logarithm of this number
     float node;               // cost of reading a node and testing its two boxes
 } Costs;
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Triangles with their boxes -> the nodes of a Bvh. One of two functions chooses how to split a
-// node.
+// Triangles with their boxes -> the nodes of a Bvh. split_midpoint or split_sah chooses how to
+// split a node.
 #pragma once
 
 #include "accel/bvh_tree.h"
 #include "accel/triangles.h"
 
 // A box is stored as a vector of low planes and a vector of negated high planes. The union of two
-// boxes is then one minimum per vector. No plane is -0, so the order of unions does not matter.
+// boxes is then one minimum per vector. No plane is -0, so the order of unions does not affect the
+// bits.
 
 #ifdef __SSE__
 #include <xmmintrin.h>
@@ -118,7 +119,7 @@ static inline float item_center(const BuildItem *item, int axis)
     return item->low[axis] - item->negated_high[axis];
 }
 
-// The input of a function that chooses splits: a node.
+// A node to split. This is the input of the functions that choose splits.
 typedef struct {
     const BuildItem *items; // the node's triangles
     uint32_t count;
@@ -140,7 +141,7 @@ typedef struct {
     SplitKind kind;
     int axis;
     float origin, scale, limit;
-    uint32_t left; // SPLIT_PLANE: triangles on the left, at least one but not all
+    uint32_t left; // SPLIT_PLANE: number of triangles on the left; neither side is empty
 } Split;
 
 // Return the split of a range. Both functions are deterministic and stateless.
@@ -157,13 +158,13 @@ typedef struct {
     uint32_t node;
     uint32_t first, count; // range of its triangles in Bvh::order
     uint32_t depth;        // 1 for the root of the tree
-    uint32_t left;         // set by build_divide: triangles of the first child; 0 for a leaf
+    uint32_t left;         // triangles of the first child, set by build_divide; 0 for a leaf
 } BuildTask;
 
 typedef struct {
     Bvh *bvh;
     uint32_t total;      // triangles in the tree
-    BuildItem *items[2]; // the triangles of nodes at even depths, and of nodes at odd depths
+    BuildItem *items[2]; // the triangles of nodes at even depths, and those at odd depths
     Split (*split)(const BuildRange *range);
     BvhLeaves leaves;
 } Build;

@@ -33,6 +33,6 @@ typedef struct {
     BvhNode *nodes;                       // the first is the root; some entries are unused
     uint32_t *order;                      // triangle indices, leaf by leaf
     uint32_t node_count, leaf_count;      // nodes in use; leaves among them
-    uint32_t largest_leaf, depth;         // in triangles; in levels, at most BVH_MAX_DEPTH
+    uint32_t largest_leaf, depth;         // triangles of a leaf; levels, at most BVH_MAX_DEPTH
     uint32_t inner_counts[BVH_MAX_DEPTH]; // inner nodes per level, from the root down
 } Bvh;

@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The following functions process one mesh object at a time. Threads share its triangles.
+// The following functions process one mesh object at a time. The threads share the object's
+// triangles.
 
 typedef struct {
     const Mesh *mesh;
@@ -56,8 +57,8 @@ static double inverse_power(double value)
 }
 
 // Stores a triangle's normals, negated if the stored corners are reversed. A common power of two
-// scales them, so that their squares neither overflow nor underflow. Their relative weights in the
-// interpolation stay the same.
+// scales the normals, so that their squares neither overflow nor underflow. Their relative weights
+// in the interpolation stay the same.
 static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {
@@ -292,7 +293,7 @@ void compile_stages_free(CompileStages *stages)
     bvh_free(&stages->bvh);
 }
 
-// Called only for materials that primitives use. A defined but unused material sets no trait.
+// Adds the traits of a material that a primitive uses. Unused materials set no traits.
 static void add_material(SceneTraits *traits, const Material *material)
 {
     traits->mirrors |= material->reflectivity > 0;

@@ -42,14 +42,14 @@ typedef struct {
     bool is_two_sided; // as in FlatSource
 } CompileSource;
 
-// Fills *flat, which must be {0}, and *stages, which stays empty if stages are given. The caller
-// always frees both.
+// Fills *flat, which must be {0}. Also fills *stages, unless source->given has the stages. The
+// caller always frees both.
 bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
                    Error *error);
 void compile_stages_free(CompileStages *stages);
 
-// The features that a scene uses, as the switches of kernels/config.h. A program specialized by
-// them has no code for unused features. It renders the same picture as the general program.
+// The features that a scene uses, as the switches of kernels/config.h. A specialized program has no
+// code for unused features, and renders the same picture as the general program.
 typedef struct {
     bool spheres, triangles;
     bool bvh;        // rays find triangles with a tree
@@ -79,8 +79,8 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics);
 // Returns the largest reflectivity of the materials that primitives use.
 float flat_reflectivity(const FlatScene *flat);
 
-// Returns the traits of the general program that renders a scene with the needed traits. General
-// programs render every scene, except that they have only the needed rare traits.
+// Returns the traits of the general program for scenes with the needed traits. General programs
+// have all traits, but rare traits only if they are needed.
 SceneTraits traits_general(SceneTraits needed);
 
 #define TRAITS_OPTIONS_SIZE 192

@@ -53,7 +53,8 @@ static Box box_grow(const Box *box, float share)
 
 // Stores a child's box, grown by BVH_SLACK, in the planes of a node with room for `children`
 // children. The slack makes the kernels' culling conservative (kernels/search.cl). If box is NULL,
-// no ray enters the stored box. On each axis, the low planes of all children precede the high ones.
+// no ray enters the stored box. On each axis, the low planes of all children precede the high
+// planes.
 static void box_store(float *planes, uint32_t children, uint32_t child, const Box *box)
 {
     const Box grown =
@@ -164,8 +165,8 @@ static float box_half_area(const Box *box)
     return x >= 0 ? x * y + y * z + z * x : 0;
 }
 
-// A candidate for a child of a wide node: a binary node, or a range of a leaf's triangles, which
-// may exceed one block.
+// A candidate for a child of a wide node: a binary node, or a range of a leaf's triangles. This
+// range may exceed one block.
 typedef struct {
     Box box;
     float area;
@@ -315,7 +316,7 @@ static uint32_t write_node(const Collapse *collapse, const Part *part)
     return number;
 }
 
-// Without a tree, blocks hold the triangles in file order.
+// Lists the blocks of a scene without a tree, in file order.
 static void list_blocks(const Collapse *collapse)
 {
     const uint32_t count = collapse->flat->triangle_count;

@@ -13,6 +13,6 @@ bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error);
 // file order.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);
 
-// Returns a box around all primitives, grown by SKY_SLACK; unspecified if there are none. The
-// spheres of flat must be filled.
+// Returns a box around all primitives, grown by SKY_SLACK. Without primitives, the box is
+// unspecified. The spheres of flat must be filled.
 Box flat_bounds(const FlatScene *flat, const FlatSource *source);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 // Bit 0 of the index: the second corner precedes the first. Bit 1: the third precedes the second.
-// Bit 2: the third precedes the first. Indices 3 and 4 are contradictory.
+// Bit 2: the third precedes the first. Indices 3 and 4 cannot occur.
 const CornerOrder corner_orders[8] = {
     [0] = {{0, 1, 2}, false}, [1] = {{1, 0, 2}, true},  [2] = {{0, 2, 1}, true},
     [5] = {{1, 2, 0}, false}, [6] = {{2, 0, 1}, false}, [7] = {{2, 1, 0}, true}};
