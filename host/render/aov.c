@@ -157,7 +157,7 @@ static void take_all(uint32_t values[AOV_VALUES], const AovPixel *pixel, const A
     *values++ = float_bits(path->lights / lights);
     *values++ = float_bits(path->bounces);
     *values++ = float_bits(pixel->samples);
-    *values++ = 0; // the counts of tests and the error are stored later
+    *values++ = 0; // the counts of tests
     *values++ = 0;
     *values++ = float_bits(0.5 * pixel->certainty);
     *values = 0;

@@ -21,15 +21,15 @@ typedef struct {
 
 #define AOV_COMPONENTS 3
 
-// The table's last channel: each pixel's error against the reference.
+// The name of the table's last channel, which is each pixel's error against the reference.
 #define ERROR_CHANNEL "error"
 
 // A channel's input besides the path of the ray through the pixel's center.
 typedef enum {
     AOV_NEEDS_PATH,      // nothing more
-    AOV_NEEDS_TESTS,     // tracing every sample again as a single ray
-    AOV_NEEDS_CERTAINTY, // certifying every sample
-    AOV_NEEDS_REFERENCE  // drawing the reference; the code that draws it fills the channel
+    AOV_NEEDS_TESTS,     // counts of tests; every sample is traced again as a single ray
+    AOV_NEEDS_CERTAINTY, // certificates of all samples
+    AOV_NEEDS_REFERENCE  // the reference; the code that draws it also fills the channel
 } AovNeed;
 
 typedef struct {
@@ -49,8 +49,8 @@ uint32_t aov_channel_count(const Aov *aov);
 // A set of channels: one bit per table index.
 typedef uint32_t AovSet;
 
-// Adds the channels of a comma-separated list to *set. "all" adds all that need no reference.
-// Fails on an unknown name or a repeated channel.
+// Adds the channels of a comma-separated list to *set. "all" adds all channels that need no
+// reference. Fails on an unknown name or a repeated channel.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
 // Returns whether any channel in set has this need.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A pass over the tiles traces the paths. If a channel needs counts of tests, another pass counts
-// them.
+// the tests.
 #include "render/aov_pass.h"
 
 #include "render/tile_pass.h"

@@ -12,8 +12,8 @@ typedef struct {
     uint64_t tallies[TALLY_KINDS]; // zeros without statistics
 } RenderProgress;
 
-// tile_done is called after every tile, and by sampler_trace after every launch. It returns false
-// to stop the picture.
+// tile_done is called after every tile, and by sampler_trace after every launch. If tile_done
+// returns false, the picture stops.
 typedef struct {
     bool (*tile_done)(void *context, const RenderProgress *progress);
     void *context;
@@ -33,7 +33,7 @@ typedef struct {
     cl_mem arrays[FLAT_ARRAYS]; // in the order of the kernels' arguments
     FrameData frame;            // members that depend on the scene alone
     SceneTraits traits;         // without statistics
-    float reflectivity;         // the largest of materials in use
+    float reflectivity;         // largest reflectivity of materials in use
     size_t size;                // bytes
     double seconds;             // time of the upload
 } SceneBuffers;
@@ -49,7 +49,7 @@ typedef struct {
     const SceneBuffers *scene; // in the node layout of the kernel
     RenderSettings settings;
     RenderProgress progress; // of the latest picture
-    double launch_samples;   // of the sampler's next launch on GPUs; 0 before the first
+    double launch_samples;   // samples of the sampler's next launch on GPUs; 0 at first
     bool is_special;         // the kernel is specialized for the scene
 } Renderer;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Splits a list of requests into launches and keeps two launches in the queue, so that the device
-// never waits for the host. The size of launches follows the device (device/launch.h).
+// never waits for the host. The size of launches depends on the device (device/launch.h).
 #include "render/sampler.h"
 
 #include "base/clock.h"
@@ -22,15 +22,15 @@ typedef struct {
     Renderer *renderer;
     const FrameData *frame;
     const SampleList *list;
-    uint32_t item_requests; // per work-item
+    uint32_t item_requests; // requests per work-item
     cl_mem requests, results, tallies;
     uint32_t *host_tallies;
     SampleLaunch launches[2];   // launch i is launches[i % 2]
-    uint32_t started, finished; // requests
+    uint32_t started, finished; // numbers of requests
     double last_end;
 } Sampling;
 
-// Host memory, used in place by the device.
+// Host memory that the device uses in place.
 typedef struct {
     cl_mem_flags access;
     const void *data;
@@ -72,7 +72,7 @@ static double item_samples(const Sampling *sampling)
     return (double)sampling->item_requests * request_samples(sampling->renderer, sampling->list);
 }
 
-// Returns the most work-items of the next launch.
+// Returns the largest number of work-items for the next launch.
 static uint32_t launch_items(const Sampling *sampling)
 {
     const LaunchShape *shape = &sampling->renderer->kernel->launch;
@@ -110,7 +110,7 @@ static bool open_buffers(Sampling *sampling, Error *error)
            share(sampling, &counts, &sampling->tallies, error);
 }
 
-// First waits for the queue. After a fault, a running launch may still write to the host memory.
+// Waits for the queue first, because a running launch may still write to host memory after a fault.
 static void close_buffers(Sampling *sampling)
 {
     clFinish(sampling->renderer->kernel->device->queue);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A list of requests -> their samples. With sample_entry, a request is a sample's position, and the
 // result is its color and signature. With ladder_entry, a request is a set of a pixel's samples,
-// and the result is the sum of their colors.
+// and the result has the sums of their colors and of the squares of the colors.
 //
 // Two samples have different signatures if their rays hit different surfaces, or if different
 // lights reach their hit points.
@@ -26,7 +26,7 @@ typedef struct {
 } SampleList;
 
 // Traces the requests in list. The renderer's kernel must have sample_entry or ladder_entry.
-// Each 4096 work-items count as a tile in renderer->progress, which keeps its previous counts. If
-// the observer stops the trace early, tiles_done stays below tiles, and some results are undefined.
+// renderer->progress counts every 4096 work-items as a tile, and keeps its previous counts. If the
+// observer stops the trace early, tiles_done stays below tiles, and some results are undefined.
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
                    const RenderObserver *observer, Error *error);

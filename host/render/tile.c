@@ -64,7 +64,8 @@ uint64_t tile_count(const RenderSettings *settings)
 Tile tile_at(const RenderSettings *settings, uint64_t number)
 {
     const uint32_t stride = stride_of(settings);
-    // If there is only one part, a division finds the row. Otherwise, the loop searches for it.
+    // If there is only one part, a division finds the row. Otherwise, the loop searches for the
+    // row.
     uint64_t row = stride == 1 ? number / columns_of(settings) : 0;
     uint64_t place = stride == 1 ? number % columns_of(settings) : number;
     for (uint64_t count; place >= (count = row_count(settings, row)); row++)
@@ -87,8 +88,8 @@ Tile tile_largest(const RenderSettings *settings)
                   .height = smaller(settings->tile_height, settings->height)};
 }
 
-// Returns how many of the `most` tiles from number `first` on form a rectangle. These are tiles of
-// one row, or whole rows.
+// Returns how many tiles from number `first` on form a rectangle, at most `most`. The rectangle
+// consists of tiles of one row, or of whole rows.
 static uint64_t joined_count(const RenderSettings *settings, uint64_t first, uint64_t most)
 {
     const uint64_t columns = columns_of(settings), left = columns - first % columns;

@@ -46,7 +46,7 @@ typedef struct {
 } Tile;
 
 // Stores the size of the framebuffer for the tiles. A part's framebuffer contains only the part's
-// tiles, in a single column.
+// tiles, one below another.
 void tile_frame_size(const RenderSettings *settings, uint32_t *width, uint32_t *height);
 
 // Returns the number of tiles of the picture or part. Tiles are numbered from 0.

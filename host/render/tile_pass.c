@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Draws tiles by launches. Three launches are in flight, each in its own command queue: the device
-// traces one while another is read back or finishes its last work-groups. With two, a device that
-// draws a tile of sky in 70 us waits for the host.
+// traces one while another is read back or finishes its last work-groups. With two launches, a
+// device that draws a tile of sky in 70 us would wait for the host.
 //
 // On CPUs, a launch is a tile. All launches use one padded grid with offset 0, because PoCL
 // compiles another version of a kernel for each local size, for offsets and for large grids.
-// FrameData passes the tile's position instead. On other devices, the size of a launch follows the
-// device and the time of the previous launch (device/launch.h).
+// FrameData passes the tile's position instead. On other devices, the size of a launch depends on
+// the device and on the time of the previous launch (device/launch.h).
 //
 // Invariant: callers receive the tiles in the order of their numbers, so a count of finished tiles
 // identifies them.
@@ -51,7 +51,7 @@ static bool is_read_in_place(const TilePass *pass, const Renderer *renderer, int
     return output == 0 && pass->framebuffer != NULL && !is_paced(renderer);
 }
 
-// Returns the most pixels of a launch. A paced launch has at least one row of a tile.
+// Returns the largest number of pixels of a launch. A paced launch has at least one row of a tile.
 static uint64_t most_pixels(const Renderer *renderer)
 {
     const Tile largest = tile_largest(&renderer->settings);
@@ -208,7 +208,7 @@ static bool report_tiles(uint64_t count, const RenderObserver *observer, RenderP
     return wanted;
 }
 
-// A stopped pass ends with a whole tile.
+// Runs the launches. A stopped pass ends with a whole tile.
 static bool run_launches(PassRun *run, const RenderObserver *observer, RenderProgress *progress,
                          Error *error)
 {
