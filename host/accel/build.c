@@ -91,7 +91,8 @@ Split split_midpoint(const BuildRange *range)
 // The most triangles in a leaf.
 #define LARGEST_LEAF 8
 
-// From this depth on, nodes too large for a leaf are halved. This bounds the depth of the tree.
+// From this depth on, nodes that are too large for a leaf are halved. This bounds the depth of the
+// tree.
 #define MEDIAN_SPLIT_DEPTH 32
 
 // Costs are relative to one test of a leaf, which covers one triangle or one block.
@@ -102,7 +103,8 @@ typedef struct {
 
 static const Costs costs_of[] = {[LEAVES_SINGLE] = {1, 0, 1.0f}, [LEAVES_BLOCKS] = {8, 3, 0.3f}};
 
-// Each bin holds all three axes, so that vector operations price three planes at once.
+// Each bin holds all three axes, so that vector operations compute the prices of three planes at
+// once.
 typedef struct {
     BuildBox boxes[BINS][3];
     Uint4 counts[BINS];

@@ -108,7 +108,8 @@ static inline BuildBox build_box_of_triangle(const Triangles *triangles, uint32_
                       float4_minimum(float4_minimum(-a, -b), -c) + zero};
 }
 
-// Returns a single point as a box: the doubled center (low + high) of the given box.
+// Returns a box that consists of a single point, which is the doubled center (low + high) of the
+// given box.
 static inline BuildBox build_box_of_center(const BuildBox *box)
 {
     return (BuildBox){box->low - box->negated_high, box->negated_high - box->low};
@@ -176,6 +177,6 @@ void build_divide(const Build *build, BuildTask *task);
 void build_set_children(const Build *build, const BuildTask *task, uint32_t child,
                         BuildTask children[2]);
 
-// Builds the subtree below root. Nodes below root use indices from 2 * first + 1 to
-// 2 * (first + count) - 2, with first and count of root. No other subtree uses these indices.
+// Builds the subtree below root. Nodes below root use indices from 2 * first + 1 to 2 * (first +
+// count) - 2, where first and count are members of root. No other subtree uses these indices.
 void build_subtree(const Build *build, const BuildTask *root);

@@ -57,8 +57,8 @@ static double inverse_power(double value)
 }
 
 // Stores a triangle's normals, negated if the stored corners are reversed. A common power of two
-// scales the normals, so that their squares neither overflow nor underflow. Their relative weights
-// in the interpolation stay the same.
+// scales the normals, so that their squares neither overflow nor underflow. This factor keeps the
+// relative weights of the normals in the interpolation.
 static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {

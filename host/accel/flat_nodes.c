@@ -3,11 +3,11 @@
 //
 // The wide layout collapses the binary tree into nodes of up to eight children (compare Wald,
 // Benthin and Boulos, "Getting rid of packets", 2008). A wide node starts with the two children of
-// a binary node, or with the two halves of a large leaf. While it has fewer than eight children,
-// its largest divisible child is replaced by this child's two parts. The largest child is the one
-// with the largest surface area, which rays hit most often. A child with at most eight leaves is
-// divided only if all its leaves fit. This rule avoids nodes of only two or three blocks. Nodes and
-// blocks are in depth-first order.
+// a binary node, or with the two halves of a large leaf. While the node has fewer than eight
+// children, the two parts of its largest divisible child replace this child. The largest child is
+// the one with the largest surface area, which rays hit most often. A child with at most eight
+// leaves is divided only if all its leaves fit into the node. This rule avoids nodes of only two or
+// three blocks. Nodes and blocks are in depth-first order.
 //
 // One thread collapses the tree, and then all threads fill the blocks.
 //

@@ -17,7 +17,7 @@ static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t cou
     uint32_t lowest = sides[0].triangle;
     for (size_t side = 1; side < count; side++) {
         lowest = sides[side].triangle < lowest ? sides[side].triangle : lowest;
-        // A duplicate triangle has three edges, and counts only at the edge of its two lower
+        // A duplicate triangle has three edges, and is counted only at the edge of its two lower
         // points.
         if (sides[side].opposite == sides[side - 1].opposite &&
             sides[side].opposite > sides[side].high)
@@ -125,8 +125,8 @@ static size_t count_duplicates(Identity *identities, size_t count)
     return duplicates;
 }
 
-// Returns the identity of a sphere or light. Adding 0.0 turns -0 into 0, so that both have equal
-// bits.
+// Returns the identity of a sphere or light. Adding 0.0 turns -0 into 0, so that both zeros have
+// equal bits.
 static Identity identity_of(Vec3 position, double radius)
 {
     return (Identity){{position.x + 0.0, position.y + 0.0, position.z + 0.0, radius}};

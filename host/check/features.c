@@ -24,8 +24,8 @@ static Vec3 doubled_area(const Shape *shape)
                       vec3_sub(shape->corners[2], shape->corners[0]));
 }
 
-// Scales a shape by a power of two. Otherwise, squares of a file's coordinates might overflow or
-// underflow in fp64.
+// Scales a shape by a power of two. Without scaling, squares of a file's coordinates might overflow
+// or underflow in fp64.
 static Shape scaled_shape(const Shape *shape, double scale)
 {
     return (Shape){{vec3_scale(shape->corners[0], scale), vec3_scale(shape->corners[1], scale),

@@ -27,10 +27,10 @@ typedef struct {
 Features features_of(const Mesh *mesh, const Normalization *normalization);
 
 // The next two functions fail if there are triangles without area. The message names the file of
-// the first object with such triangles, the first triangle and the count.
+// the first object with such triangles, its first such triangle and the count.
 
 // Fails if the reader dropped a triangle with two equal corners.
 bool bad_geometry_none_dropped(const Scene *scene, Error *error);
 
-// Fails if any triangle has no area, dropped or not.
+// Fails if any triangle, even a dropped one, has no area.
 bool bad_geometry_none(const Scene *scene, Error *error);

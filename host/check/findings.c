@@ -62,7 +62,7 @@ static bool sphere_contains(const Sphere *sphere, Vec3 eye)
     return vec3_dot(apart, apart) < 1;
 }
 
-// Stores the first object that contains the eye. Returns false if none does.
+// Stores the first object that contains the eye. Returns false if no object contains the eye.
 static bool find_container(EnclosedEyes *found, const Scene *scene, const Census *census, Vec3 eye)
 {
     for (size_t i = 0; i < scene->spheres.count; i++) {

@@ -14,7 +14,7 @@
 bool mesh_has_all_normals(const Mesh *mesh);
 
 // Computes a normal of length 1 for each used vertex that lacks one: the mean normal of the faces
-// around the vertex, weighted by their angles. Vertices at one position count as one.
+// around the vertex, weighted by their angles. Vertices at one position count as one vertex.
 //
 // Edges stay sharp if the normals of their faces differ by more than crease_degrees. This angle is
 // in [0, 180] or CREASE_BY_SHAPE. No computed normal differs by more than crease_degrees from the
@@ -29,8 +29,8 @@ bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error);
 #define ANGLE_WINDOW_DEGREES 5
 #define ANGLE_WINDOWS        15
 
-// The number of edges by the angle between the normals of their two faces. Window i counts angles
-// from 5 * i up to 5 * i + 5 degrees.
+// Counts of edges by the angle between the normals of their two faces. Window i counts angles from
+// 5 * i up to 5 * i + 5 degrees.
 typedef struct {
     size_t edges; // all edges of two faces
     size_t windows[ANGLE_WINDOWS];

@@ -141,7 +141,7 @@ static bool read_polygon(Loader *loader, const PlyProperty *property, int64_t le
 // Reads a list of triangle strips. Three consecutive corners form a triangle, and the index -1 ends
 // a strip. Every second triangle lists its first two corners in reverse order, so that all
 // triangles of a strip face the same side. last[1] holds the latest of the strip's corners 1, 3, 5
-// and so on, and last[0] holds the latest of the others.
+// and so on, and last[0] holds the latest of the other corners.
 static bool read_strips(Loader *loader, const PlyProperty *property, int64_t length)
 {
     int64_t last[2] = {0, 0}, corner, held = 0;

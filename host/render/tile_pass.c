@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Draws tiles by launches. Three launches are in flight, each in its own command queue: the device
-// traces one while another is read back or finishes its last work-groups. With two launches, a
-// device that draws a tile of sky in 70 us would wait for the host.
+// traces one launch while another is read back or finishes its last work-groups. With two launches,
+// a device that draws a tile of sky in 70 us would wait for the host.
 //
 // On CPUs, a launch is a tile. All launches use one padded grid with offset 0, because PoCL
 // compiles another version of a kernel for each local size, for offsets and for large grids.

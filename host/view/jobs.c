@@ -21,7 +21,7 @@ typedef struct {
     double start; // clock time
 } Tracing;
 
-// Locks the status. Only code between begin_update and end_update may change it.
+// Locks the status. Only code between begin_update and end_update may change the status.
 static WorkerStatus *begin_update(Worker *worker)
 {
     pthread_mutex_lock(&worker->mutex);

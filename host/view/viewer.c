@@ -94,8 +94,8 @@ static void play_key(Viewer *viewer)
 }
 
 // Updates everything that depends on time: removes an old hint, notices that the camera rests, and
-// advances a camera that turns automatically. In the ray-traced view, such a camera waits until the
-// picture of its current position is traced. No camera turns while a save is requested.
+// advances a camera that turns automatically. In the ray-traced view, a turning camera waits until
+// the picture of its current position is traced. No camera turns while a save is requested.
 static void advance(Viewer *viewer)
 {
     const double now = clock_seconds();

@@ -174,7 +174,7 @@ static void draw_text(Viewer *viewer, const Figures *figures)
     text_view_draw(&viewer->views.text, &overlay);
 }
 
-// Copies text to shown. Returns whether they differed before.
+// Copies text to shown. Returns whether the two texts differed before.
 static bool is_news(char shown[STATE_SIZE], const char text[STATE_SIZE])
 {
     const bool differs = strcmp(text, shown) != 0;

@@ -22,8 +22,8 @@ typedef struct {
 // so no change is lost.
 bool watch_set(Watch *watch, const char *const *paths, size_t count, Error *error);
 
-// Checks the files. Reports a change only after two checks with equal signatures, so that no
-// half-written file is read.
+// Checks the files and returns whether they have changed. Reports a change only after two checks
+// with equal signatures, so that no half-written file is read.
 bool watch_poll(Watch *watch);
 
 void watch_free(Watch *watch);

@@ -53,7 +53,7 @@ static void take_character(GLFWwindow *handle, unsigned character)
 }
 
 // Converts GLFW's key to a key of controls.h, or to 0. Ctrl with a letter yields no character, so
-// the letter is found by its name.
+// find_key uses the letter's name.
 static int find_key(int key, int code, int modifiers)
 {
     static const int keys[][2] = {{GLFW_KEY_ESCAPE, KEY_ESCAPE},   {GLFW_KEY_LEFT, KEY_LEFT},

@@ -41,5 +41,5 @@ float window_density(const Window *window);
 // Switches to full screen on the primary monitor, or back.
 void window_set_full_screen(Window *window, bool is_full_screen);
 
-// Returns whether the driver has lost the context, with all objects in it.
+// Returns whether the driver has lost the context and its objects.
 bool window_is_lost(const Window *window);

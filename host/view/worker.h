@@ -74,10 +74,11 @@ Worker *worker_start(const WorkerSetup *setup, const WorkerRequest *request, Err
 void worker_request(Worker *worker, const WorkerRequest *request);
 void worker_poll(Worker *worker, WorkerStatus *status);
 
-// Returns the latest model with a reference that the caller releases. Returns NULL without a model.
+// Returns the latest model with a reference that the caller releases. Returns NULL if there is no
+// model yet.
 Model *worker_model(Worker *worker);
 
-// Returns whether the request is finished. PASS_COUNT may still be missing.
+// Returns whether the request is finished. The last pass, PASS_COUNT, is not required.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
 // Stops and frees the worker. If the worker does not stop within this many seconds, worker_stop

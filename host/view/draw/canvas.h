@@ -40,8 +40,8 @@ Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidd
 // Encodes the new tiles up to tiles_done, with colors multiplied by gain, and then counts them.
 void canvas_add_tiles(Canvas *canvas, Layer *layer, uint64_t tiles_done, double gain);
 
-// Ends a picture. If is_whole, its layer becomes the latest complete picture. Otherwise, the layer
-// becomes empty.
+// Ends a picture. If is_whole, the layer becomes the latest complete picture. Otherwise, it becomes
+// empty.
 void canvas_end(Canvas *canvas, Layer *layer, bool is_whole);
 
 // Encodes the latest complete picture again, with colors multiplied by gain. No other picture may

@@ -36,8 +36,8 @@ typedef struct {
     uint32_t count; // of loaded boxes
 } LineView;
 
-// If is_diagonal, the view draws a line from each box's `low` to its `high`. `low` may then exceed
-// `high`.
+// If is_diagonal, the view draws a line from each box's `low` to its `high`. In these lines, `low`
+// may exceed `high`.
 bool line_view_open(LineView *view, bool is_diagonal, Error *error);
 
 void line_view_load(LineView *view, const Box *boxes, size_t count);

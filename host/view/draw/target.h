@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An offscreen picture. It is larger than the window if it is anti-aliased. The window's own buffer
-// is not used, because pixels that other windows cover would be undefined in saved pictures.
+// An offscreen picture. An anti-aliased picture is larger than the window. The window's own buffer
+// is not used, because its pixels are undefined where other windows cover it.
 #pragma once
 
 #include "image/framebuffer.h"

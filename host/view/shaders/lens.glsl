@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Projects points like the camera of the rays. Perspective pictures have no far plane. Their depth
-// is 1 - nearest / distance. The depth of orthographic pictures is distance / farthest.
+// Projects points in the same way as the camera of traced pictures. Perspective pictures have no
+// far plane. Their depth is 1 - nearest / distance. The depth of orthographic pictures is distance
+// / farthest.
 uniform vec3 eye, forward;
 uniform vec3 clip_x, clip_y;          // dot products are -1 to 1 in the picture at distance 1
 uniform vec3 right_step, down_step;   // half a pixel at distance 1
