@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Growable arrays of any type. Example: ARRAY(Light) lights = {0}; array_push(&lights, light,
-// error). The anonymous union lets one function grow arrays of every type without breaking C's
-// aliasing rules.
+// Growable arrays of any type. `ARRAY(Light) lights = {0};` declares one, and array_push appends to
+// it. The anonymous union lets one function grow arrays of every type without breaking C's aliasing
+// rules.
 #pragma once
 
 #include "base/error.h"
@@ -35,6 +35,6 @@ void *memory_raw(size_t count, size_t size, Error *error);
 // Returns a copy of text, which the caller frees, or NULL if memory runs out.
 char *text_copy(const char *text, Error *error);
 
-// Like memory_raw, but for arrays with unused elements, which then take no physical memory. The
-// array has no huge pages, and no alignment to 64 bytes.
+// Like memory_raw, but unused elements take no physical memory. The array has no huge pages, and is
+// not aligned to 64 bytes.
 void *memory_sparse(size_t count, size_t size, Error *error);

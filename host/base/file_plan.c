@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Follows links, then identifies existing files by device and inode, and new files by name and by
-// their folder's device and inode. Sorting makes equal files adjacent, so checking a million frames
-// is fast.
+// Identifies existing files by device and inode, and new files by folder and name. Follows links
+// first. Sorting makes equal files adjacent, so checking a million frames is fast.
 #include "base/file_plan.h"
 
 #include "base/file.h"
@@ -19,8 +18,8 @@ static void take_identity(PlannedFile *file, const struct stat *status)
     file->inode = (uint64_t)status->st_ino;
 }
 
-// Returns the target of the symbolic link at path, as a path from the current folder. Returns NULL
-// if path is not a link or memory runs out. The caller frees the result.
+// Returns the target of the symbolic link at path, relative to the current folder. Returns NULL if
+// path is not a link or memory runs out. The caller frees the result.
 static char *read_link(const char *path, Error *error)
 {
     char target[4096];
@@ -87,7 +86,7 @@ bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *pa
     if (exists)
         take_identity(&file, &status);
     const bool ok = file.path != NULL && (exists || identify_new(&file, error));
-    // Ignores a file in a missing folder. It cannot be written, which a later check reports.
+    // Ignores a file in a missing folder. A later check reports that the file cannot be written.
     if (ok && file.inode != 0 && array_push(&plan->list, file, error))
         return true;
     free_file(&file);

@@ -2,10 +2,10 @@
 // Writes a temporary file beside the final name and renames it at the end. Renaming replaces a file
 // atomically for all readers, even if the process is killed.
 //
-// Killed runs leave temporary files, which later runs remove. A run locks its file until it ends,
-// so other runs remove only files that they can lock. On a shared disk, other machines may not see
-// these locks. A temporary file's name therefore contains the start of the system's boot id, and on
-// a shared disk a run removes only files with its own id.
+// Killed runs leave temporary files, which later runs remove. A run locks its own temporary files,
+// and removes only files that it can lock. On a shared disk, other machines may not see these
+// locks. A temporary file's name therefore contains the start of the system's boot id, and on a
+// shared disk a run removes only files whose names contain its own boot id.
 #include "base/output_file.h"
 
 #include "base/array.h"
@@ -58,9 +58,9 @@ static bool take_file(int file)
            fstat(file, &status) == 0 && status.st_nlink > 0;
 }
 
-// Creates and locks an empty file with an unused name. suffix points into name and receives the end
-// of the name. Returns the open file, or -1 on failure. open() gives the file the usual
-// permissions, while mkstemp() would make it private.
+// Creates and locks an empty file with an unused name. Writes the last part of the name to
+// `suffix`, which points into `name`. Returns the open file, or -1 on failure. open() gives the
+// file the usual permissions, while mkstemp() would make it private.
 static int make_file(char *suffix, const char *name)
 {
     char boot[BOOT_DIGITS + 1];

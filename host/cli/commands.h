@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The commands of clrt. Each returns the exit status, and fills error unless it returns EXIT_DONE.
-// check and compare leave error empty if they return EXIT_FAULTS, because their reports contain the
-// reason.
+// The commands of clrt. Each command returns the exit status, and fills error unless it returns
+// EXIT_DONE. check and compare leave error empty if they return EXIT_FAULTS, because their reports
+// contain the reason.
 #pragma once
 
 #include "base/file_plan.h"
@@ -40,7 +40,7 @@ TracingCommand check_scene;
 // clrt devices: lists the OpenCL devices as `clinfo -l` does, as versioned JSON, or both.
 ExitCode device_report_write(const Options *options, Error *error);
 
-// Checks the scene for commands other than check. With --bad-geometry fail, fails if there are
+// Checks the scene for commands other than check. With `--bad-geometry fail`, fails if there are
 // triangles without area. Otherwise, prints the scene's notes and the first mesh with dropped
 // triangles, unless --quiet is given.
 bool check_geometry(const Options *options, const Scene *scene, Error *error);
@@ -55,8 +55,8 @@ ExitCode merge_parts(const Options *options, Error *error);
 // clrt convert: writes a scene or mesh as scene text with binary PLY meshes, or as one PLY mesh.
 ExitCode convert_scene(const Options *options, Error *error);
 
-// The files of a run are the files that the command line names and, after the scene is read, the
-// scene's files.
+// The next two functions handle the files that the command line names and, after the scene is read,
+// the scene's files.
 
 // Adds to plan every file that the options name, and the files of scene unless scene is NULL.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);

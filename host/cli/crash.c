@@ -4,9 +4,9 @@
 // crash in the C library.
 //
 // LLVM installs its own handlers while it compiles a kernel. Its handler of SIGABRT does not call
-// ours, and its other handlers do not restore ours if two threads crash at once. The executable
-// therefore overrides the C library's sigaction and ignores requests to replace our handlers. Only
-// SIGFPE stays replaceable, because PoCL uses it to step over divisions by zero.
+// clrt's handler, and its other handlers do not restore clrt's if two threads crash at once. The
+// executable therefore overrides the C library's sigaction and ignores requests to replace clrt's
+// handlers. Only SIGFPE stays replaceable, because PoCL uses it to step over divisions by zero.
 #include "cli/crash.h"
 
 #include "cli/options/options.h"

@@ -27,7 +27,8 @@ static json_t *count_reason(uint32_t count)
     return count > 0 ? json_sprintf("%u of them", count) : json_string("there are none");
 }
 
-// Returns why a trait is needed or not. The reasons that are not in the table have numbers.
+// Returns why a trait is needed, or why not. The table of traits has only the reasons without
+// numbers.
 static json_t *part_reason(const Session *session, const SceneForm *form, const Trait *trait,
                            bool is_needed)
 {

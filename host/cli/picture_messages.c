@@ -11,7 +11,7 @@
 // Above this value of --error, the user may have meant a percentage.
 #define LARGE_ERROR 0.1
 
-// Parts of at least this many tiles take about equal time (docs/long-jobs.md).
+// Parts of at least this many tiles take about the same time (docs/long-jobs.md).
 #define PART_TILES 128
 
 void picture_warn_of_goal(const Options *options)

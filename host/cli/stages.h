@@ -19,7 +19,7 @@ SessionSettings stage_settings(const Options *options);
 // Sets the session's settings, and starts a thread that opens the device.
 void stage_begin(Session *session, const Options *options);
 
-// Reads the scene from a file or standard input, as the options say. Otherwise like scn_load.
+// Reads the scene as scn_load does, from the file that the options name or from standard input.
 bool stage_read(Scene *scene, const Options *options, Error *error);
 
 // Reads and checks the scene, and gives it to the session.

@@ -72,7 +72,7 @@ extern const char *const limit_names[LIMIT_KINDS];
 // that the limit needs.
 double limit_measured(LimitKind kind, const Difference *difference);
 
-// Returns whether the measured value is within the limit. A missing value is outside every limit.
+// Returns whether the measured value is within the limit. NAN is outside every limit.
 bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *difference);
 
 // The cause of a pixel's difference.

@@ -125,7 +125,8 @@ static Vec3 column_of(const Placement *placement, int column)
     return vec3(placement->rows[0][column], placement->rows[1][column], placement->rows[2][column]);
 }
 
-// Returns whether the placement changes no coordinates. Negative zeros in it count as zeros.
+// Returns whether the placement changes no coordinates. Negative zeros in the placement count as
+// zeros.
 static bool is_identity(const Placement *placement)
 {
     for (int row = 0; row < 3; row++)
@@ -169,8 +170,8 @@ static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
-// Transforms a normal. Normalizes it before and after the transform, so that large values do not
-// overflow.
+// Transforms a normal. Normalizes the normal before and after the transform, so that large values
+// do not overflow.
 static void transform_normal(const struct aiVector3D *given, const NormalMatrix *normal_matrix,
                              float normal[3])
 {
@@ -273,8 +274,8 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
     return *number - 1;
 }
 
-// Reserves memory for `count` more vertices. If any vertex of the part has a normal, the normals of
-// the other vertices are zero vectors.
+// Reserves memory for `count` more vertices. If any vertex of the part has a normal, vertices
+// without one get zero vectors.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals, bool has_colors)
 {
     Mesh *mesh = &sender->part.mesh;

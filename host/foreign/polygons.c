@@ -51,7 +51,7 @@ static bool is_blank(char byte)
     return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n' || byte == '\\';
 }
 
-// Returns the number of words after the first.
+// Returns the number of words in a line after the first word.
 static unsigned count_corners(const char *line, size_t size)
 {
     unsigned count = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Limits this process by setrlimit, and by an alarm for elapsed time.
 //
-// The memory for models has a soft limit. Each file that is read raises it, up to a hard limit. In
-// some formats, nodes can share children, so a short file can describe a vast model. The soft limit
-// stops such files early.
+// The memory for models has a soft limit. Each file that is read raises this limit, up to a hard
+// limit. In some formats, nodes can share children, so a short file can describe a vast model. The
+// soft limit stops such files early.
 #include "foreign/process_limits.h"
 
 #include "base/processors.h"
@@ -69,7 +69,8 @@ void limits_take(void)
     alarm(SECONDS);
 }
 
-// Returns the bytes mapped into this process so far, or 0 if the system does not report them.
+// Returns the number of bytes mapped into this process so far, or 0 if the system does not report
+// them.
 static rlim_t mapped_memory(void)
 {
     unsigned long pages = 0;

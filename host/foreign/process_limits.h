@@ -7,8 +7,8 @@
 #include <stdint.h>
 
 // Limits processor time, elapsed time, stack and open files. Closes all files but the standard
-// streams. From then on, the process gains no privileges, writes no file and dumps no core. It ends
-// when the thread that started it ends.
+// streams. From then on, the process gains no privileges, writes no file and dumps no core. The
+// process also ends when the thread that started it ends.
 void limits_take(void);
 
 // Limits memory, and forbids threads. limits_allow_file raises the limit of memory for each file.

@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-// Starts a record. The caller writes its `size` bytes of data.
+// Starts a record. The caller writes the `size` bytes of its data.
 void send_head(FILE *stream, ForeignKind kind, uint32_t number, size_t size);
 
 void send_bytes(FILE *stream, ForeignKind kind, const void *bytes, size_t size);

@@ -10,8 +10,7 @@
 #include <openexr.h>
 #include <stdio.h>
 
-// The side, in pixels, of a whole picture's tiles. A part's tiles have the size that --tune tile
-// sets.
+// The side, in pixels, of a whole picture's tiles. A part has its own tile size (--tune tile).
 #define EXR_TILE 64
 
 typedef struct {
@@ -37,14 +36,15 @@ bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned c
                    unsigned char *scratch);
 
 // Copies the values of a tile into framebuffer and layers. position is X and Y of the tile's upper
-// left pixel in both. Skips channels that are in neither. Returns false if the tile is damaged.
+// left pixel in both. Skips channels that are in neither of them. Returns false if the tile is
+// damaged.
 bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const Framebuffer *framebuffer, const Layers *layers,
                      const size_t position[2]);
 
 // Sets the pointers of a tile's channels to their values in framebuffer and layers. position is X
-// and Y of the tile's upper left pixel in both. layers may be NULL. Channels that are in neither
-// keep their pointers.
+// and Y of the tile's upper left pixel in both. layers may be NULL. Channels that are in neither of
+// them keep their pointers.
 void exr_place_channels(exr_coding_channel_info_t *channels, int count,
                         const Framebuffer *framebuffer, const Layers *layers,
                         const size_t position[2]);

@@ -4,7 +4,7 @@
 
 #include "image/stored_image.h"
 
-// Reads a picture file. The file's first bytes determine the format, not its name. libpng reads
+// Reads a picture file. The file's first bytes, not its name, determine the format. libpng reads
 // PNG, and pfm.c reads PFM. OpenImageIO reads the other formats that clrt writes, except GIF, in a
 // child process that may crash without harm. On failure, returns false with a message that names
 // the file. The caller frees the image.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes records, but does not sync them to disk. They survive if the process is killed. After a
-// power failure, records may be incomplete. Their checksums detect this.
+// Writes records, but does not sync them to disk. Written records survive if the process is killed.
+// After a power failure, records may be incomplete. Their checksums detect this.
 #include "jobs/journal.h"
 
 #include "base/output_file.h"

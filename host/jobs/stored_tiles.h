@@ -37,7 +37,7 @@ bool stored_tiles_has(const StoredImage *image, const Layers *layers);
 // Fills `part` for image_write. The caller frees part->tiles.
 bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *error);
 
-// Processes one tile. Threads call it concurrently for different tiles.
+// Processes one tile. Threads call this function concurrently for different tiles.
 typedef bool TileWork(const void *context, const Tile *tile, Error *error);
 
 // Calls work for tiles 0 to count - 1 on all processors. If tiles fail, returns false and the error
