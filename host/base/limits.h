@@ -8,6 +8,7 @@
 #define RADIUS_LEAST    1e-30
 #define RADIUS_MOST     1e30
 #define INTENSITY_MOST  1e30
+#define AREA_CELLS_MOST 16
 #define FOV_LEAST       1e-6 // degrees
 #define FOV_MOST        179.9999
 #define HEIGHT_LEAST    1e-30 // of an orthographic picture

@@ -148,6 +148,20 @@ CLRT_API bool clrt_scene_add_colored_light(ClrtScene *scene, const double positi
 CLRT_API bool clrt_scene_add_sun(ClrtScene *scene, const double direction[3], double intensity,
                                  const double color[3], ClrtError *error);
 
+// A parallelogram that emits light, divided into cells * cells cells. Each has one point light.
+typedef struct {
+    size_t size;
+    double position[3]; // of the center
+    double side_u[3], side_v[3];
+    uint32_t cells;   // along each side, in [1, 16]
+    double intensity; // of all points together, in [0, 1e30]
+    double color[3];
+} ClrtAreaLight;
+
+// Adds the area light's points as lights.
+CLRT_API bool clrt_scene_add_area_light(ClrtScene *scene, const ClrtAreaLight *light,
+                                        ClrtError *error);
+
 typedef struct {
     size_t size;
     double eye[3], look_at[3];

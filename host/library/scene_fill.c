@@ -102,6 +102,27 @@ bool clrt_scene_add_sun(ClrtScene *scene, const double direction[3], double inte
     return add_light(scene, &sun, error);
 }
 
+bool clrt_scene_add_area_light(ClrtScene *scene, const ClrtAreaLight *light, ClrtError *error)
+{
+    ClrtAreaLight given;
+    Error cause = {0};
+    if (!check_given(error, "the scene", scene) ||
+        !check_struct(error, "the light", light, &given, sizeof given) ||
+        !check_vector(error, "the position", given.position, COORDINATE_MOST) ||
+        !check_vector(error, "side_u", given.side_u, COORDINATE_MOST) ||
+        !check_vector(error, "side_v", given.side_v, COORDINATE_MOST) ||
+        !check_number(error, "the number of cells", given.cells, 1, AREA_CELLS_MOST) ||
+        !check_number(error, "the intensity", given.intensity, 0, INTENSITY_MOST) ||
+        !check_color(error, "the light's color", given.color))
+        return false;
+    const Light center = {vec3_of_doubles(given.position), given.intensity,
+                          vec3_of_doubles(given.color), false};
+    const LightArea area = {{vec3_of_doubles(given.side_u), vec3_of_doubles(given.side_v)},
+                            given.cells};
+    const bool ok = scene_add_area_light(&scene->scene, &center, &area, &cause);
+    return scene_handle_changed(scene, ok, &cause, error);
+}
+
 // Fails unless the angles of a perspective camera, or the sides of an orthographic one, are valid.
 static bool check_extent(const ClrtCamera *camera, ClrtError *error)
 {

@@ -72,6 +72,25 @@ bool scene_complete(Scene *scene, Error *error)
     return true;
 }
 
+// The points' projections onto each side are evenly spaced, so that soft shadows show no steps of
+// whole rows (Chiu, Shirley and Wang, "Multi-jittered sampling", 1994).
+bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error)
+{
+    const double cells = area->cells;
+    Light point = *light;
+    bool ok = true;
+    point.intensity /= cells * cells;
+    for (uint32_t i = 0; ok && i < area->cells * area->cells; i++) {
+        const double column = i % area->cells, row = i / area->cells;
+        const double u = (column + (row + 0.5) / cells) / cells - 0.5;
+        const double v = (row + (column + 0.5) / cells) / cells - 0.5;
+        const Vec3 aside = vec3_add(vec3_scale(area->sides[0], u), vec3_scale(area->sides[1], v));
+        point.position = vec3_add(light->position, aside);
+        ok = array_push(&scene->lights, point, error);
+    }
+    return ok;
+}
+
 const char *viewpoint_fault(const Viewpoint *viewpoint)
 {
     const Vec3 forward = vec3_normalize(vec3_sub(viewpoint->look_at, viewpoint->eye));

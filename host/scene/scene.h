@@ -28,6 +28,12 @@ typedef struct {
     bool is_sun;      // infinitely far away
 } Light;
 
+// A parallelogram around a light's position, divided into cells * cells cells.
+typedef struct {
+    Vec3 sides[2];
+    uint32_t cells; // along each side, in [1, AREA_CELLS_MOST]
+} LightArea;
+
 static inline Light light_white(Vec3 position, double intensity)
 {
     return (Light){position, intensity, {1, 1, 1}, false};
@@ -86,6 +92,10 @@ bool scene_init(Scene *scene, Error *error);
 
 // Adds the course's six viewpoints if the scene has no viewpoint.
 bool scene_complete(Scene *scene, Error *error);
+
+// Replaces the light by point lights in the cells of the area, one in each, and adds these to the
+// scene. Together they have the light's intensity.
+bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error);
 
 // Combine a hash of the bytes with scene->hash. scene_hash_mesh also combines it with
 // scene->mesh_hash.

@@ -23,30 +23,64 @@ typedef struct {
     Error *error;
 } Parser;
 
-// Reads a light. The first three numbers of a sun are a vector toward it.
-static bool read_light_or_sun(Parser *parser, bool is_sun)
+static bool next_is(const Tokens *tokens, const char *word)
 {
-    double position[3], intensity, color[3] = {1, 1, 1};
-    Tokens *tokens = &parser->tokens;
-    bool ok = tokens_numbers(tokens, 3, position) &&
-              tokens_number_within(tokens, &intensity, 0, INTENSITY_MOST);
-    const bool is_colored = ok && tokens_have_more(tokens);
-    for (int i = 0; is_colored && ok && i < 3; i++)
-        ok = tokens_number_within(tokens, &color[i], 0, 1);
-    const Light light = {vec3_of_doubles(position), intensity, vec3_of_doubles(color), is_sun};
-    if (ok && is_sun && vec3_extent(light.position) == 0)
-        return tokens_fail(tokens, tokens->last, "the direction of a sun must not be zero");
-    return ok && array_push(&parser->scene->lights, light, parser->error);
+    Tokens ahead = *tokens;
+    return token_is(tokens_next(&ahead), word);
+}
+
+// If the next token is this word, skips the token and returns true.
+static bool skip_word(Tokens *tokens, const char *word)
+{
+    const bool found = next_is(tokens, word);
+    if (found)
+        tokens_next(tokens);
+    return found;
+}
+
+static bool read_color(Tokens *tokens, Vec3 *color)
+{
+    return tokens_number_within(tokens, &color->x, 0, 1) &&
+           tokens_number_within(tokens, &color->y, 0, 1) &&
+           tokens_number_within(tokens, &color->z, 0, 1);
+}
+
+// Reads a light up to its color. The position of a sun is a vector toward it.
+static bool read_light_or_sun(Tokens *tokens, Light *light)
+{
+    double position[3];
+    if (!tokens_numbers(tokens, 3, position) ||
+        !tokens_number_within(tokens, &light->intensity, 0, INTENSITY_MOST))
+        return false;
+    light->position = vec3_of_doubles(position);
+    light->color = vec3(1, 1, 1);
+    return !tokens_have_more(tokens) || next_is(tokens, "area") ||
+           read_color(tokens, &light->color);
 }
 
 static bool read_light(Parser *parser)
 {
-    return read_light_or_sun(parser, false);
+    Light light = {.is_sun = false};
+    Tokens *tokens = &parser->tokens;
+    double sides[6] = {0};
+    int64_t cells = 1;
+    if (!read_light_or_sun(tokens, &light) ||
+        (skip_word(tokens, "area") &&
+         !(tokens_numbers(tokens, 6, sides) && tokens_integer(tokens, &cells, 1, AREA_CELLS_MOST))))
+        return false;
+    const LightArea area = {{vec3_of_doubles(sides), vec3_of_doubles(sides + 3)}, (uint32_t)cells};
+    return scene_add_area_light(parser->scene, &light, &area, parser->error);
 }
 
 static bool read_sun(Parser *parser)
 {
-    return read_light_or_sun(parser, true);
+    Light sun = {.is_sun = true};
+    if (!read_light_or_sun(&parser->tokens, &sun))
+        return false;
+    if (vec3_extent(sun.position) == 0)
+        return tokens_fail(&parser->tokens, parser->tokens.last,
+                           "the direction of a sun must not be zero");
+    return array_push(&parser->scene->lights, sun, parser->error);
 }
 
 static bool read_sphere(Parser *parser)
@@ -94,16 +128,6 @@ static bool read_picture_sides(Tokens *tokens, double low, double high, double s
 {
     return tokens_number_within(tokens, &sides[0], low, high) &&
            (!tokens_have_more(tokens) || tokens_number_within(tokens, &sides[1], low, high));
-}
-
-// If the next token is this word, skips the token and returns true.
-static bool skip_word(Tokens *tokens, const char *word)
-{
-    Tokens ahead = *tokens;
-    const bool found = token_is(tokens_next(&ahead), word);
-    if (found)
-        *tokens = ahead;
-    return found;
 }
 
 static bool read_camera(Parser *parser)
@@ -154,10 +178,7 @@ static bool read_size(Parser *parser)
 
 static bool read_background(Parser *parser)
 {
-    Vec3 *background = &parser->scene->background;
-    return tokens_number_within(&parser->tokens, &background->x, 0, 1) &&
-           tokens_number_within(&parser->tokens, &background->y, 0, 1) &&
-           tokens_number_within(&parser->tokens, &background->z, 0, 1);
+    return read_color(&parser->tokens, &parser->scene->background);
 }
 
 static bool read_ambient(Parser *parser)
@@ -207,7 +228,7 @@ static const struct {
     {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES|orthographic HEIGHT [WIDTH]",
      read_camera},
     {"define", "define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...", read_define},
-    {"light", "light X Y Z INTENSITY [R G B]", read_light},
+    {"light", "light X Y Z INTENSITY [R G B] [area UX UY UZ VX VY VZ N]", read_light},
     {"material", "material NUMBER|NAME|own [NUMBER|NAME]", read_material},
     {"max_level", "max_level N", read_max_level},
     {"mesh", "mesh PATH [up AXIS] [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]",

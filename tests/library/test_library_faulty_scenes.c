@@ -51,6 +51,10 @@ TEST(null_arguments_are_named)
     REFUSES(clrt_scene_add_light(scene, NULL, 1, &error), "the position is NULL");
     REFUSES(clrt_scene_add_colored_light(scene, three, 1, NULL, &error),
             "the light's color is NULL");
+    REFUSES(clrt_scene_add_area_light(scene, NULL, &error), "the light is NULL");
+    REFUSES(clrt_scene_add_area_light(
+                scene, &(ClrtAreaLight){.size = sizeof(ClrtAreaLight), .cells = 17}, &error),
+            "the number of cells is 17, not between 1 and 16");
     REFUSES(clrt_scene_add_sun(scene, NULL, 1, three, &error), "the direction is NULL");
     REFUSES(clrt_scene_add_sun(scene, (const double[3]){0}, 1, (const double[3]){1, 1, 1}, &error),
             "the direction of a sun must not be zero");

@@ -66,13 +66,14 @@ class Pictures(unittest.TestCase):
         self.assertEqual(clrt.hash(scene.render(32, 32, camera=clrt.Camera((9, 0, 0), height=4))),
                          clrt.hash(scene.render(32, 32)))
 
-    def test_suns_shine_as_in_scene_files(self):
+    def test_suns_and_area_lights_shine_as_in_scene_files(self):
         scene = clrt.Scene()
         scene.sphere((0, 0, 0), 1)
+        scene.light((9, 1, 5), 0.5, area=((1, 2, 0), (0, 1, 1), 3))
         scene.light((1, -2, 3), 0.7, (1, 0.5, 0.25), is_sun=True)
         scene.camera((9, 0, 0), fov=30)
         with tempfile.NamedTemporaryFile("w", suffix=".scn") as file:
-            file.write("material 1\nsphere 0 0 0 1\nsun 1 -2 3 0.7 1 0.5 0.25\ncamera 9 0 0 0 0 0 30\n")
+            file.write("material 1\nsphere 0 0 0 1\nlight 9 1 5 0.5 area 1 2 0 0 1 1 3\nsun 1 -2 3 0.7 1 0.5 0.25\ncamera 9 0 0 0 0 0 30\n")
             file.flush()
             self.assertEqual(clrt.hash(scene.render(32, 32)), clrt.hash(clrt.load(file.name).render(32, 32)))
 

@@ -58,6 +58,23 @@ TEST(spheres_take_the_material_before_them)
     assert_true(scene.materials.data[3].reflectivity == 0.25f);
 }
 
+TEST(the_points_of_an_area_light_are_evenly_spaced_and_share_its_intensity)
+{
+    FREED_BY(scene_free)
+    Scene scene = parsed("light 1 2 3 8 1 0.5 0 area 4 0 0 0 0 16 2\n"
+                         "light 1 2 3 0.7 area 4 0 0 0 0 16 1");
+    static const double x[] = {-0.5, 1.5, 0.5, 2.5}, z[] = {-3, 1, 5, 9};
+    assert_int_equal(scene.lights.count, 5);
+    for (int i = 0; i < 4; i++) {
+        const Light *light = &scene.lights.data[i];
+        assert_true(light->position.x == x[i] && light->position.y == 2 &&
+                    light->position.z == z[i]);
+        assert_true(light->intensity == 2 && light->color.y == 0.5);
+    }
+    const Light *single = &scene.lights.data[4];
+    assert_true(single->position.x == 1 && single->position.z == 3 && single->intensity == 0.7);
+}
+
 TEST(suns_are_lights_with_a_direction)
 {
     FREED_BY(scene_free) Scene scene = parsed("light 1 2 3 0.5\nsun 0 -3 4 0.5 0.25 1 0");
@@ -184,7 +201,7 @@ TEST(different_scenes_have_different_hashes)
 }
 
 #define STATEMENT "; the statement is "
-#define LIGHT     STATEMENT "'light X Y Z INTENSITY [R G B]'"
+#define LIGHT     STATEMENT "'light X Y Z INTENSITY [R G B] [area UX UY UZ VX VY VZ N]'"
 #define SUN       STATEMENT "'sun X Y Z INTENSITY [R G B]'"
 #define SPHERE    STATEMENT "'sphere X Y Z RADIUS'"
 #define DEFINE    STATEMENT "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'"
@@ -206,6 +223,11 @@ TEST(faults_name_line_column_and_the_statement)
         {"light 0 0 0 1 1 0", "1:18: expected a number: found the end of the line" LIGHT},
         {"light 0 0 0 1 1 0 1.5", "1:19: expected a number between 0 and 1: found '1.5'" LIGHT},
         {"light 0 0 0 1 1 1 1 1", "1:21: expected nothing more: found '1'" LIGHT},
+        {"light 0 0 0 1 area 1 0 0 0 1 0",
+         "1:31: expected an integer between 1 and 16: found the end of the line" LIGHT},
+        {"light 0 0 0 1 area 1 0 0 0 1 0 17",
+         "1:32: expected an integer between 1 and 16: found '17'" LIGHT},
+        {"sun 0 0 1 1 area 1 0 0 0 1 0 2", "1:13: expected nothing more: found 'area'" SUN},
         {"sun 0 0 0 1", "1:11: the direction of a sun must not be zero: found '1'" SUN},
         {"sun 0 0 1 1 2", "1:13: expected a number between 0 and 1: found '2'" SUN},
         {"spheer 0 0 0 1", "1:1: unknown statement (did you mean 'sphere'?): found 'spheer'"},

@@ -60,6 +60,7 @@ TEST(every_statement_comes_back)
         "camera 1 2 3.3333333333333335 0 0 0 33.3\nup 0 1 0.1\ncamera 9 9 9 0 0 0 60 70.1\n"
         "camera 9 9 8 0 0 0 orthographic 0.1\ncamera 9 9 7 0 0 0 orthographic 3.3 4.4\n"
         "light 0.1 1e29 -1e-29 0.3\nlight 0 0 0 1 0.1 1 0.30000000000000004\n"
+        "light 3 4 5 0.7 0.1 1 0.3 area 0.1 0.2 0 0 0.3 1e-9 3\n"
         "sun 0.1 -1e29 1e-29 0.3\nsun 0 0 1 0 0.1 1 0.2\n"
         "define gold blinn_phong diffuse 1 .8 .2 shininess 200.5 reflectivity .3 ks 3.3 kd 0.7\n"
         "define \"my wax\" matte diffuse 0.1 0.2 0.3 checker 0.1 .1 .2 .3 .9 .8 .7 kd 0.9\ndefine "

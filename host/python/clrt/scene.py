@@ -83,8 +83,17 @@ class Scene:
              _material(material))
 
     def light(self, position: ArrayLike, intensity: float = 1.0,
-              color: ArrayLike = (1, 1, 1), is_sun: bool = False) -> None:
-        """Adds a light without attenuation. A sun is infinitely far away, toward the position."""
+              color: ArrayLike = (1, 1, 1), is_sun: bool = False,
+              area: tuple[ArrayLike, ArrayLike, int] | None = None) -> None:
+        """Adds a light without attenuation. A sun is infinitely far away, toward the position.
+
+        area: both sides of a parallelogram around the position, and a number n up to 16. The light
+        then consists of n * n points, and casts soft shadows.
+        """
+        if area is not None:
+            given = struct("ClrtAreaLight", position=position, side_u=area[0], side_v=area[1],
+                           cells=area[2], intensity=intensity, color=color)
+            return call("scene_add_area_light", self._handle, given)
         call("scene_add_sun" if is_sun else "scene_add_colored_light", self._handle,
              vector(position, "position"), intensity, vector(color, "color"))
 
