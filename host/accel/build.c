@@ -91,8 +91,8 @@ Split split_midpoint(const BuildRange *range)
 // The most triangles in a leaf.
 #define LARGEST_LEAF 8
 
-// From this depth on, nodes that are too large for a leaf are halved. This bounds the depth of the
-// tree.
+// From this depth on, nodes that are too large for a leaf are halved. Halving bounds the depth of
+// the tree.
 #define MEDIAN_SPLIT_DEPTH 32
 
 // Costs are relative to one test of a leaf, which covers one triangle or one block.

@@ -147,8 +147,8 @@ static MeshFault flat_triangles(const Mesh *mesh)
     return flat;
 }
 
-// Returns whether no triangle of the object has the fault. Otherwise, fills error with a message
-// that contains text.
+// Returns whether no triangle of the object has the fault. Otherwise, fills `error` with a message
+// that contains `text`.
 static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fault,
                      const char *text, Error *error)
 {

@@ -97,7 +97,8 @@ static EnclosedEyes enclosed_eyes_find(const Scene *scene, const Census *census)
     return first;
 }
 
-// Returns a point's coordinate along a side of the picture, in units of half the side at depth 1.
+// Returns a point's coordinate along a side of the picture. The unit is half of the side's length
+// at depth 1.
 static double across(Vec3 point, const float half_step[3], uint32_t side)
 {
     const Vec3 step = vec3_of_floats(half_step);

@@ -12,7 +12,7 @@ bool upload_array(const Device *device, const FlatArray *array, cl_mem *buffer, 
 // Makes an uninitialized buffer of `size` bytes.
 bool device_buffer(const Device *device, size_t size, cl_mem *buffer, Error *error);
 
-// Waits for the device's queue and copies `size` bytes of a buffer to target.
+// Waits for the device's queue and copies `size` bytes of a buffer to `target`.
 bool device_read(const Device *device, cl_mem buffer, void *target, size_t size, Error *error);
 
 // Both functions release the object, unless it is NULL, and set it to NULL.

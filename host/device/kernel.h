@@ -33,7 +33,7 @@ typedef struct {
     uint32_t group[2];
 } KernelSpec;
 
-// Returns the kernel for spec, or NULL. The kernel belongs to the set.
+// Returns the kernel for `spec`, or NULL on failure. The kernel belongs to the set.
 const Kernel *kernel_set_get(KernelSet *set, const KernelSpec *spec, Error *error);
 
 // Returns whether the set has the kernel for spec, or the cache has its program.

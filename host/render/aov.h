@@ -53,15 +53,15 @@ typedef uint32_t AovSet;
 // reference. Fails on an unknown name or a repeated channel.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
-// Returns whether any channel in set has this need.
+// Returns whether any channel in `set` has this need.
 bool aov_needs(AovSet set, AovNeed need);
 
-// Appends the names and types of the channels in set to layers, in the table's order.
+// Appends the names and types of the channels in `set` to `layers`, in the table's order.
 void aov_name_layers(AovSet set, Layers *layers);
 
-// Stores one pixel's values for all channels in set, in the table's order. Floats are stored as
+// Stores one pixel's values for all channels in `set`, in the table's order. Floats are stored as
 // their bits. Counts of tests and the error are stored as 0.
 void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene);
 
-// Replaces the counts of tests in values. tests holds the counts over all samples.
+// Replaces the counts of tests in `values`. `tests` holds the counts over all samples.
 void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KINDS]);

@@ -20,7 +20,7 @@ typedef struct {
     const CertaintyMap *certainty; // the picture's map; NULL if no channel needs it
 } AovPass;
 
-// Computes the channels into layers, tile by tile. Stops when the observer returns false. layers
-// must have the names of pass->set (aov_name_layers) and the picture's size.
+// Computes the channels into `layers`, tile by tile. Stops when the observer returns false.
+// `layers` must have the names of pass->set (aov_name_layers) and the picture's size.
 bool aov_pass_draw(const AovPass *pass, const RenderObserver *observer, Layers *layers,
                    Error *error);

@@ -19,7 +19,7 @@ typedef struct {
     void *context;
 } RenderObserver;
 
-// Calls the observer and returns whether to continue. observer and its function may be NULL.
+// Calls the observer and returns whether to continue. The observer and its function may be NULL.
 static inline bool render_observer_continues(const RenderObserver *observer,
                                              const RenderProgress *progress)
 {
@@ -38,7 +38,7 @@ typedef struct {
     double seconds;             // time of the upload
 } SceneBuffers;
 
-// Uploads the scene, or shares its memory with the device. flat must outlive the buffers.
+// Uploads the scene, or shares its memory with the device. `flat` must outlive the buffers.
 bool scene_buffers_make(SceneBuffers *buffers, const Device *device, const FlatScene *flat,
                         Error *error);
 void scene_buffers_free(SceneBuffers *buffers);

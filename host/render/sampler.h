@@ -25,7 +25,7 @@ typedef struct {
     uint32_t count;
 } SampleList;
 
-// Traces the requests in list. The renderer's kernel must have sample_entry or ladder_entry.
+// Traces the requests in `list`. The renderer's kernel must have sample_entry or ladder_entry.
 // renderer->progress counts every 4096 work-items as a tile, and keeps its previous counts. If the
 // observer stops the trace early, tiles_done stays below tiles, and some results are undefined.
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,

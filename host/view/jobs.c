@@ -78,7 +78,7 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return is_current(tracing);
 }
 
-// Updates the measured time per sample. part is the finished fraction of the pass. The first
+// Updates the measured time per sample. `part` is the finished fraction of the pass. The first
 // measurement replaces the guess. Each later measurement raises the time by at most half, because
 // other processes may have slowed the picture.
 static void update_sample_cost(Worker *worker, const Pass *pass, double seconds, double part)

@@ -50,6 +50,6 @@ RenderSettings tracer_settings(const ViewTracer *tracer, const Pass *pass);
 bool tracer_draw(ViewTracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error);
 
-// Writes the explanation of a pixel of the shot. head provides pixel, encoding and is_brief.
+// Writes the explanation of a pixel of the shot. `head` provides pixel, encoding and is_brief.
 bool tracer_explain(ViewTracer *tracer, const Shot *shot, const ExplainReport *head, FILE *stream,
                     Error *error);

@@ -20,8 +20,8 @@ typedef struct {
     double latest; // clock time of the latest frame; 0 at first and after the camera has stopped
 } FrameTimes;
 
-// Prints the statistics. frames is the number of complete pictures of PASS_MOVING. coarse is the
-// number of these pictures with fewer pixels than the window.
+// Prints the statistics. `frames` is the number of complete pictures of PASS_MOVING, and `coarse`
+// is the number of these pictures with fewer pixels than the window.
 void frame_times_write(const FrameTimes *times, uint64_t coarse, uint64_t frames, FILE *stream);
 void frame_times_free(FrameTimes *times);
 

@@ -69,7 +69,7 @@ static bool pictures_save(const Framebuffer *shown, const Framebuffer *traced, c
     return true;
 }
 
-// Records a displayed frame of a turning camera. moment is in seconds.
+// Records a displayed frame of a turning camera. `moment` is in seconds.
 static bool frame_times_add(FrameTimes *times, double moment, Error *error)
 {
     const double before = times->latest;
@@ -174,7 +174,7 @@ static void draw_text(Viewer *viewer, const Figures *figures)
     text_view_draw(&viewer->views.text, &overlay);
 }
 
-// Copies text to shown. Returns whether the two texts differed before.
+// Copies `text` to `shown`. Returns whether the two texts differed before.
 static bool is_news(char shown[STATE_SIZE], const char text[STATE_SIZE])
 {
     const bool differs = strcmp(text, shown) != 0;

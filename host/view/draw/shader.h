@@ -51,7 +51,7 @@ void shader_set_number(GLuint program, const char *name, double value);
 void shader_set_integer(GLuint program, const char *name, int value);
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
 
-// Vertices of a cube. Their coordinates are -1 or 1 for faces, and 0 or 1 for edges.
+// Vertices of a cube, with coordinates -1 or 1 for faces, and 0 or 1 for edges.
 #define CUBE_FACE_VERTICES 36
 #define CUBE_EDGE_VERTICES 24 // followed by two vertices of a diagonal
 
@@ -72,7 +72,7 @@ typedef struct {
     bool is_srgb;
 } Tone;
 
-// Sets the uniforms that objects share: lights, background, tone. program must be current.
+// Sets the uniforms that objects share: lights, background, tone. `program` must be current.
 void light_apply(const Scene *scene, const Normalization *normalization, const Tone *tone,
                  GLuint program);
 

@@ -9,7 +9,7 @@ uniform vec2 size;                    // of the picture in pixels
 uniform float nearest;
 uniform float farthest;               // 0 for a perspective picture
 
-// Returns the depth of a point. offset is the point relative to the eye.
+// Returns the depth of a point. `offset` is the point relative to the eye.
 float depth_of(vec3 offset)
 {
     float distance = dot(offset, forward);
@@ -23,7 +23,7 @@ vec3 toward_eye(vec3 place)
 }
 
 #ifdef VERTEX
-// Projects a point, and clips parts behind the eye. offset is the point relative to the eye.
+// Projects a point, and clips parts behind the eye. `offset` is the point relative to the eye.
 vec4 projected(vec3 offset)
 {
     float distance = dot(offset, forward);
