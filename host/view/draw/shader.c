@@ -93,12 +93,12 @@ void drawing_fill(const Drawing *drawing, int buffer, const void *bytes, size_t 
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)size, bytes, GL_STATIC_DRAW);
 }
 
-void shader_set_number(GLuint program, const char *name, double value)
+static void set_number(GLuint program, const char *name, double value)
 {
     glUniform1f(glGetUniformLocation(program, name), (GLfloat)value);
 }
 
-void shader_set_integer(GLuint program, const char *name, int value)
+static void set_integer(GLuint program, const char *name, int value)
 {
     glUniform1i(glGetUniformLocation(program, name), value);
 }
@@ -178,8 +178,8 @@ void lens_apply(const Lens *lens, GLuint program)
     shader_set_vector(program, "clip_y", lens->clip_y);
     shader_set_vector(program, "right_step", lens->camera.right_step);
     shader_set_vector(program, "down_step", lens->camera.down_step);
-    shader_set_number(program, "nearest", (double)lens->nearest);
-    shader_set_number(program, "farthest", (double)lens->farthest);
+    set_number(program, "nearest", (double)lens->nearest);
+    set_number(program, "farthest", (double)lens->farthest);
     glUniform2f(glGetUniformLocation(program, "size"), lens->width, lens->height);
 }
 
@@ -207,11 +207,11 @@ void light_apply(const Scene *scene, const Normalization *normalization, const T
     vec3_store(background, scene->background);
     glUniform4fv(glGetUniformLocation(program, "lights"), count, lights[0]);
     glUniform3fv(glGetUniformLocation(program, "light_colors"), count, colors[0]);
-    shader_set_integer(program, "light_count", count);
+    set_integer(program, "light_count", count);
     shader_set_vector(program, "background", background);
-    shader_set_number(program, "ambient", scene->ambient);
-    shader_set_number(program, "gain", tone->gain);
-    shader_set_integer(program, "is_srgb", tone->is_srgb);
+    set_number(program, "ambient", scene->ambient);
+    set_number(program, "gain", tone->gain);
+    set_integer(program, "is_srgb", tone->is_srgb);
 }
 
 void light_store_material(float vectors[MATERIAL_VECTORS][4], const Material *material,

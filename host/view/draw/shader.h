@@ -46,9 +46,7 @@ void drawing_use(const Drawing *drawing);
 // Replaces the contents of a buffer.
 void drawing_fill(const Drawing *drawing, int buffer, const void *bytes, size_t size);
 
-// Set uniforms of the current program by name. Ignore names that the program does not use.
-void shader_set_number(GLuint program, const char *name, double value);
-void shader_set_integer(GLuint program, const char *name, int value);
+// Sets a uniform of the current program. Ignores names that the program does not use.
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
 
 // Vertices of a cube, with coordinates -1 or 1 for faces, and 0 or 1 for edges.
