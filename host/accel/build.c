@@ -88,7 +88,7 @@ Split split_midpoint(const BuildRange *range)
 #define FEW_ITEMS 32
 #define FEW_BINS  8
 
-// The most triangles in a leaf.
+// The largest number of triangles in a leaf.
 #define LARGEST_LEAF 8
 
 // From this depth on, nodes that are too large for a leaf are halved. Halving bounds the depth of

@@ -11,7 +11,7 @@
 
 #include <stdlib.h>
 
-// The most triangles in a subtree that one thread builds.
+// The largest number of triangles in a subtree that one thread builds.
 #define SUBTREE_TRIANGLES 65536
 
 typedef struct {

@@ -30,7 +30,7 @@ typedef struct {
     Bvh bvh;
 } CompileStages;
 
-// The input of scene_compile, which runs all stages: triangles, tree and flattening.
+// The input of scene_compile. This function runs all stages: triangles, tree and flattening.
 typedef struct {
     const Scene *scene;
     const CompileStages *given; // of this scene, with a tree; NULL: scene_compile makes them

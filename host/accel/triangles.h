@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// The order in which a triangle's corners are stored for the device (kernels/shared.h).
+// The order of a triangle's corners on the device (kernels/shared.h).
 typedef struct {
     uint8_t places[3]; // places in the file, 0 to 2, of the corners sorted by x, then y, then z
     bool reversed;     // sorting swaps front and back

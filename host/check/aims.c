@@ -2,7 +2,7 @@
 // Makes aims, and rays toward the aims. A ray is cast only if all triangles around its aim face its
 // origin. In a closed mesh, the exact ray then hits one of these triangles, so a ray that passes
 // shows a leak. The bounds on rounding are generous: aims get no ray if angles are too sharp or
-// triangles too small.
+// triangles are too small.
 #include "check/aims.h"
 
 #include "base/array.h"

@@ -15,7 +15,7 @@ typedef struct {
     MeshFault crowded;    // edges of more than two triangles
     MeshFault turned;     // edges that both triangles follow in the same direction
     MeshFault pinched;    // points whose triangles form several fans
-    MeshFault duplicates; // triangles with the corners of an earlier one, in any order
+    MeshFault duplicates; // triangles with the corners of an earlier triangle, in any order
     bool is_closed;       // the mesh has triangles, and none of the first four faults
     bool is_inside_out;   // the mesh is closed, and the fronts face inwards
 } Closedness;
@@ -36,9 +36,9 @@ typedef struct {
     MeshCensus *meshes; // by object; owned
     size_t mesh_count;
     size_t empty_meshes;      // objects without a triangle
-    size_t duplicate_meshes;  // objects with the triangles of an earlier one
-    size_t duplicate_spheres; // spheres with center and radius of an earlier one
-    size_t duplicate_lights;  // lights at the position of an earlier one
+    size_t duplicate_meshes;  // objects with the triangles of an earlier object
+    size_t duplicate_spheres; // spheres with the center and radius of an earlier sphere
+    size_t duplicate_lights;  // lights at the position of an earlier light
     size_t unused_materials;  // materials that the file defines, but no object uses
 } Census;
 

@@ -13,7 +13,7 @@
 
 typedef struct {
     size_t count;  // views whose eye is inside a sphere or a closed mesh
-    size_t view;   // the first one, from 1
+    size_t view;   // number of the first such view, from 1
     size_t sphere; // the sphere that contains its eye, from 1; 0 for a mesh
     size_t object; // the mesh that contains its eye, if sphere is 0
 } EnclosedEyes;
@@ -24,7 +24,7 @@ typedef struct {
 
 #define TAU 6.283185307179586477
 
-// The distance from the picture's center beyond which a corner is out of view, in units of half the
+// A corner is out of view beyond this distance from the picture's center. The unit is half of the
 // picture's side. The margin above 1 exceeds rounding errors.
 #define MARGIN 1.001
 

@@ -29,8 +29,8 @@ bool kernel_is_valid(const KernelRequest *request)
                : lanes == 0;
 }
 
-// CPU platforms on which packets compile or trace so slowly that single rays are faster in
-// most runs. docs/devices.md has the measurements.
+// On these CPU platforms, packets compile or trace so slowly that single rays are faster in most
+// runs. docs/devices.md has the measurements.
 static const char *const slow_with_packets[] = {"Intel(R) OpenCL", "rusticl"};
 
 bool kernel_suits_packets(const Device *device)

@@ -10,13 +10,13 @@ typedef struct {
     bool is_cpu;
     bool is_wide; // the kernel has wide nodes, so a work-item renders a block of pixels
     uint32_t compute_units;
-    uint32_t group_limit;    // the most work-items of the kernel's groups; 0 if unknown
+    uint32_t group_limit;    // largest number of work-items in the kernel's groups; 0 if unknown
     uint32_t group_multiple; // group sizes should be multiples of this; 0 if unknown
 } LaunchFacts;
 
 typedef struct {
     uint32_t group[2]; // work-items, along x and y
-    uint32_t items;    // the most work-items of a launch; on GPUs, also its most pixels
+    uint32_t items;    // largest number of a launch's work-items and, on GPUs, pixels
     bool is_paced;     // launches must be short, and may contain several tiles or part of a tile
 } LaunchShape;
 

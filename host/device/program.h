@@ -19,7 +19,7 @@ typedef struct {
     const char *options;   // compiler options; may be NULL
     const char *arguments; // those after frame and scene: 'b' for a buffer, 'n' for a number
     cl_uint dimensions;    // of the work-items
-    uint32_t group;        // work-items of a CPU's work-group; 0 for those of Kernel::launch
+    uint32_t group;        // work-items of a CPU's work-group; 0: as in Kernel::launch
 } KernelEntry;
 
 typedef struct {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Mesh -> its points, its edges with their triangles, and fans of triangles around points.
 //
-// A file's vertices reveal little about a surface. STL repeats each vertex for each triangle, and
-// other files repeat vertices along texture seams. Vertices at equal positions are therefore merged
-// into one point. An edge is a pair of points, and may have any number of triangles. A fan is a set
-// of triangles that share a point and are connected across edges.
+// A file's vertices do not show which triangles are neighbors. STL repeats each vertex for each
+// triangle, and other files repeat vertices along texture seams. Vertices at equal positions are
+// therefore merged into one point. An edge is a pair of points, and may have any number of
+// triangles. A fan is a set of triangles that share a point and are connected across edges.
 //
 // Invariant: points, edges and fans are ordered by their vertices or corners, so the results do not
 // depend on hashing or sorting.
@@ -58,7 +58,7 @@ typedef struct {
 bool edges_next(const Edges *edges, Edge *edge);
 
 // The fans of a mesh. Each fan is a set of corners at one point. The caller joins fans across
-// edges. The corners of a triangle have the numbers 3 * triangle + 0, 1 and 2.
+// edges. Corner i of a triangle has the number 3 * triangle + i, where i is 0, 1 or 2.
 typedef struct {
     const Mesh *mesh;
     const Weld *weld;

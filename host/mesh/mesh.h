@@ -27,7 +27,7 @@ typedef struct {
     float (*normals)[3]; // vertex_count finite vectors of any length, zero for vertices without a
                          // normal; NULL if the mesh has no normals
     float (*colors)[3];  // vertex_count colors, components in [0, 1]; NULL if the mesh has none
-    Triangle *triangles; // triangle_count of them
+    Triangle *triangles; // triangle_count triangles
     size_t vertex_count, triangle_count;
     ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
     MeshFault equal_corners; // removed triangles with two equal corners

@@ -21,7 +21,8 @@ typedef struct {
 
 #define AOV_COMPONENTS 3
 
-// The name of the table's last channel, which is each pixel's error against the reference.
+// The name of the table's last channel. This channel holds each pixel's error against the
+// reference.
 #define ERROR_CHANNEL "error"
 
 // A channel's input besides the path of the ray through the pixel's center.

@@ -36,7 +36,7 @@ typedef struct {
     const Renderer *renderer;
     Slot slots[SLOTS];
     TileCursor cursor;
-    uint64_t pixels;            // the most pixels of the next launch
+    uint64_t pixels;            // largest number of pixels of the next launch
     uint64_t started, finished; // launches
     double last_end;
 } PassRun;

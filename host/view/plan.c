@@ -23,7 +23,8 @@ static double pixel_count(const PlanRequest *request, uint32_t divisor)
     return (double)divided(request->width, divisor) * divided(request->height, divisor);
 }
 
-// Returns the smallest divisor that meets the time limit, or the largest divisor if none does.
+// Returns the smallest divisor that meets the time limit, or the largest divisor if no divisor
+// meets the limit.
 static uint32_t moving_divisor(const PlanRequest *request)
 {
     static const uint32_t divisors[] = {1, 2, 3, 4, 6, 8, 12, 16};

@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-// Seconds for which the window displays the help hint.
+// The window displays the help hint for this many seconds.
 #define HINT_SECONDS 5
 
 // Seconds between checks of the files.

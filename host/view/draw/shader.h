@@ -81,7 +81,7 @@ void light_apply(const Scene *scene, const Normalization *normalization, const T
 void light_store_material(float vectors[MATERIAL_VECTORS][4], const Material *material,
                           const Normalization *normalization);
 
-// The projection with which OpenGL draws the same picture as the rays of a camera.
+// A projection that makes OpenGL draw the same picture as the rays of a camera.
 typedef struct {
     CameraData camera; // in normalized coordinates; a step is half a pixel
     Vec3 eye;          // in normalized coordinates, in fp64

@@ -15,7 +15,7 @@ typedef struct {
     float advances[FONT_CHARACTERS]; // widths at size 1
     GLuint texture;                  // the characters; its upper left texel is opaque
     int side;                        // of the texture, in pixels
-    float size;                      // of the texture's characters, in pixels; 0 without any
+    float size;                      // of the texture's characters, in pixels; 0 if there are none
     stbtt_bakedchar glyphs[FONT_CHARACTERS];
 } Font;
 
