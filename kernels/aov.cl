@@ -8,8 +8,10 @@ static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface
     const LightSample light = sample_light(tracer, index, surface, met);
     if (!any_lane(light.faces))
         return light.faces;
-    const Ray ray = ray_to_light(tracer, surface, &light);
-    return light.faces && blocking_hit(tracer, &ray).id == NOTHING;
+    LightPath path;
+    Ray ray = ray_to_light(tracer, surface, &light);
+    light_blockers(tracer, &ray, 1, light.position, &path);
+    return light.faces && path.blockers->id == NOTHING;
 }
 
 static inline UInt lights_reaching(const Tracer *tracer, const Surface *surface, Mask met)
@@ -47,7 +49,8 @@ static NOT_INLINE PathLanes describe_path(const Tracer *tracer, Ray ray)
     for (bool any = paths_begin(tracer, &paths); any; any = paths_continue(tracer, &paths)) {
         paths_step(tracer, &paths);
         if (paths.level > 1)
-            data.bounces += paths.rays->active ? (UInt)(1) : (UInt)(0);
+            data.bounces =
+                max(data.bounces, paths.rays->active ? last_level(&paths, 0) : (UInt)(0));
         else if (any_lane(paths.paths->met))
             data = first_hit(tracer, paths.paths, paths.hits);
     }

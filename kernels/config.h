@@ -26,6 +26,9 @@
 #ifndef CLRT_CHECKERS
 #define CLRT_CHECKERS 1 // some material has a checker; general programs have it only then
 #endif
+#ifndef CLRT_GLASS
+#define CLRT_GLASS 0 // some material is glass; general programs have it only then
+#endif
 #ifndef CLRT_STATISTICS
 #define CLRT_STATISTICS 0 // rays and tests are counted
 #endif

@@ -3,16 +3,31 @@
 // the same functions as trace(), and records the path in the format of shared.h. The kernel is
 // compiled after render.cl, and only if requested.
 
+// A record, or the head before all records.
 typedef struct {
-    global Scalar *values; // for each level: LEVEL_VALUES, then LIGHT_VALUES for each light
-    global uint *words;    // for each level: LEVEL_WORDS, then LIGHT_WORDS for each light
+    global Scalar *values;
+    global uint *words;
 } Notes;
 
-static inline Notes level_notes(const Notes *notes, const FrameData *frame, uint level)
+// The records of a sample. Rays beyond the room share a spare record after the others.
+typedef struct {
+    Notes head;
+    uint room;     // number of records
+    uint count;    // rays so far
+    UInt level;    // of the last ray
+    Mask refracts; // the ray after it is refracted
+} Explanation;
+
+// Returns the record of the next ray.
+static inline Notes next_notes(Explanation *explanation, const FrameData *frame)
 {
+    const size_t place = min(explanation->count, explanation->room);
     const size_t values = LEVEL_VALUES + (size_t)frame->light_count * LIGHT_VALUES;
     const size_t words = LEVEL_WORDS + (size_t)frame->light_count * LIGHT_WORDS;
-    return (Notes){notes->values + level * values, notes->words + level * words};
+    const Notes *head = &explanation->head;
+    explanation->count++;
+    return (Notes){head->values + HEAD_VALUES + place * values,
+                   head->words + HEAD_WORDS + place * words};
 }
 
 static inline Notes light_notes(const Notes *level, uint light)
@@ -96,31 +111,44 @@ static inline void note_light(const Notes *notes, const Tracer *tracer, uint ind
     note_count(notes, LIGHT_BLOCKER, (UInt)(NOTHING));
     if (!any_lane(light.faces))
         return;
-    const Ray ray = ray_to_light(tracer, lighting->surface, &light);
-    const Hit blocker = blocking_hit(tracer, &ray);
+    LightPath path;
+    Ray ray = ray_to_light(tracer, lighting->surface, &light);
+    const Real whole = dot_product(ray.direction, ray.direction);
+    light_blockers(tracer, &ray, 1, light.position, &path);
+    const Hit blocker = path.blockers[0];
+    const Real rest = dot_product(ray.direction, ray.direction); // of the way after the last glass
+    const Real beyond = (1.0f - blocker.t) * sqrt(rest / whole);
     const Received received = receive_light(&light, lighting, light.faces && blocker.id == NOTHING);
     note_count(notes, LIGHT_STATE,
                blocker.id == NOTHING ? (UInt)(LIGHT_SEEN) : (UInt)(LIGHT_BLOCKED));
     note_count(notes, LIGHT_BLOCKER, blocker.id);
-    note(notes, LIGHT_BLOCKER_T, blocker.t);
+    note(notes, LIGHT_BLOCKER_T, CLRT_GLASS ? 1.0f - beyond : blocker.t);
     note(notes, LIGHT_DIFFUSE, received.diffuse);
     note(notes, LIGHT_SPECULAR, received.specular);
+    note3(notes, LIGHT_TINT, tinted(&path, 0, real3_of(1.0f, 1.0f, 1.0f)));
 }
 
-// Records the last ray of the path and its hit.
-static inline void note_ray(const Notes *notes, const Tracer *tracer, const Paths *paths)
+// Records a ray of a level. Until its hit is recorded, it adds the background. Without glass, the
+// background is added last.
+static inline Notes note_ray(Explanation *explanation, const Tracer *tracer, const Ray *ray,
+                             UInt level)
 {
-    const Ray *ray = paths->rays;
-    const Path *path = paths->paths;
-    note3(notes, LEVEL_ORIGIN, ray->origin);
-    note3(notes, LEVEL_DIRECTION, ray->direction);
-    note(notes, LEVEL_T, paths->hits->t);
-    note(notes, LEVEL_WEIGHT, path->weight);
-    note_count(notes, LEVEL_PRIMITIVE, paths->hits->id);
-    if (!any_lane(path->met))
-        return;
-    const Hit hits = hit_everywhere(paths->hits, path->met);
-    note(notes, LEVEL_ERROR, hit_error(tracer, ray, &hits));
+    const Notes notes = next_notes(explanation, tracer->frame);
+    note3(&notes, LEVEL_ORIGIN, ray->origin);
+    note3(&notes, LEVEL_DIRECTION, ray->direction);
+    note3(&notes, LEVEL_SHADED, load_private3(tracer->frame->background));
+    note_count(&notes, LEVEL_PRIMITIVE, (UInt)(NOTHING));
+    note_count(&notes, LEVEL_NUMBER, level);
+    note_count(&notes, LEVEL_REFRACTED, explanation->refracts ? (UInt)(1) : (UInt)(0));
+    explanation->refracts = 0;
+    return notes;
+}
+
+static inline void note_weights(const Notes *notes, Real weight, Real3 tint)
+{
+    note(notes, LEVEL_WEIGHT, weight);
+    note(notes, LEVEL_SHARE, CLRT_GLASS ? weight : (Real)(0.0f));
+    note3(notes, LEVEL_TINT, tint);
 }
 
 // Records the last surface of the path and each light's contribution to it.
@@ -138,40 +166,75 @@ static inline void note_surface(const Notes *notes, const Tracer *tracer, const 
     }
 }
 
-// Traces like trace() and records the path. `end` receives the number of rays and, at index 3, the
-// background's weight in the color.
-static inline Real3 trace_noting(const Tracer *tracer, Ray ray, const Notes *notes,
-                                 const Notes *end)
+// Records the last ray of the path, its hit and the surface. Returns the record.
+static inline Notes note_step(Explanation *explanation, const Tracer *tracer, const Paths *paths)
+{
+    const Path *path = paths->paths;
+    const UInt level = last_level(paths, 0);
+    const Notes notes = note_ray(explanation, tracer, paths->rays, level);
+    note_weights(&notes, path->weight, path_tinted(path, real3_of(1.0f, 1.0f, 1.0f)));
+    explanation->level = level;
+    if (!any_lane(path->met))
+        return notes;
+    const Hit hit = hit_everywhere(paths->hits, path->met);
+    note(&notes, LEVEL_T, hit.t);
+    note(&notes, LEVEL_ERROR, hit_error(tracer, paths->rays, &hit));
+    note_count(&notes, LEVEL_PRIMITIVE, hit.id);
+    note_surface(&notes, tracer, path);
+    return notes;
+}
+
+#if CLRT_GLASS
+static inline void note_branch(Explanation *explanation, const Tracer *tracer, const Branch *branch)
+{
+    const Notes notes = note_ray(explanation, tracer, &branch->ray, explanation->level + 1);
+    note_weights(&notes, branch->weight, branch->tint);
+}
+
+// Records whether the next ray is refracted, and the rays that max_level cuts off.
+static inline void note_next(Explanation *explanation, const Tracer *tracer, const Paths *paths)
+{
+    const Successors after = successors_of(tracer, paths->paths, paths->rays);
+    explanation->refracts = after.refracts;
+    if (!any_lane(is_cut(tracer, paths->paths)))
+        return;
+    note_branch(explanation, tracer, &after.next);
+    if (any_lane(after.splits))
+        note_branch(explanation, tracer, &after.other);
+}
+#endif
+
+// Traces like trace() and records the path.
+static inline Real3 trace_noting(const Tracer *tracer, Ray ray, Explanation *explanation)
 {
     Paths paths;
-    const Path *path = paths.paths;
     Real3 shaded[PACKETS];
     paths_start_one(&paths, ray);
     for (bool any = paths_begin(tracer, &paths); any; any = paths_continue(tracer, &paths)) {
         paths_step(tracer, &paths);
-        const Notes level = level_notes(notes, tracer->frame, paths.level - 1);
-        note_ray(&level, tracer, &paths);
-        if (!any_lane(path->met))
-            break;
-        note_surface(&level, tracer, path);
+        const Notes level = note_step(explanation, tracer, &paths);
         paths_shade(tracer, &paths, shaded);
-        note3(&level, LEVEL_SHADED, shaded[0]);
+        if (any_lane(paths.paths->met))
+            note3(&level, LEVEL_SHADED, shaded[0]);
+#if CLRT_GLASS
+        note_next(explanation, tracer, &paths);
+#endif
     }
-    *end->words = paths.level;
-    note(end, 3, path->weight);
-    return path_color(tracer, path);
+    note(&explanation->head, HEAD_BACKGROUND, paths.paths->weight);
+    return path_color(tracer, paths.paths);
 }
 
-// Traces the sample at a column and row of the picture's sample grid. `values` and `words` have
-// room for max_level levels. `result` receives the color in steps of 2^-32 and, at index 3, the
-// background's weight in the color. `count` receives the number of levels.
-kernel void explain_sample(TRACER_ARGUMENTS, uint column, uint row, global Scalar *values,
-                           global uint *words, global Scalar *result, global uint *count)
+// Traces the sample at a column and row of the picture's sample grid, and records the first `room`
+// rays. `values` and `words` receive the head, the records and a spare record. The head has the
+// number of all rays.
+kernel void explain_sample(TRACER_ARGUMENTS, uint column, uint row, uint room,
+                           global Scalar *values, global uint *words)
 {
     Tally tally = {0};
     const Tracer tracer = TRACER(&tally);
-    const Notes notes = {values, words}, end = {result, count};
+    Explanation explanation = {.head = {values, words}, .room = room};
     const Ray ray = camera_ray(&frame, (UInt)(column), (UInt)(row), lanes_of(1));
-    const Real3 color = trace_noting(&tracer, ray, &notes, &end);
-    note3(&end, 0, in_steps3(color));
+    const Real3 color = trace_noting(&tracer, ray, &explanation);
+    note3(&explanation.head, HEAD_COLOR, in_steps3(color));
+    words[HEAD_RAYS] = explanation.count;
 }

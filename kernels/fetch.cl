@@ -108,6 +108,18 @@ static inline Corners triangle_corners(const Tracer *tracer, uint index)
                      real3_of(c[0], c[stride], c[2 * stride])};
 }
 
+// Returns whether sorting has swapped the front and the back of a triangle.
+static inline Mask fetch_reversed(const Tracer *tracer, UInt index)
+{
+#if CLRT_WIDE_NODES
+    const UInt place = (index / WIDE) * WORDS(TriangleBlock) + index % WIDE;
+    const Record record = record_at(tracer->triangles, place + 9 * WIDE); // the row of ids
+    return (record_word(&record, 0) & TRIANGLE_REVERSED) != 0;
+#else
+    return (tracer->triangles[index].material & TRIANGLE_REVERSED) != 0;
+#endif
+}
+
 // Finds the indices that a shading word stands for (TRIANGLE_COLORED in shared.h).
 static inline Look look_of(const Tracer *tracer, UInt material, UInt shading)
 {

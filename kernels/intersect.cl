@@ -10,13 +10,18 @@
 #include "regroup.cl"
 #include "sphere.cl"
 
-// Returns the distance to the sphere on which the ray starts. Only a reflected ray can hit this
-// sphere again, and only from inside.
+// Returns the distance to the sphere on which the ray starts. Only a reflected or refracted ray can
+// hit this sphere again, and only from inside. With glass, a shadow ray can, too. Its direction
+// must first be scaled to length 1, as sphere_chord requires.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
 {
-    if (plain_kind(ray->kind) != RAY_REFLECTED || !any_lane(is_own))
+    const bool is_path = plain_kind(ray->kind) == RAY_REFLECTED;
+    if (!(is_path || CLRT_GLASS) || !any_lane(is_own))
         return INFINITY;
-    return sphere_chord(sphere, ray->origin, ray->direction);
+    if (is_path)
+        return sphere_chord(sphere, ray->origin, ray->direction);
+    const Real scale = 1.0f / sqrt(dot_product(ray->direction, ray->direction));
+    return scale * sphere_chord(sphere, ray->origin, scaled3(scale, ray->direction));
 }
 
 static inline void intersect_spheres(const Tracer *tracer, const Ray *ray, Hit *best)
@@ -89,13 +94,16 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
 
 // Finds for each shadow ray whether a primitive is between the shaded point and the light. If
 // nothing blocks a ray, its hit has the id NOTHING, and t is the limit of the search. If the light
-// is within rounding of a primitive, this primitive does not block the ray.
+// is within rounding of a primitive, this primitive does not block the ray. With glass, the hit is
+// the nearest one.
 static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
     Mask searching[PACKETS];
     for (uint i = 0; i < count; i++) {
         hits[i] = (Hit){1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
-        searching[i] = meet_spheres(tracer, &rays[i], &hits[i]) && hits[i].id == NOTHING;
+        searching[i] = meet_spheres(tracer, &rays[i], &hits[i]);
+        if (!CLRT_GLASS)
+            searching[i] = searching[i] && hits[i].id == NOTHING;
     }
     if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
         intersect_triangles(tracer, rays, searching, count, hits);
@@ -105,13 +113,6 @@ static inline Hit nearest_hit(const Tracer *tracer, const Ray *ray)
 {
     Hit hit;
     nearest_hits(tracer, ray, 1, &hit);
-    return hit;
-}
-
-static inline Hit blocking_hit(const Tracer *tracer, const Ray *ray)
-{
-    Hit hit;
-    blocking_hits(tracer, ray, 1, &hit);
     return hit;
 }
 

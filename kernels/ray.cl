@@ -12,10 +12,10 @@ static inline RayKind plain_kind(RayKind kind)
     return CLRT_RAYS ? (RayKind)(kind & ~RAY_ANY_HIT) : kind;
 }
 
-// Returns whether rays of this kind end at any hit.
+// Returns whether rays of this kind end at any hit. With glass, shadow rays end at the nearest hit.
 static inline bool ends_at_any_hit(RayKind kind)
 {
-    return kind == RAY_SHADOW || kind != plain_kind(kind);
+    return (!CLRT_GLASS && kind == RAY_SHADOW) || kind != plain_kind(kind);
 }
 
 // A ray: origin + t * direction. A shadow ray leads from a surface at t = 0 to a light at t = 1.

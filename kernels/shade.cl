@@ -4,7 +4,7 @@
 // pictures", 1977).
 #ifndef CLRT_SHADE_CL
 #define CLRT_SHADE_CL
-#include "surface.cl"
+#include "glass.cl"
 
 // Sums of light are limited to this number. They then stay finite for lights of any intensity, so
 // that 0 * sum is never a NaN.
@@ -86,7 +86,9 @@ typedef struct {
 
 static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *material, Mask met)
 {
-    const Mask wanted = any_lane(met) ? met && material->shader != SHADER_SILHOUETTE : met;
+    Mask wanted = any_lane(met) ? met && material->shader != SHADER_SILHOUETTE : met;
+    if (CLRT_GLASS && any_lane(wanted))
+        wanted = wanted && !is_glass(material);
     return (Lighting){surface, material, wanted};
 }
 
@@ -125,7 +127,7 @@ static inline void add_light(const Tracer *tracer, uint index, const Lighting li
     const Real3 color = load3(tracer->lights[index].color);
     LightSample light[PACKETS];
     Ray rays[PACKETS];
-    Hit blockers[PACKETS];
+    LightPath path;
     for (uint i = 0; i < PACKETS; i++) {
         rays[i].active = 0;
         light[i].faces = 0;
@@ -138,15 +140,16 @@ static inline void add_light(const Tracer *tracer, uint index, const Lighting li
         if (CLRT_STATISTICS)
             tracer->tally->shadow_rays += lane_count(light[i].faces);
     }
-    blocking_hits(tracer, rays, PACKETS, blockers);
+    light_blockers(tracer, rays, PACKETS, load3(tracer->lights[index].position), &path);
     for (uint i = 0; i < PACKETS; i++) {
-        const Mask is_lit = light[i].faces && blockers[i].id == NOTHING;
+        const Mask is_lit = light[i].faces && path.blockers[i].id == NOTHING;
         if (!any_lane(is_lit))
             continue;
         hash_lanes(tracer->tally, i, is_lit, (UInt)(index));
         const Received received = receive_light(&light[i], &lighting[i], is_lit);
-        sums[i].diffuse = sum3(sums[i].diffuse, scaled3(received.diffuse, color));
-        sums[i].specular = sum3(sums[i].specular, scaled3(received.specular, color));
+        const Real3 seen = tinted(&path, i, color);
+        sums[i].diffuse = sum3(sums[i].diffuse, scaled3(received.diffuse, seen));
+        sums[i].specular = sum3(sums[i].specular, scaled3(received.specular, seen));
     }
 }
 

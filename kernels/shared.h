@@ -45,12 +45,16 @@ typedef uint64_t ulong;
 // (docs/numerics.md, B17).
 #define SKY_SLACK 0x1p-12f
 
-typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG } Shader;
+typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG, SHADER_GLASS } Shader;
 
-// Color seen = (1 - reflectivity) * clamp(shaded) + reflectivity * reflected. With a checker,
-// cubes fill the scene, and checks[0] or checks[1] replaces the diffuse color in even or odd cubes.
-// The cube of a normalized point p is floor(check_rate * p + check_shift) on each axis. The host
-// sets check_rate and check_shift for the device (host/scene/normalize.c).
+// The most rays in a path of a scene with glass. A path's stack has a slot for each (branches.cl).
+#define GLASS_LEVELS 16
+
+// Color seen = (1 - reflectivity) * clamp(shaded) + reflectivity * reflected. With a checker, cubes
+// fill the scene, and checks[0] or checks[1] replaces the diffuse color in even or odd cubes. The
+// cube of a normalized point p is floor(check_rate * p + check_shift) on each axis. The host sets
+// check_rate and check_shift for the device (host/scene/normalize.c). Glass has the reflectivity 1,
+// and uses only the diffuse color, which refracted light takes, and the index of refraction.
 typedef struct {
     float diffuse[3];
     float kd;
@@ -64,7 +68,7 @@ typedef struct {
     float checks[2][3];
     float check_rate;
     float check_shift[3];
-    float unused;
+    float ior; // of glass, inside over outside
 } CLRT_ALIGNED Material;
 CLRT_SAME_SIZE(Material, 96)
 
@@ -300,31 +304,48 @@ typedef struct {
 } HitData;
 CLRT_SAME_SIZE(HitData, 8)
 
-// clrt explain has a record for each ray of a path. It holds LEVEL_VALUES numbers of the kernel's
-// precision and LEVEL_WORDS words. For each light, LIGHT_VALUES numbers and LIGHT_WORDS words
-// follow. Vectors take three entries.
+// clrt explain has a record for each ray of a path, in the order in which the kernels add the rays'
+// colors. It holds LEVEL_VALUES numbers of the kernel's precision and LEVEL_WORDS words. For each
+// light, LIGHT_VALUES numbers and LIGHT_WORDS words follow. Vectors take three entries. Before the
+// records are HEAD_VALUES numbers and HEAD_WORDS words.
+typedef enum {
+    HEAD_COLOR = 0,      // of the sample, in steps of 2^-32
+    HEAD_BACKGROUND = 3, // weight of the background that is added last
+    HEAD_VALUES = 4
+} HeadValue;
+
+typedef enum { HEAD_RAYS, HEAD_WORDS } HeadWord;
+
 typedef enum {
     LEVEL_ORIGIN = 0,
     LEVEL_DIRECTION = 3,
-    LEVEL_T = 6,     // INFINITY without a hit; the entries below are then invalid
-    LEVEL_ERROR = 7, // error bound of t
-    LEVEL_POINT = 8,
-    LEVEL_NORMAL = 11,
-    LEVEL_SHADED = 14, // the surface's own color
-    LEVEL_WEIGHT = 17, // of the ray's color in the sample's color; always valid
-    LEVEL_SHARE = 18,  // of the surface's own color in the sample's color
-    LEVEL_DIFFUSE = 19,
-    LEVEL_VALUES = 22
+    LEVEL_WEIGHT = 6,  // of the ray's color in the sample's color
+    LEVEL_TINT = 7,    // the color of the glass on the path; multiplies both weights
+    LEVEL_SHADED = 10, // the surface's own color or, without a hit, the background
+    LEVEL_SHARE = 13,  // of LEVEL_SHADED in the sample's color
+    LEVEL_T = 14,      // the entries from here on are invalid without a hit
+    LEVEL_ERROR = 15,  // error bound of t
+    LEVEL_POINT = 16,
+    LEVEL_NORMAL = 19,
+    LEVEL_DIFFUSE = 22,
+    LEVEL_VALUES = 25
 } LevelValue;
 
-typedef enum { LEVEL_PRIMITIVE, LEVEL_MATERIAL, LEVEL_WORDS } LevelWord;
+typedef enum {
+    LEVEL_PRIMITIVE,
+    LEVEL_MATERIAL,
+    LEVEL_NUMBER,    // of the level, from 0 on
+    LEVEL_REFRACTED, // 1 if the ray crosses the surface that it leaves
+    LEVEL_WORDS
+} LevelWord;
 
 typedef enum {
     LIGHT_COSINE,    // between the normal and the direction to the light
     LIGHT_BLOCKER_T, // fraction of the way to the light
     LIGHT_DIFFUSE,   // received
     LIGHT_SPECULAR,
-    LIGHT_VALUES
+    LIGHT_TINT, // the color of the glass before the light
+    LIGHT_VALUES = LIGHT_TINT + 3
 } LightValue;
 
 typedef enum { LIGHT_STATE, LIGHT_BLOCKER, LIGHT_WORDS } LightWord;

@@ -5,7 +5,6 @@
 #ifndef CLRT_TRACE_CL
 #define CLRT_TRACE_CL
 #include "camera.cl"
-#include "checker.cl"
 #include "shade.cl"
 
 // All Reals from this number on are integers, so adding it to a smaller Real rounds the sum to an
@@ -32,7 +31,15 @@ typedef struct {
     Mask reflects; // lanes with a next ray
     Surface surface;
     MaterialLanes material;
+#if CLRT_GLASS
+    Real3 tint; // multiplies the weight
+    UInt level; // of the last ray; 0 for camera rays
+#endif
 } Path;
+
+#if CLRT_GLASS
+#include "branches.cl"
+#endif
 
 // The paths of a work-item, which advance in lock step.
 typedef struct {
@@ -40,6 +47,9 @@ typedef struct {
     Ray rays[PACKETS]; // the last rays
     Hit hits[PACKETS]; // the hits of these rays
     Path paths[PACKETS];
+#if CLRT_GLASS
+    Branches branches[PACKETS];
+#endif
 } Paths;
 
 static inline void paths_start(Paths *paths, uint number, Ray ray)
@@ -51,6 +61,11 @@ static inline void paths_start(Paths *paths, uint number, Ray ray)
     path->weight = 1.0f;
     path->met = 0;
     path->reflects = ray.active;
+#if CLRT_GLASS
+    path->tint = real3_of(1.0f, 1.0f, 1.0f);
+    path->level = 0;
+    paths->branches[number].waiting = 0;
+#endif
 }
 
 // Starts the paths of a single packet. The other packets have no rays.
@@ -72,6 +87,35 @@ static inline void count_rays(const Paths *paths, uint number, Tally *tally)
     tally->shaded_points += met;
 }
 
+// Returns whether any started path has a camera ray to follow.
+static inline bool paths_begin(const Tracer *tracer, const Paths *paths)
+{
+    bool any = false;
+    for (uint i = 0; i < PACKETS; i++)
+        any |= any_lane(paths->rays[i].active);
+    return any && tracer->frame->max_level > 0;
+}
+
+#if CLRT_GLASS
+static inline bool paths_continue(const Tracer *tracer, Paths *paths)
+{
+    bool any = false;
+    for (uint i = 0; i < PACKETS; i++)
+        any |= any_lane(paths->rays[i].active) &&
+               follow_branches(tracer, &paths->paths[i], &paths->branches[i], &paths->rays[i]);
+    return any;
+}
+
+static inline Real3 path_tinted(const Path *path, Real3 color)
+{
+    return product3(path->tint, color);
+}
+
+static inline UInt last_level(const Paths *paths, uint number)
+{
+    return paths->paths[number].level;
+}
+#else
 // Sets the reflected ray of each lane that has one. Returns whether any lane has one.
 static inline bool aim_rays(const Tracer *tracer, Paths *paths)
 {
@@ -87,15 +131,6 @@ static inline bool aim_rays(const Tracer *tracer, Paths *paths)
     return any;
 }
 
-// Returns whether any started path has a camera ray to follow.
-static inline bool paths_begin(const Tracer *tracer, const Paths *paths)
-{
-    bool any = false;
-    for (uint i = 0; i < PACKETS; i++)
-        any |= any_lane(paths->rays[i].active);
-    return any && tracer->frame->max_level > 0;
-}
-
 // Sets the next rays after paths_step. Returns false if all paths have ended. A loop that calls
 // this function last takes 11 fewer VGPRs on gfx1100 than a loop that calls it first, mostly
 // because shading then keeps no old rays.
@@ -103,6 +138,21 @@ static inline bool paths_continue(const Tracer *tracer, Paths *paths)
 {
     return paths->level < tracer->frame->max_level && aim_rays(tracer, paths);
 }
+
+// Returns a color as seen through the glass on the path.
+static inline Real3 path_tinted(const Path *path, Real3 color)
+{
+    (void)path;
+    return color;
+}
+
+// Returns the level of a packet's last rays.
+static inline UInt last_level(const Paths *paths, uint number)
+{
+    (void)number;
+    return (UInt)(paths->level - 1);
+}
+#endif
 
 // Reads the surfaces that the last rays hit.
 static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number)
@@ -141,7 +191,7 @@ static inline Real path_share(const Path *path)
 
 static inline void path_add(Path *path, Real3 shaded)
 {
-    const Real3 color = sum3(path->color, scaled3(path_share(path), shaded));
+    const Real3 color = sum3(path->color, scaled3(path_share(path), path_tinted(path, shaded)));
     const Real reflected = path->reflects ? path->weight * path->material.reflectivity : 0.0f;
     path->color = choose3(path->met, color, path->color);
     path->weight = path->met ? reflected : path->weight;

@@ -128,7 +128,8 @@ static bool flat_looks_make(FlatScene *flat, const FlatSource *source, Error *er
         const MeshObject *object = &scene->objects.data[i];
         const uint32_t count = (uint32_t)object->mesh.triangle_count;
         const bool smooth = object->mesh.normals != NULL, colored = object->mesh.colors != NULL;
-        const bool two_sided = object->two_sided || source->is_two_sided;
+        const bool is_glass = scene->materials.data[object->material].shader == SHADER_GLASS;
+        const bool two_sided = object->two_sided || is_glass || source->is_two_sided;
         ObjectLooks looks = {&object->mesh,
                              object->material | (two_sided ? TRIANGLE_TWO_SIDED : 0),
                              source->triangles->orders + first,
@@ -296,9 +297,11 @@ void compile_stages_free(CompileStages *stages)
 // Adds the traits of a material that a primitive uses. Unused materials set no traits.
 static void add_material(SceneTraits *traits, const Material *material)
 {
+    const bool is_glass = material->shader == SHADER_GLASS;
     traits->mirrors |= material->reflectivity > 0;
-    traits->shaded |= material->shader != SHADER_SILHOUETTE;
+    traits->shaded |= !is_glass && material->shader != SHADER_SILHOUETTE;
     traits->checkers |= material->check_size > 0;
+    traits->glass |= is_glass;
 }
 
 static uint32_t material_of(const FlatScene *flat, uint32_t triangle)
@@ -343,6 +346,8 @@ const Trait trait_table[TRAIT_COUNT] = {
     {TRAIT("colors", "COLORS", colors), NULL, NULL, false},
     {TRAIT("checkers", "CHECKERS", checkers), "no material in use has a checker",
      "a material in use has a checker", true},
+    {TRAIT("glass", "GLASS", glass), "no material in use is glass", "a material in use is glass",
+     true},
     {TRAIT("statistics", "STATISTICS", statistics), "not requested: no --stats",
      "--stats counts rays and tests", true}};
 
@@ -355,6 +360,7 @@ SceneTraits traits_general(SceneTraits needed)
 {
     for (size_t i = 0; i < TRAIT_COUNT; i++)
         *(bool *)((char *)&needed + trait_table[i].offset) |= !trait_table[i].is_rare;
+    needed.checkers = needed.glass = needed.checkers || needed.glass;
     return needed;
 }
 

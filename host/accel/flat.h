@@ -57,6 +57,7 @@ typedef struct {
     bool shaded;     // a used material is more than a silhouette
     bool colors;     // a mesh has colors of vertices
     bool checkers;   // a used material has a checker
+    bool glass;      // a used material is glass
     bool statistics; // the kernels count rays and tests
 } SceneTraits;
 
@@ -69,7 +70,7 @@ typedef struct {
     bool is_rare;                 // general programs have it only if the scene needs it
 } Trait;
 
-#define TRAIT_COUNT 8
+#define TRAIT_COUNT 9
 extern const Trait trait_table[TRAIT_COUNT];
 
 bool trait_of(const SceneTraits *traits, const Trait *trait);
@@ -80,7 +81,8 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics);
 float flat_reflectivity(const FlatScene *flat);
 
 // Returns the traits of the general program for scenes with the needed traits. General programs
-// have all traits, but rare traits only if they are needed.
+// have all traits, but rare traits only if they are needed. Checkers and glass are in the same
+// general program.
 SceneTraits traits_general(SceneTraits needed);
 
 #define TRAITS_OPTIONS_SIZE 192

@@ -15,6 +15,8 @@
 #define HEIGHT_MOST     1e30
 #define FACTOR_MOST     1000 // kd and ks
 #define SHININESS_MOST  1e9
+#define IOR_LEAST       0.1 // of glass, inside over outside
+#define IOR_MOST        10
 #define CREASE_MOST     180 // degrees
 
 #define MESH_COUNT_MOST INT64_C(2147483647) // vertices or triangles in one mesh

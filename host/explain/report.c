@@ -64,6 +64,19 @@ static json_t *primitive_json(const Scene *scene, uint32_t id)
                 FIELD("file", name.path), FIELD("id", id));
 }
 
+static bool is_white(const double color[3])
+{
+    return color[0] == 1 && color[1] == 1 && color[2] == 1;
+}
+
+// Adds the color of the glass on the way, if it changes anything.
+static json_t *with_tint(json_t *json, const double tint[3])
+{
+    if (!is_white(tint))
+        json_object_set_new(json, "tint", vector_json(tint));
+    return json;
+}
+
 static json_t *light_json(const ExplainReport *report, const ExplainedRay *ray, size_t index)
 {
     static const char *const states[] = {"behind", "reaches", "blocked", "behind_face"};
@@ -72,14 +85,16 @@ static json_t *light_json(const ExplainReport *report, const ExplainedRay *ray, 
     const Material *material = &report->scene->materials.data[ray->found.material];
     const bool blocked = light->state == CLRT_LIGHT_BLOCKED;
     json_t *blocker = blocked ? primitive_json(report->scene, light->blocker) : json_null();
-    return JSON(FIELD("state", states[light->state]), FIELD("cosine", light->cosine),
-                FIELD("distance", light->distance), FIELD("blocker", blocker),
-                FIELD("blocker_distance", blocked ? light->blocker_distance : (double)NAN),
-                FIELD("intensity", source->intensity),
-                FIELD("diffuse", light->diffuse * (double)material->kd),
-                FIELD("shine", source->intensity > 0 ? light->specular / source->intensity : 0.0),
-                FIELD("highlight", light->specular * (double)material->ks),
-                FIELD("color", color_json(source->color)));
+    json_t *json =
+        JSON(FIELD("state", states[light->state]), FIELD("cosine", light->cosine),
+             FIELD("distance", light->distance), FIELD("blocker", blocker),
+             FIELD("blocker_distance", blocked ? light->blocker_distance : (double)NAN),
+             FIELD("intensity", source->intensity),
+             FIELD("diffuse", light->diffuse * (double)material->kd),
+             FIELD("shine", source->intensity > 0 ? light->specular / source->intensity : 0.0),
+             FIELD("highlight", light->specular * (double)material->ks),
+             FIELD("color", color_json(source->color)));
+    return with_tint(json, light->tint);
 }
 
 static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
@@ -94,6 +109,10 @@ static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
 // the material's ks.
 static json_t *factors_json(const Scene *scene, const Material *material, Vec3 diffuse)
 {
+    if (material->shader == SHADER_GLASS)
+        return JSON(FIELD("shader", shader_names[material->shader]),
+                    FIELD("diffuse_color", color_json(diffuse)),
+                    FIELD("ior", (double)material->ior));
     return JSON(FIELD("shader", shader_names[material->shader]), FIELD("ambient", scene->ambient),
                 FIELD("diffuse_color", color_json(diffuse)), FIELD("kd", (double)material->kd),
                 FIELD("specular_color", color_json(vec3_of_floats(material->specular))),
@@ -123,11 +142,19 @@ static json_t *sample_json(const ExplainReport *report, const ExplainedSample *s
     json_t *rays = json_array();
     for (uint32_t level = 0; level < sample->found.ray_count; level++) {
         const ExplainedRay *ray = &sample->rays[level];
-        json_array_append_new(rays, JSON(FIELD("kind", level == 0 ? "camera" : "reflected"),
-                                         FIELD("origin", vector_json(ray->found.origin)),
-                                         FIELD("direction", vector_json(ray->found.direction)),
-                                         FIELD("weight", ray->found.weight),
-                                         FIELD("hit", hit_json(report, ray))));
+        const char *kind = ray->found.is_refracted ? "refracted" : "reflected";
+        json_t *json =
+            JSON(FIELD("kind", level == 0 ? "camera" : kind),
+                 FIELD("origin", vector_json(ray->found.origin)),
+                 FIELD("direction", vector_json(ray->found.direction)),
+                 FIELD("weight", ray->found.weight), FIELD("hit", hit_json(report, ray)));
+        if (ray->found.level != level)
+            json_object_set_new(json, "level", json_integer(ray->found.level));
+        if (ray->found.is_cut)
+            json_object_set_new(json, "is_cut", json_true());
+        if (ray->found.primitive == NOTHING && ray->found.share > 0)
+            json_object_set_new(json, "background_weight", json_real(ray->found.share));
+        json_array_append_new(rays, with_tint(json, ray->found.tint));
     }
     return JSON(FIELD("rays", rays), FIELD("background_weight", sample->found.background_weight),
                 FIELD("color", vector_json(sample->found.color)));
@@ -160,6 +187,9 @@ static void print_received(const ExplainReport *report, const json_t *light, con
               "; highlight {highlight .3g}", stream);
     if (source->color.x < 1 || source->color.y < 1 || source->color.z < 1)
         print(report, light, "; light color {color .6v}", "; light color {color .3v}", stream);
+    if (json_object_get(light, "tint") != NULL)
+        print(report, light, "; through glass of the color {tint .6v}",
+              "; through glass of the color {tint .3v}", stream);
 }
 
 static void print_light(const ExplainReport *report, const ExplainedRay *ray, size_t index,
@@ -198,6 +228,10 @@ static void print_light(const ExplainReport *report, const ExplainedRay *ray, si
 // Prints the other factors of the surface's color.
 static void print_factors(const json_t *factors, Shader shader, FILE *stream)
 {
+    if (shader == SHADER_GLASS) {
+        json_print(factors, "    glass      index {ior .6g}, color {diffuse_color .6v}\n", stream);
+        return;
+    }
     json_print(factors, "    factors    diffuse color {diffuse_color .6v}", stream);
     if (shader != SHADER_SILHOUETTE)
         json_print(factors, ", kd {kd .6g}; ambient {ambient .6g}", stream);
@@ -225,6 +259,8 @@ static void print_hit(const ExplainReport *report, const ExplainedRay *ray, cons
         print_light(report, ray, i, json_array_get(json_object_get(hit, "lights"), i), stream);
     if (!report->is_brief)
         print_factors(json_object_get(hit, "factors"), material->shader, stream);
+    if (material->shader == SHADER_GLASS)
+        return;
     print(report, hit, "    color      {color .6v}", "    color      {color .3v}", stream);
     json_print(hit, ", weight {share .6g} in the sample", stream);
     if (material->reflectivity > 0)
@@ -236,9 +272,13 @@ static void print_ray(const ExplainReport *report, const ExplainedRay *ray, cons
                       FILE *stream)
 {
     print(report, json, "    from       {origin .6v} along {direction .6v}\n", "", stream);
-    fputs(ray->found.primitive == NOTHING ? "    meets      nothing\n" : "    meets      ", stream);
-    if (ray->found.primitive != NOTHING)
+    if (ray->found.primitive != NOTHING) {
+        fputs("    meets      ", stream);
         print_hit(report, ray, json_object_get(json, "hit"), stream);
+        return;
+    }
+    fputs(ray->found.is_cut ? "    is cut by the maximum level" : "    meets      nothing", stream);
+    fputs(ray->found.share > 0 ? ", so it adds the background\n" : "\n", stream);
 }
 
 static void print_sample(const ExplainReport *report, const ExplainedSample *sample,
@@ -253,8 +293,15 @@ static void print_sample(const ExplainReport *report, const ExplainedSample *sam
         if (level == 0)
             fputs("  the camera's ray\n", stream);
         else {
-            fprintf(stream, "  reflected ray %u", level);
-            json_print(ray, ", weight {weight .6g} in the sample\n", stream);
+            json_print(ray, "  {kind} ray ", stream);
+            fprintf(stream, "%u", level);
+            json_print(ray, ", weight {weight .6g} in the sample", stream);
+            if (json_object_get(ray, "level") != NULL)
+                json_print(ray, ", level {level}", stream);
+            if (json_object_get(ray, "tint") != NULL)
+                print(report, ray, ", through glass of the color {tint .6v}",
+                      ", through glass of the color {tint .3v}", stream);
+            fputs("\n", stream);
         }
         print_ray(report, &sample->rays[level], ray, stream);
     }

@@ -86,12 +86,18 @@ enum {
     CLRT_MATERIAL_MIRROR // matte, with a reflectivity of 0.25
 };
 
-typedef enum { CLRT_SHADING_SILHOUETTE, CLRT_SHADING_MATTE, CLRT_SHADING_BLINN_PHONG } ClrtShading;
+typedef enum {
+    CLRT_SHADING_SILHOUETTE,
+    CLRT_SHADING_MATTE,
+    CLRT_SHADING_BLINN_PHONG,
+    CLRT_SHADING_GLASS
+} ClrtShading;
 
 // The visible color is (1 - reflectivity) * shaded + reflectivity * the reflected ray's color. For
 // SILHOUETTE, shaded is diffuse. For MATTE, shaded is diffuse * (ambient + kd * D), where D sums
 // light * cosine over the visible lights, and light is intensity * color. BLINN_PHONG adds specular
-// * ks * S, where S sums light * (normal . half vector) ^ shininess. shaded is limited to 1.
+// * ks * S, where S sums light * (normal . half vector) ^ shininess. shaded is limited to 1. GLASS
+// refracts and reflects rays. It uses only diffuse, the color of refracted light, and ior.
 //
 // If check_size is above 0, cubes of this size have the colors that replace diffuse. Even and odd
 // cubes alternate along each axis, and a cube has a corner at 0 0 0. A point of a triangle shows
@@ -106,6 +112,7 @@ typedef struct {
     double reflectivity;            // in [0, 1]
     double check_size;              // in scene units; 0, or in [1e-30, 1e30]; rounded to float
     double even[3], odd[3];         // R G B in [0, 1]; the cube from 0 0 0 is even
+    double ior;                     // index of refraction, inside over outside, in [0.1, 10]
 } ClrtMaterial;
 
 // Adds a material and stores its number in *number.
@@ -532,24 +539,33 @@ typedef struct {
     uint32_t sample_count;
 } ClrtExplainedPixel;
 
+// A sample's color is the sum of share * (tint * shaded) over its rays, in their order, plus
+// background_weight * background, limited to 1 and rounded to multiples of 2^-32. The operations
+// have the precision of the kernels.
 typedef struct {
     size_t size;
     double color[3];
-    double background_weight; // of the background in the color
-    uint32_t ray_count;       // the camera ray and its reflections
+    double background_weight; // 0 in scenes with glass, whose rays add the background
+    uint32_t ray_count;       // the camera ray and the rays that leave surfaces
 } ClrtExplainedSample;
 
+// Scenes with glass have a ray for each branch of the path. The refracted ray and all rays after it
+// come before the reflected ray.
 typedef struct {
     size_t size;
-    double origin[3], direction[3]; // direction has length 1
-    double weight;                  // in the sample's color
-    uint32_t primitive;             // id of the hit; CLRT_NOTHING: all members below are 0
-    uint32_t material;
+    double origin[3], direction[3];  // direction has length 1
+    double weight;                   // in the sample's color
+    uint32_t primitive;              // id of the hit, or CLRT_NOTHING
+    uint32_t material;               // this and the members up to normal are 0 without a hit
     double distance, distance_error; // distance_error bounds the error of distance
     double point[3], normal[3];
-    double share;         // weight of shaded in the sample's color
-    double shaded[3];     // the surface's color without reflections
-    uint32_t light_count; // the scene's lights, in their order; 0 for silhouettes
+    double share;     // weight of shaded in the sample's color
+    double shaded[3]; // the surface's color without reflections or, without a hit, the background
+    uint32_t light_count; // the scene's lights, in their order; 0 for silhouettes and glass
+    double tint[3];       // the color of the glass on the path; multiplies weight and share
+    uint32_t level;       // 0 for the camera ray
+    bool is_refracted;
+    bool is_cut; // by max_level, so it hits nothing
 } ClrtExplainedRay;
 
 typedef enum {
@@ -569,6 +585,7 @@ typedef struct {
     // Zero unless the light reaches the point.
     double diffuse;  // intensity * cosine
     double specular; // intensity * (normal . half vector) ^ shininess
+    double tint[3];  // the color of the glass on the way; multiplies both
 } ClrtExplainedLight;
 
 // These functions fill a struct with a part of the explanation. place contains the numbers of the

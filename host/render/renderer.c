@@ -58,5 +58,7 @@ FrameData renderer_frame(const Renderer *renderer, const CameraData *camera)
     frame.height = render_whole_height(settings);
     frame.samples = settings->samples;
     frame.max_level = settings->max_level;
+    if (renderer->scene->traits.glass && frame.max_level > GLASS_LEVELS)
+        frame.max_level = GLASS_LEVELS;
     return frame;
 }

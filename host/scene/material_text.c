@@ -10,26 +10,33 @@
 #include <string.h>
 
 const MaterialProperty material_properties[] = {
-    {"diffuse", offsetof(Material, diffuse), 3, 0, 1, false},
-    {"checker", offsetof(Material, check_size), 7, RADIUS_LEAST, RADIUS_MOST, false},
-    {"kd", offsetof(Material, kd), 1, 0, FACTOR_MOST, false},
-    {"specular", offsetof(Material, specular), 3, 0, 1, true},
-    {"ks", offsetof(Material, ks), 1, 0, FACTOR_MOST, true},
-    {"shininess", offsetof(Material, shininess), 1, 0, SHININESS_MOST, true},
-    {"reflectivity", offsetof(Material, reflectivity), 1, 0, 1, false}};
+    {"diffuse", offsetof(Material, diffuse), 3, 0, 1, USED_BY_ALL_BUT_GLASS},
+    {"checker", offsetof(Material, check_size), 7, RADIUS_LEAST, RADIUS_MOST,
+     USED_BY_ALL_BUT_GLASS},
+    {"kd", offsetof(Material, kd), 1, 0, FACTOR_MOST, USED_BY_ALL_BUT_GLASS},
+    {"specular", offsetof(Material, specular), 3, 0, 1, USED_BY_BLINN_PHONG},
+    {"ks", offsetof(Material, ks), 1, 0, FACTOR_MOST, USED_BY_BLINN_PHONG},
+    {"shininess", offsetof(Material, shininess), 1, 0, SHININESS_MOST, USED_BY_BLINN_PHONG},
+    {"reflectivity", offsetof(Material, reflectivity), 1, 0, 1, USED_BY_ALL_BUT_GLASS},
+    {"color", offsetof(Material, diffuse), 3, 0, 1, USED_BY_GLASS},
+    {"ior", offsetof(Material, ior), 1, IOR_LEAST, IOR_MOST, USED_BY_GLASS}};
 
 // The numbers of a checker are its size and its colors.
 _Static_assert(offsetof(Material, checks) == offsetof(Material, check_size) + sizeof(float), "");
 
-static bool unknown_property(Tokens *tokens, Token property)
+static bool unknown_property(Tokens *tokens, Token property, const Material *material)
 {
     const char *names[MATERIAL_PROPERTIES];
     char list[128] = "";
+    size_t count = 0;
     for (size_t i = 0; i < MATERIAL_PROPERTIES; i++) {
-        names[i] = material_properties[i].name;
-        strcat(strcat(list, i == 0 ? "" : ", "), names[i]);
+        if (!material_accepts(material, &material_properties[i]))
+            continue;
+        names[count] = material_properties[i].name;
+        strcat(strcat(list, count == 0 ? "" : ", "), names[count]);
+        count++;
     }
-    const char *nearest = word_nearest(property.text, property.length, names, MATERIAL_PROPERTIES);
+    const char *nearest = word_nearest(property.text, property.length, names, count);
     return nearest == NULL
                ? tokens_fail(tokens, property, "expected a property of a material (%s)", list)
                : tokens_fail(tokens, property, "unknown property (did you mean '%s'?)", nearest);
@@ -38,10 +45,11 @@ static bool unknown_property(Tokens *tokens, Token property)
 static bool read_property(Tokens *tokens, Token property, Material *material)
 {
     size_t i = 0;
-    while (i < MATERIAL_PROPERTIES && !token_is(property, material_properties[i].name))
+    while (i < MATERIAL_PROPERTIES && !(token_is(property, material_properties[i].name) &&
+                                        material_accepts(material, &material_properties[i])))
         i++;
     if (i == MATERIAL_PROPERTIES)
-        return unknown_property(tokens, property);
+        return unknown_property(tokens, property, material);
     float *values = (float *)(void *)((char *)material + material_properties[i].offset);
     for (int place = 0; place < material_properties[i].count; place++) {
         const double least = place == 0 ? material_properties[i].least : 0;
@@ -59,13 +67,13 @@ static bool read_property(Tokens *tokens, Token property, Material *material)
 static bool read_shader(Tokens *tokens, Shader *shader)
 {
     const Token token = tokens_next(tokens);
-    for (int kind = SHADER_SILHOUETTE; kind <= SHADER_BLINN_PHONG; kind++) {
+    for (int kind = SHADER_SILHOUETTE; kind <= SHADER_GLASS; kind++) {
         if (token_is(token, shader_names[kind])) {
             *shader = (Shader)kind;
             return true;
         }
     }
-    return tokens_fail(tokens, token, "expected 'silhouette', 'matte' or 'blinn_phong'");
+    return tokens_fail(tokens, token, "expected 'silhouette', 'matte', 'blinn_phong' or 'glass'");
 }
 
 bool material_read(Material *material, Tokens *tokens)

@@ -5,19 +5,28 @@
 #include "scene/scene.h"
 #include "scene/tokens.h"
 
+// Blinn-Phong's properties have no effect on other materials, but glass does not accept them.
+typedef enum { USED_BY_ALL_BUT_GLASS, USED_BY_BLINN_PHONG, USED_BY_GLASS } PropertyUse;
+
 // A property of materials: `count` floats. The first is in [least, most], and all others in [0, 1].
 typedef struct {
     const char *name;
     size_t offset; // of the floats in Material
     int count;
     double least, most;
-    bool is_shine; // only Blinn-Phong materials use it
+    PropertyUse use;
 } MaterialProperty;
 
-#define MATERIAL_PROPERTIES 7
+#define MATERIAL_PROPERTIES 9
 
 // In the order in which scn_write writes them.
 extern const MaterialProperty material_properties[MATERIAL_PROPERTIES];
+
+// Returns whether a definition of the material may have the property.
+static inline bool material_accepts(const Material *material, const MaterialProperty *property)
+{
+    return (material->shader == SHADER_GLASS) == (property->use == USED_BY_GLASS);
+}
 
 // Reads the rest of a define statement after the name. Missing properties get the course's values
 // for the material's shader.

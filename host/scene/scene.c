@@ -15,12 +15,15 @@
 
 const char *const shader_names[] = {[SHADER_SILHOUETTE] = "silhouette",
                                     [SHADER_MATTE] = "matte",
-                                    [SHADER_BLINN_PHONG] = "blinn_phong"};
+                                    [SHADER_BLINN_PHONG] = "blinn_phong",
+                                    [SHADER_GLASS] = "glass"};
 
 Material material_of_shader(Shader shader)
 {
     Material material = {.diffuse = {1, 1, 1}, .kd = 1, .shader = shader, .exponent = UINT32_MAX};
-    if (shader != SHADER_MATTE)
+    if (shader == SHADER_GLASS)
+        material.ior = 1.5f, material.reflectivity = 1;
+    else if (shader != SHADER_MATTE)
         material.diffuse[1] = material.diffuse[2] = 0;
     if (shader == SHADER_BLINN_PHONG) {
         material.kd = 0.8f;
@@ -215,7 +218,7 @@ static const Material *next_used(const Scene *scene, size_t *place)
     return NULL;
 }
 
-// Returns whether a surface needs light. Silhouettes and perfect mirrors need none.
+// Returns whether a surface needs light. Silhouettes, glass and perfect mirrors need none.
 static bool has_shaded(const Scene *scene)
 {
     size_t place = 0;
@@ -248,6 +251,15 @@ MissingPart scene_missing(const Scene *scene)
     return (MissingPart){0};
 }
 
+uint32_t scene_level_limit(const Scene *scene)
+{
+    size_t place = 0;
+    for (const Material *used; (used = next_used(scene, &place)) != NULL;)
+        if (used->shader == SHADER_GLASS)
+            return GLASS_LEVELS;
+    return MAX_LEVEL_LIMIT;
+}
+
 static double largest_reflectivity(const Scene *scene)
 {
     size_t place = 0;
@@ -271,9 +283,10 @@ double truncation_bound(const Scene *scene, uint32_t max_level)
 uint32_t truncation_level(const Scene *scene, double bound)
 {
     const double reflectivity = largest_reflectivity(scene);
+    const uint32_t most = scene_level_limit(scene);
     double weight = 1;
     uint32_t level = 0;
-    for (; level < MAX_LEVEL_LIMIT && weight > bound; level++)
+    for (; level < most && weight > bound; level++)
         weight *= reflectivity;
     return level;
 }

@@ -140,11 +140,14 @@ typedef struct {
 // Returns the first missing part: objects to render, or lights for surfaces that need them.
 MissingPart scene_missing(const Scene *scene);
 
-// A ray's weight is the product of the reflectivities on its path. Colors are at most 1, so a
-// maximum level causes an error of at most the weight of a ray of that level.
+// A ray's weight is the product of the reflectivities on its path. Colors are at
+// most 1, so a maximum level causes an error of at most the weight of a ray of that level.
 
 // Returns an upper bound on the error of every color if rays of max_level return the background.
 double truncation_bound(const Scene *scene, uint32_t max_level);
 
-// Returns the smallest max_level, up to MAX_LEVEL_LIMIT, whose truncation_bound is at most bound.
+// Returns the largest max_level that pictures of the scene can have. Higher numbers count as this.
+uint32_t scene_level_limit(const Scene *scene);
+
+// Returns the smallest max_level, up to the limit, whose truncation_bound is at most bound.
 uint32_t truncation_level(const Scene *scene, double bound);

@@ -227,7 +227,7 @@ static const struct {
     {"background", "background R G B", read_background},
     {"camera", "camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES|orthographic HEIGHT [WIDTH]",
      read_camera},
-    {"define", "define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...", read_define},
+    {"define", "define NAME silhouette|matte|blinn_phong|glass [PROPERTY VALUES]...", read_define},
     {"light", "light X Y Z INTENSITY [R G B] [area UX UY UZ VX VY VZ N]", read_light},
     {"material", "material NUMBER|NAME|own [NUMBER|NAME]", read_material},
     {"max_level", "max_level N", read_max_level},

@@ -216,7 +216,9 @@ static void write_material(FILE *stream, const Material *material)
     for (size_t i = 0; i < MATERIAL_PROPERTIES; i++) {
         const MaterialProperty *property = &material_properties[i];
         const float *values = (const void *)((const char *)material + property->offset);
-        if ((property->is_shine && material->shader != SHADER_BLINN_PHONG) ||
+        const bool is_idle =
+            property->use == USED_BY_BLINN_PHONG && material->shader != SHADER_BLINN_PHONG;
+        if (is_idle || !material_accepts(material, property) ||
             (values == &material->check_size && material->check_size == 0))
             continue;
         fprintf(stream, " %s", property->name);

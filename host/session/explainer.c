@@ -10,12 +10,6 @@
 // kernels/explain.cl, embedded at build time.
 extern const char explain_source[];
 
-static uint32_t level_room(const Explainer *explainer)
-{
-    const uint32_t levels = explainer->frame.max_level;
-    return levels > 0 ? levels : 1;
-}
-
 static size_t level_values(const Explainer *explainer)
 {
     return LEVEL_VALUES + (size_t)explainer->frame.light_count * LIGHT_VALUES;
@@ -31,23 +25,43 @@ static size_t scalar_size(const Explainer *explainer)
     return explainer->is_fp64 ? sizeof(double) : sizeof(float);
 }
 
-static bool make_room(Explainer *explainer, Error *error)
+// Return the sizes of the head and the records.
+static size_t value_bytes(const Explainer *explainer, size_t records)
+{
+    return (HEAD_VALUES + records * level_values(explainer)) * scalar_size(explainer);
+}
+
+static size_t word_bytes(const Explainer *explainer, size_t records)
+{
+    return (HEAD_WORDS + records * level_words(explainer)) * sizeof(uint32_t);
+}
+
+static void free_room(Explainer *explainer)
+{
+    device_release(&explainer->values);
+    device_release(&explainer->words);
+    free(explainer->host_values);
+    free(explainer->host_words);
+    explainer->host_values = NULL;
+    explainer->host_words = NULL;
+}
+
+// Makes room for the head, `room` records and a spare record.
+static bool make_room(Explainer *explainer, uint32_t room, Error *error)
 {
     const Device *device = explainer->renderer.kernel->device;
-    const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
-    const size_t values = levels * level_values(explainer);
-    const size_t words = levels * level_words(explainer);
-    explainer->host_values = memory_raw(values, scalar, error);
-    explainer->host_words = memory_raw(words, sizeof *explainer->host_words, error);
+    const size_t values = value_bytes(explainer, (size_t)room + 1);
+    const size_t words = word_bytes(explainer, (size_t)room + 1);
+    explainer->room = room;
+    explainer->host_values = memory_raw(values, 1, error);
+    explainer->host_words = memory_raw(words, 1, error);
     return explainer->host_values != NULL && explainer->host_words != NULL &&
-           device_buffer(device, values * scalar, &explainer->values, error) &&
-           device_buffer(device, words * sizeof(uint32_t), &explainer->words, error) &&
-           device_buffer(device, 4 * scalar, &explainer->result, error) &&
-           device_buffer(device, sizeof(uint32_t), &explainer->count, error);
+           device_buffer(device, values, &explainer->values, error) &&
+           device_buffer(device, words, &explainer->words, error);
 }
 
 static const KernelEntry explain_entry = {"explain_sample", explain_source,  NULL,
-                                          "nnbbbb",         .dimensions = 1, .group = 1};
+                                          "nnnbb",          .dimensions = 1, .group = 1};
 
 bool explainer_open(Explainer *explainer, Session *session, const RenderSettings *settings,
                     const Viewpoint *viewpoint, Error *error)
@@ -63,7 +77,7 @@ bool explainer_open(Explainer *explainer, Session *session, const RenderSettings
         camera_make(viewpoint, &scene->normalization, render_whole_width(settings),
                     render_whole_height(settings), settings->samples);
     explainer->frame = renderer_frame(&explainer->renderer, &camera);
-    if (make_room(explainer, error))
+    if (make_room(explainer, explainer->frame.max_level, error))
         return true;
     explainer_close(explainer);
     return false;
@@ -71,12 +85,7 @@ bool explainer_open(Explainer *explainer, Session *session, const RenderSettings
 
 void explainer_close(Explainer *explainer)
 {
-    device_release(&explainer->values);
-    device_release(&explainer->words);
-    device_release(&explainer->result);
-    device_release(&explainer->count);
-    free(explainer->host_values);
-    free(explainer->host_words);
+    free_room(explainer);
     *explainer = (Explainer){0};
 }
 
@@ -94,7 +103,8 @@ typedef struct {
 
 static Notes notes_of(const Explainer *explainer, uint32_t level)
 {
-    return (Notes){explainer, level * level_values(explainer), level * level_words(explainer)};
+    return (Notes){explainer, HEAD_VALUES + level * level_values(explainer),
+                   HEAD_WORDS + level * level_words(explainer)};
 }
 
 static double number_at(const Notes *notes, size_t place)
@@ -130,7 +140,8 @@ static void take_light(ClrtExplainedLight *light, const Notes *level, uint32_t i
     *light = (ClrtExplainedLight){.state = (ClrtLightState)noted_word(&notes, LIGHT_STATE),
                                   .blocker = NOTHING,
                                   .cosine = number_at(&notes, LIGHT_COSINE),
-                                  .distance = source->is_sun ? (double)INFINITY : traced};
+                                  .distance = source->is_sun ? (double)INFINITY : traced,
+                                  .tint = {1, 1, 1}};
     if (light->state == CLRT_LIGHT_BLOCKED) {
         light->blocker = noted_word(&notes, LIGHT_BLOCKER);
         light->blocker_distance = fmax(number_at(&notes, LIGHT_BLOCKER_T), 0) * traced;
@@ -138,6 +149,7 @@ static void take_light(ClrtExplainedLight *light, const Notes *level, uint32_t i
     if (light->state == CLRT_LIGHT_REACHES) {
         light->diffuse = number_at(&notes, LIGHT_DIFFUSE);
         light->specular = number_at(&notes, LIGHT_SPECULAR);
+        vec3_store_doubles(light->tint, vector_at(&notes, LIGHT_TINT));
     }
 }
 
@@ -147,11 +159,10 @@ static void take_surface(ExplainedRay *ray, const Notes *notes, ClrtExplainedLig
     ClrtExplainedRay *found = &ray->found;
     const Vec3 point = denormalize_point(explainer->normalization, vector_at(notes, LEVEL_POINT));
     found->material = noted_word(notes, LEVEL_MATERIAL);
-    found->share = number_at(notes, LEVEL_SHARE);
     vec3_store_doubles(found->point, point);
     vec3_store_doubles(found->normal, vector_at(notes, LEVEL_NORMAL));
-    vec3_store_doubles(found->shaded, vector_at(notes, LEVEL_SHADED));
-    if (explainer->scene->materials.data[found->material].shader != SHADER_SILHOUETTE)
+    const uint32_t shader = explainer->scene->materials.data[found->material].shader;
+    if (shader != SHADER_SILHOUETTE && shader != SHADER_GLASS)
         found->light_count = explainer->frame.light_count;
     ray->diffuse = vector_at(notes, LEVEL_DIFFUSE);
     ray->lights = lights;
@@ -167,7 +178,13 @@ static void take_ray(const Explainer *explainer, ExplainedSample *sample, uint32
     const double unit = length_of(direction) / explainer->normalization->scale;
     ExplainedRay *ray = &sample->rays[level];
     ray->found = (ClrtExplainedRay){.weight = number_at(&notes, LEVEL_WEIGHT),
-                                    .primitive = noted_word(&notes, LEVEL_PRIMITIVE)};
+                                    .primitive = noted_word(&notes, LEVEL_PRIMITIVE),
+                                    .share = number_at(&notes, LEVEL_SHARE),
+                                    .level = noted_word(&notes, LEVEL_NUMBER),
+                                    .is_refracted = noted_word(&notes, LEVEL_REFRACTED) != 0};
+    ray->found.is_cut = ray->found.level >= explainer->frame.max_level;
+    vec3_store_doubles(ray->found.shaded, vector_at(&notes, LEVEL_SHADED));
+    vec3_store_doubles(ray->found.tint, vector_at(&notes, LEVEL_TINT));
     vec3_store_doubles(ray->found.origin, denormalize_point(explainer->normalization, origin));
     vec3_store_doubles(ray->found.direction, vec3_normalize(direction));
     if (ray->found.primitive == NOTHING)
@@ -177,27 +194,57 @@ static void take_ray(const Explainer *explainer, ExplainedSample *sample, uint32
     take_surface(ray, &notes, sample->lights + (size_t)level * explainer->frame.light_count);
 }
 
-// Reads the kernel's outputs. Fills sample->found and allocates the rays and lights.
-static bool read_back(const Explainer *explainer, ExplainedSample *sample, Error *error)
+// Traces the sample at a place of the sample grid, and reads the number of its rays.
+static bool trace_records(Explainer *explainer, const cl_uint place[2], Error *error)
+{
+    const Renderer *renderer = &explainer->renderer;
+    const Device *device = renderer->kernel->device;
+    const KernelRun run = {.queue = device->queue,
+                           .frame = &explainer->frame,
+                           .scene = renderer->scene->arrays,
+                           .arguments = {&place[0], &place[1], &explainer->room, &explainer->values,
+                                         &explainer->words},
+                           .items = {1, 1}};
+    return kernel_run(renderer->kernel, &run, error) &&
+           device_read(device, explainer->words, explainer->host_words, word_bytes(explainer, 0),
+                       error);
+}
+
+// Traces a sample and reads its records. If it has more rays than there is room for, makes room and
+// traces it again.
+static bool read_records(Explainer *explainer, const cl_uint place[2], Error *error)
+{
+    if (!trace_records(explainer, place, error))
+        return false;
+    const Device *device = explainer->renderer.kernel->device;
+    const uint32_t count = explainer->host_words[HEAD_RAYS];
+    if (count > explainer->room) {
+        free_room(explainer);
+        if (!make_room(explainer, count, error) || !trace_records(explainer, place, error))
+            return false;
+    }
+    return device_read(device, explainer->values, explainer->host_values,
+                       value_bytes(explainer, count), error) &&
+           device_read(device, explainer->words, explainer->host_words,
+                       word_bytes(explainer, count), error);
+}
+
+// Converts the records. Fills *sample and allocates its rays and lights.
+static bool take_sample(const Explainer *explainer, ExplainedSample *sample, Error *error)
 {
     ClrtExplainedSample *found = &sample->found;
-    double result[4]; // fits floats and doubles
-    const Device *device = explainer->renderer.kernel->device;
-    const size_t levels = level_room(explainer), scalar = scalar_size(explainer);
-    if (!device_read(device, explainer->values, explainer->host_values,
-                     levels * level_values(explainer) * scalar, error) ||
-        !device_read(device, explainer->words, explainer->host_words,
-                     levels * level_words(explainer) * sizeof(uint32_t), error) ||
-        !device_read(device, explainer->result, result, 4 * scalar, error) ||
-        !device_read(device, explainer->count, &found->ray_count, sizeof found->ray_count, error))
-        return false;
-    for (size_t i = 0; i < 3; i++)
-        found->color[i] = scalar_at(explainer, result, i) * 0x1p-32;
-    found->background_weight = scalar_at(explainer, result, 3);
+    const Notes head = {explainer, 0, 0};
+    found->ray_count = noted_word(&head, HEAD_RAYS);
+    vec3_store_doubles(found->color, vec3_scale(vector_at(&head, HEAD_COLOR), 0x1p-32));
+    found->background_weight = number_at(&head, HEAD_BACKGROUND);
     const size_t lights = (size_t)found->ray_count * explainer->frame.light_count;
     sample->rays = memory_zeroed(found->ray_count, sizeof *sample->rays, error);
     sample->lights = memory_raw(lights, sizeof *sample->lights, error);
-    return sample->rays != NULL && sample->lights != NULL;
+    if (sample->rays == NULL || sample->lights == NULL)
+        return false;
+    for (uint32_t level = 0; level < found->ray_count; level++)
+        take_ray(explainer, sample, level);
+    return true;
 }
 
 bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t index,
@@ -205,20 +252,11 @@ bool explainer_trace(Explainer *explainer, const uint32_t pixel[2], uint32_t ind
 {
     const uint32_t side = explainer->frame.samples;
     const cl_uint place[2] = {pixel[0] * side + index % side, pixel[1] * side + index / side};
-    const Renderer *renderer = &explainer->renderer;
-    const KernelRun run = {.queue = renderer->kernel->device->queue,
-                           .frame = &explainer->frame,
-                           .scene = renderer->scene->arrays,
-                           .arguments = {&place[0], &place[1], &explainer->values,
-                                         &explainer->words, &explainer->result, &explainer->count},
-                           .items = {1, 1}};
     *sample = (ExplainedSample){0};
-    if (!kernel_run(renderer->kernel, &run, error) || !read_back(explainer, sample, error)) {
+    if (!read_records(explainer, place, error) || !take_sample(explainer, sample, error)) {
         explained_sample_free(sample);
         return false;
     }
-    for (uint32_t level = 0; level < sample->found.ray_count; level++)
-        take_ray(explainer, sample, level);
     for (int channel = 0; channel < 3; channel++)
         explainer->sums[channel] = (index == 0 ? 0 : explainer->sums[channel]) +
                                    (uint64_t)(sample->found.color[channel] * 0x1p32);

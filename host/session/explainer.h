@@ -13,10 +13,10 @@ typedef struct {
 } ExplainedRay;
 
 // If the last ray hits a reflective surface, the surface reflects the background, because the next
-// ray would have the level max_level.
+// ray would have the level max_level. Scenes with glass have records of these rays, too.
 typedef struct {
     ClrtExplainedSample found;  // found.size is unset
-    ExplainedRay *rays;         // found.ray_count: the camera ray, then the reflected rays; owned
+    ExplainedRay *rays;         // found.ray_count, in the order of clrt.h; owned
     ClrtExplainedLight *lights; // of all rays; owned
 } ExplainedSample;
 
@@ -28,8 +28,9 @@ typedef struct {
     const Normalization *normalization;
     FrameData frame;
     bool is_fp64;
-    cl_mem values, words, result, count; // device buffers for one sample
-    void *host_values;                   // doubles if is_fp64, otherwise floats
+    uint32_t room;        // rays for which the buffers have room
+    cl_mem values, words; // device buffers for one sample
+    void *host_values;    // doubles if is_fp64, otherwise floats
     uint32_t *host_words;
     uint64_t sums[3]; // of the colors of the pixel's samples, in units of 2^-32
 } Explainer;

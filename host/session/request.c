@@ -108,6 +108,12 @@ static bool chooses_level(const ClrtPicture *wanted)
     return wanted->max_level == 0 && (wanted->truncation > 0 || wanted->error > 0);
 }
 
+static uint32_t limited_level(uint32_t level, const Scene *scene)
+{
+    const uint32_t limit = scene_level_limit(scene);
+    return level < limit ? level : limit;
+}
+
 static uint32_t max_level_of(const ClrtPicture *wanted, const Scene *scene)
 {
     if (chooses_level(wanted))
@@ -115,7 +121,8 @@ static uint32_t max_level_of(const ClrtPicture *wanted, const Scene *scene)
                                                               : wanted->error * TRUNCATION_PART);
     if (wanted->max_level == CLRT_LEVEL_NONE)
         return 0;
-    return wanted->max_level > 0 ? (uint32_t)wanted->max_level : scene->max_level;
+    const uint32_t level = wanted->max_level > 0 ? (uint32_t)wanted->max_level : scene->max_level;
+    return limited_level(level, scene);
 }
 
 // Returns the max_level of the picture's reference, which is at least the scene's. If an error
@@ -124,7 +131,7 @@ static uint32_t reference_level(const ClrtPicture *wanted, const Scene *scene)
 {
     const uint32_t level = chooses_level(wanted) ? truncation_level(scene, FLOAT_HALF_STEP)
                                                  : max_level_of(wanted, scene);
-    return level > scene->max_level ? level : scene->max_level;
+    return limited_level(level > scene->max_level ? level : scene->max_level, scene);
 }
 
 static uint32_t samples_of(const ClrtPicture *wanted, const Scene *scene, const PictureGoal *goal)

@@ -303,8 +303,11 @@ class Scenes(Explain):
         found = self.expect_parts(["gray.scn", *special], colors=(False, False, "no mesh shows colors of vertices"))
         self.assertEqual(found["uploaded_bytes"]["colors"], 0)
 
-    def test_only_scenes_with_a_checker_compile_it(self):
+    def test_only_scenes_with_checkers_or_glass_compile_them(self):
         general = ["--tune", "specialize=never"]
+        self.expect_parts(["ball.scn", *general], glass=(False, False, "no material in use is glass"))
+        self.write(glass_scn="define a glass\nmaterial a\nsphere 0 0 0 1\n")
+        self.expect_parts(["glass.scn", *general], glass=(True, True, "a material in use is glass"))
         self.expect_parts(["ball.scn", *general], checkers=(False, False, "no material in use has a checker"))
         self.write(checks_scn="define a matte checker 1 1 1 1 0 0 0\nmaterial a\nsphere 0 0 0 1\n")
         self.expect_parts(["checks.scn", *general], checkers=(True, True, "a material in use has a checker"))

@@ -17,6 +17,7 @@ static const char *const scenes[] = {
     CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn",
     CLRT_SOURCE_FOLDER "/tests/image/painted.scn",
     CLRT_SOURCE_FOLDER "/tests/image/orthographic.scn",
+    CLRT_SOURCE_FOLDER "/tests/image/glass.scn",
 };
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 

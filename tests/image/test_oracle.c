@@ -76,4 +76,5 @@ TEST(unusual_scenes_are_drawn_as_the_oracle_does)
         check(unusual_scenes[scene], STEP);
     check(CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn", 1);
     check(CLRT_SOURCE_FOLDER "/tests/image/painted.scn", 1);
+    check(CLRT_SOURCE_FOLDER "/tests/image/glass.scn", 1);
 }

@@ -72,3 +72,19 @@ kernel void probe_units(global const float *vectors, global float *results)
     const Real3 unit = unit_vector(load3(vectors + 3 * item));
     vstore3((float3)(unit.x, unit.y, unit.z), item, results);
 }
+
+// Each case has a ratio of indices and a cosine. The results are a Refraction's cosine beyond the
+// surface and reflectance, what is left of the light, and the refracted direction. The normal is z.
+kernel void probe_refractions(global const float *cases, global float *results)
+{
+    const uint item = get_global_id(0);
+    const float cosine = cases[2 * item + 1];
+    const Refraction at = refraction_at(cases[2 * item], cosine);
+    const Real3 viewer = real3_of(sqrt((1.0f - cosine) * (1.0f + cosine)), 0.0f, cosine);
+    const Real3 direction = refracted_direction(&at, real3_of(0.0f, 0.0f, 1.0f), viewer);
+    global float *result = results + 6 * item;
+    result[0] = at.beyond;
+    result[1] = at.reflectance;
+    result[2] = 1.0f - at.reflectance;
+    vstore3((float3)(direction.x, direction.y, direction.z), 1, result);
+}

@@ -259,6 +259,72 @@ TEST(powers_are_right_in_fp64)
     }
 }
 
+// Snell's and Fresnel's laws with angles instead of cosines. Returns whether light passes.
+static bool exact_refraction(double ratio, double cosine, double *beyond, double *reflectance)
+{
+    const double incoming = acos(fmin(cosine, 1)), sine = ratio * sin(incoming);
+    *beyond = 0;
+    *reflectance = 1;
+    if (sine >= 1)
+        return false;
+    const double outgoing = asin(sine), upright = (ratio - 1) / (ratio + 1);
+    const double s = sin(incoming - outgoing) / sin(incoming + outgoing);
+    const double p = tan(incoming - outgoing) / tan(incoming + outgoing);
+    *beyond = cos(outgoing);
+    *reflectance = incoming < 1e-5 ? upright * upright : (s * s + p * p) / 2;
+    return true;
+}
+
+#define ANGLES 1000
+
+// Results may be off by rounding, and by as much as they change if the cosine changes by 4 u. Near
+// the angle of total reflection, this is the larger part.
+static void expect_refraction(const float given[2], const float result[6])
+{
+    const double ratio = (double)given[0], cosine = (double)given[1], change = 4 * 0x1p-24;
+    double beyond[3], reflectance[3];
+    for (int i = 0; i < 3; i++)
+        exact_refraction(ratio, cosine + (i - 1) * change, &beyond[i], &reflectance[i]);
+    const double slack = 8e-7, beyond_slack = slack + fabs(beyond[2] - beyond[0]);
+    const double reflected_slack = slack + fabs(reflectance[2] - reflectance[0]);
+    assert_true(fabs((double)result[0] - beyond[1]) < beyond_slack);
+    assert_true(fabs((double)result[1] - reflectance[1]) < reflected_slack);
+    assert_true(result[1] >= 0 && result[1] + result[2] == 1);
+    if (result[1] == 1)
+        return;
+    const double x = (double)result[3], z = (double)result[5];
+    assert_true(fabs(x + ratio * sqrt(1 - cosine * cosine)) < slack * (1 + ratio));
+    assert_true(fabs(z + (double)result[0]) < slack * (1 + ratio));
+}
+
+TEST(refraction_follows_snell_and_fresnel_at_a_thousand_angles)
+{
+    static const float ratios[] = {1.5f, 1 / 1.5f, 2.4f, 0.1f, 10, 1.0001f, 0.9999f, 1};
+    static float cases[8 * ANGLES][2], results[8 * ANGLES][6];
+    for (int i = 0; i < 8 * ANGLES; i++) {
+        cases[i][0] = ratios[i / ANGLES];
+        cases[i][1] = (float)cos((i % ANGLES) * (acos(-1) / 2 / ANGLES));
+    }
+    const ProbeInput inputs[2] = {{cases, sizeof cases}, {0}};
+    assert_true(probe_run(&probe, "probe_refractions", inputs, 8 * ANGLES,
+                          (ProbeInput){results, sizeof results}));
+    for (int i = 0; i < 8 * ANGLES; i++)
+        expect_refraction(cases[i], results[i]);
+    for (int i = 7 * ANGLES; i < 8 * ANGLES; i++)
+        assert_true(results[i][1] == 0 && results[i][0] == cases[i][1]);
+}
+
+TEST(grazing_and_turned_away_rays_are_reflected)
+{
+    const float cases[][2] = {{1 / 1.5f, 0}, {1 / 1.5f, -0.5f}, {1.5f, 0}, {1.5f, 0.74f}};
+    float results[4][6];
+    const ProbeInput inputs[2] = {{cases, sizeof cases}, {0}};
+    assert_true(
+        probe_run(&probe, "probe_refractions", inputs, 4, (ProbeInput){results, sizeof results}));
+    for (int i = 0; i < 4; i++)
+        assert_true(results[i][1] == 1 && results[i][2] == 0);
+}
+
 TEST(freed_memory_for_results_goes_to_the_next_user_of_this_size)
 {
     Error error = {0};

@@ -31,16 +31,15 @@ static Vec3 load(const VectorColumns *columns, uint32_t place)
     return vec3(columns->x[place], columns->y[place], columns->z[place]);
 }
 
-static void block_add(OracleBlock *block, const MeshObject *object, size_t triangle, size_t id)
+// `least` is that of the triangle in OracleBlock.
+static void block_add(OracleBlock *block, const Mesh *mesh, size_t triangle, double least)
 {
-    const Mesh *mesh = &object->mesh;
     const Vec3 corner = corner_of(mesh, triangle, 0);
     const uint32_t place = block->count++;
     store(&block->corner, place, corner);
     store(&block->first, place, vec3_sub(corner_of(mesh, triangle, 1), corner));
     store(&block->second, place, vec3_sub(corner_of(mesh, triangle, 2), corner));
-    block->least[place] = object->two_sided ? -INFINITY : 0;
-    block->ids[place] = (uint32_t)id;
+    block->least[place] = least;
 }
 
 static double distance(Vec3 a, Vec3 b)
@@ -80,9 +79,13 @@ bool blocks_make(OracleBlocks *blocks, const Scene *scene, Error *error)
         return false;
     for (size_t i = 0; i < scene->objects.count; i++) {
         const MeshObject *object = &scene->objects.data[i];
-        for (size_t triangle = 0; triangle < object->mesh.triangle_count; triangle++, number++)
-            block_add(&blocks->data[number / BLOCK_SIZE], object, triangle,
-                      scene->spheres.count + number);
+        const bool glass = scene->materials.data[object->material].shader == SHADER_GLASS;
+        const double least = object->two_sided || glass ? -INFINITY : 0;
+        for (size_t triangle = 0; triangle < object->mesh.triangle_count; triangle++, number++) {
+            OracleBlock *block = &blocks->data[number / BLOCK_SIZE];
+            block->ids[block->count] = (uint32_t)(scene->spheres.count + number);
+            block_add(block, &object->mesh, triangle, least);
+        }
     }
     for (size_t i = 0; i < blocks->count; i++)
         block_enclose(&blocks->data[i]);

@@ -75,24 +75,71 @@ static OracleHit meet_spheres(const Scene *scene, const OracleRay *ray)
     return hit;
 }
 
+static void sign(OracleDecisions *decisions, uint64_t word)
+{
+    decisions->signature = (decisions->signature + word + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    decisions->signature ^= decisions->signature >> 29;
+}
+
+static OracleHit meet(const Oracle *oracle, const OracleRay *ray)
+{
+    OracleHit hit = meet_spheres(oracle->scene, ray);
+    blocks_meet(&oracle->blocks, ray, &hit);
+    return hit;
+}
+
+static bool is_glass(const Oracle *oracle, const OracleSurface *surface)
+{
+    return oracle->scene->materials.data[surface->material].shader == SHADER_GLASS;
+}
+
+static Vec3 times(Vec3 a, Vec3 b)
+{
+    return vec3(a.x * b.x, a.y * b.y, a.z * b.z);
+}
+
+// Returns the part of a light that passes all glass on a ray, for each channel: zero behind
+// anything else. Like the renderer, every crossing starts a new ray.
+static Vec3 light_let_through(const Oracle *oracle, OracleRay ray, OracleDecisions *decisions)
+{
+    Vec3 passed = {1, 1, 1};
+    for (int crossings = 0; crossings <= 64; crossings++) {
+        const OracleHit hit = meet(oracle, &ray);
+        if (hit.id == NOTHING || hit.t >= ray.far)
+            return passed;
+        const OracleSurface surface = surface_at(oracle->scene, &ray, hit);
+        if (!is_glass(oracle, &surface))
+            break;
+        sign(decisions, 2 * (uint64_t)surface.object + surface.front);
+        passed = times(passed, surface.body);
+        ray = (OracleRay){surface.point, ray.direction, surface.near, ray.far - hit.t, surface.id};
+    }
+    return (Vec3){0, 0, 0};
+}
+
 // A light as seen from a surface.
 typedef struct {
     Vec3 toward; // direction to the light, of length 1
     double cosine;
     bool shines; // the light reaches the surface
+    Vec3 passed; // the part of the light that passes the glass on its way
 } OracleLight;
 
-static OracleLight see_light(const Oracle *oracle, const OracleSurface *surface, const Light *light)
+static OracleLight see_light(const Oracle *oracle, const OracleSurface *surface, const Light *light,
+                             OracleDecisions *decisions)
 {
     const Vec3 apart = light->is_sun ? light->position : vec3_sub(light->position, surface->point);
     const Vec3 toward = vec3_normalize(apart);
     const double distance = light->is_sun ? (double)INFINITY : sqrt(vec3_dot(apart, apart));
     const OracleRay ray = {surface->point, toward, surface->near, distance, surface->id};
     const double cosine = vec3_dot(surface->normal, toward);
-    const bool shines = cosine > 0 && !surface_blocks(surface, toward) &&
-                        meet_spheres(oracle->scene, &ray).id == NOTHING &&
-                        !blocks_block(&oracle->blocks, &ray);
-    return (OracleLight){toward, cosine, shines};
+    const bool faces = cosine > 0 && !surface_blocks(surface, toward);
+    const bool clear = faces && meet_spheres(oracle->scene, &ray).id == NOTHING &&
+                       !blocks_block(&oracle->blocks, &ray);
+    Vec3 passed = {1, 1, 1};
+    if (faces && !clear)
+        passed = light_let_through(oracle, ray, decisions);
+    return (OracleLight){toward, cosine, faces && vec3_extent(passed) > 0, passed};
 }
 
 static double highlight(const Material *material, const OracleSurface *surface, Vec3 toward_light)
@@ -102,12 +149,6 @@ static double highlight(const Material *material, const OracleSurface *surface, 
         half_vector = surface->normal;
     const double cosine = vec3_dot(surface->normal, half_vector);
     return pow(fmin(fmax(cosine, 0), 1), (double)material->shininess);
-}
-
-static void sign(OracleDecisions *decisions, uint64_t word)
-{
-    decisions->signature = (decisions->signature + word + 1) * UINT64_C(0x9e3779b97f4a7c15);
-    decisions->signature ^= decisions->signature >> 29;
 }
 
 typedef struct {
@@ -121,8 +162,9 @@ static Received light_received(const Oracle *oracle, const OracleSurface *surfac
     const Material *material = &scene->materials.data[surface->material];
     Received received = {{0, 0, 0}, {0, 0, 0}};
     for (size_t i = 0; i < scene->lights.count; i++) {
-        const Vec3 power = vec3_scale(scene->lights.data[i].color, scene->lights.data[i].intensity);
-        const OracleLight light = see_light(oracle, surface, &scene->lights.data[i]);
+        const OracleLight light = see_light(oracle, surface, &scene->lights.data[i], decisions);
+        const Vec3 color = times(scene->lights.data[i].color, light.passed);
+        const Vec3 power = vec3_scale(color, scene->lights.data[i].intensity);
         sign(decisions, light.shines);
         if (light.cosine > 0 && fabs(vec3_dot(surface->face, light.toward)) < HORIZON)
             decisions->grazes = true;
@@ -169,20 +211,78 @@ static Vec3 reflected(const OracleSurface *surface)
     return vec3_normalize(outward);
 }
 
+// The vectors of a refraction, which Snell's law splits into a part along the surface and a part
+// along the normal.
+typedef struct {
+    Vec3 direction;
+    double reflectance; // 1 for total reflection
+} Bent;
+
+// Returns the refracted ray. Its part along the surface has the sine of Snell's law. The amplitudes
+// are Fresnel's, from the tangents and sines of both angles. At right angles to the surface, where
+// both are zero, only the indices matter.
+static Bent bend(const OracleSurface *surface, double ior)
+{
+    const bool is_sphere = vec3_dot(surface->normal, surface->face) < 0;
+    const Vec3 normal = vec3_scale(surface->normal, is_sphere ? -1 : 1);
+    const double ratio = surface->front ? 1 / ior : ior;
+    const double cosine = fmin(vec3_dot(normal, surface->toward_viewer), 1);
+    if (ratio == 1)
+        return (Bent){vec3_scale(surface->toward_viewer, -1), 0};
+    const Vec3 along = vec3_sub(vec3_scale(normal, cosine), surface->toward_viewer);
+    const Vec3 bent = vec3_scale(along, ratio);
+    const double sine = sqrt(vec3_dot(bent, bent));
+    if (cosine <= 0 || sine >= 1)
+        return (Bent){{0, 0, 0}, 1};
+    Vec3 direction = vec3_sub(bent, vec3_scale(normal, sqrt(1 - sine * sine)));
+    const double height = vec3_dot(direction, surface->face);
+    if (height > 0)
+        direction = vec3_sub(direction, vec3_scale(surface->face, 2 * height));
+    const double incoming = acos(cosine), outgoing = asin(sine);
+    const double upright = (ratio - 1) / (ratio + 1);
+    if (incoming < 1e-4)
+        return (Bent){direction, upright * upright};
+    const double s = sin(incoming - outgoing) / sin(incoming + outgoing);
+    const double p = tan(incoming - outgoing) / tan(incoming + outgoing);
+    return (Bent){direction, (s * s + p * p) / 2};
+}
+
+static Vec3 trace(const OracleView *view, OracleRay ray, uint32_t level,
+                  OracleDecisions *decisions);
+
+static Vec3 trace_glass(const OracleView *view, const OracleSurface *surface, uint32_t level,
+                        OracleDecisions *decisions)
+{
+    const Material *material = &view->oracle->scene->materials.data[surface->material];
+    const Bent bent = bend(surface, (double)material->ior);
+    OracleRay next = {surface->point, bent.direction, surface->near, INFINITY, surface->id};
+    Vec3 color = {0, 0, 0};
+    sign(decisions, bent.reflectance < 1);
+    if (bent.reflectance < 1)
+        color = vec3_scale(times(surface->body, trace(view, next, level + 1, decisions)),
+                           1 - bent.reflectance);
+    next.direction = reflected(surface);
+    if (bent.reflectance > 0)
+        color =
+            vec3_add(color, vec3_scale(trace(view, next, level + 1, decisions), bent.reflectance));
+    return color;
+}
+
 static Vec3 trace(const OracleView *view, OracleRay ray, uint32_t level, OracleDecisions *decisions)
 {
     const Oracle *oracle = view->oracle;
     const Scene *scene = oracle->scene;
     if (level >= view->max_level)
         return scene->background;
-    OracleHit hit = meet_spheres(scene, &ray);
-    blocks_meet(&oracle->blocks, &ray, &hit);
+    const OracleHit hit = meet(oracle, &ray);
     if (hit.id == NOTHING) {
         sign(decisions, NOTHING);
         return scene->background;
     }
     const OracleSurface surface = surface_at(scene, &ray, hit);
     sign(decisions, 4 * (uint64_t)surface.object + 2 * surface.odd + surface.front);
+    if (is_glass(oracle, &surface))
+        return trace_glass(view, &surface, level, decisions);
     const Vec3 shaded = shade(oracle, &surface, decisions);
     const double reflectivity = (double)scene->materials.data[surface.material].reflectivity;
     if (!(reflectivity > 0))
@@ -213,8 +313,9 @@ OracleSample oracle_sample(const OracleView *view, double x, double y)
 static uint32_t lights_reaching(const Oracle *oracle, const OracleSurface *surface)
 {
     uint32_t count = 0;
+    OracleDecisions ignored = {0};
     for (size_t i = 0; i < oracle->scene->lights.count; i++)
-        count += see_light(oracle, surface, &oracle->scene->lights.data[i]).shines;
+        count += see_light(oracle, surface, &oracle->scene->lights.data[i], &ignored).shines;
     return count;
 }
 
@@ -225,8 +326,7 @@ static OraclePath follow(const OracleView *view, OracleRay ray)
     const double slope = vec3_dot(ray.direction, view->forward);
     for (uint32_t level = 0; level < view->max_level; level++) {
         path.bounces = level;
-        OracleHit hit = meet_spheres(oracle->scene, &ray);
-        blocks_meet(&oracle->blocks, &ray, &hit);
+        const OracleHit hit = meet(oracle, &ray);
         if (hit.id == NOTHING)
             break;
         const OracleSurface surface = surface_at(oracle->scene, &ray, hit);

@@ -263,6 +263,10 @@ TEST(only_materials_in_use_count)
     assert_true(traits_of(&flat, false).mirrors);
     assert_true(traits_of(&flat, false).shaded);
     assert_true(traits_of(&flat, false).spheres);
+    assert_false(traits_of(&flat, false).glass);
+    materials[1] = (Material){.shader = SHADER_GLASS, .reflectivity = 1};
+    assert_true(traits_of(&flat, false).glass && traits_of(&flat, false).mirrors);
+    assert_false(traits_of(&flat, false).shaded);
     assert_false(traits_of(&flat, false).triangles);
 }
 
@@ -273,5 +277,5 @@ TEST(traits_become_compiler_options)
     traits_write_options(&traits, options);
     assert_string_equal(options, "-DCLRT_SPHERES=1 -DCLRT_TRIANGLES=0 -DCLRT_BVH=0 "
                                  "-DCLRT_SHADED=0 -DCLRT_MIRRORS=1 -DCLRT_COLORS=0 "
-                                 "-DCLRT_CHECKERS=0 -DCLRT_STATISTICS=1");
+                                 "-DCLRT_CHECKERS=0 -DCLRT_GLASS=0 -DCLRT_STATISTICS=1");
 }

@@ -118,6 +118,22 @@ TEST(a_checker_has_a_size_and_two_colors)
     assert_memory_equal(material->checks, colors, sizeof colors);
 }
 
+TEST(glass_has_a_color_and_an_index_of_refraction)
+{
+    FREED_BY(scene_free)
+    Scene scene = parsed("define plain glass\ndefine green glass color 0.5 1 0.25 ior 2.4\n"
+                         "max_level 9\nmaterial green\nsphere 0 0 0 1");
+    const Material *plain = &scene.materials.data[COURSE_MATERIALS], *green = plain + 1;
+    assert_int_equal(green->shader, SHADER_GLASS);
+    assert_true(plain->ior == 1.5f && plain->diffuse[1] == 1 && plain->diffuse[2] == 1);
+    assert_true(green->ior == 2.4f && green->diffuse[0] == 0.5f);
+    assert_true(green->reflectivity == 1);
+    // Glass needs no light. As it absorbs nothing, no max_level bounds the error.
+    assert_null(scene_missing(&scene).kind);
+    assert_true(truncation_bound(&scene, 9) == 1);
+    assert_int_equal(truncation_level(&scene, 0.01), GLASS_LEVELS);
+}
+
 TEST(only_small_integer_shininess_goes_by_squaring)
 {
     Scene scene =
@@ -204,7 +220,7 @@ TEST(different_scenes_have_different_hashes)
 #define LIGHT     STATEMENT "'light X Y Z INTENSITY [R G B] [area UX UY UZ VX VY VZ N]'"
 #define SUN       STATEMENT "'sun X Y Z INTENSITY [R G B]'"
 #define SPHERE    STATEMENT "'sphere X Y Z RADIUS'"
-#define DEFINE    STATEMENT "'define NAME silhouette|matte|blinn_phong [PROPERTY VALUES]...'"
+#define DEFINE    STATEMENT "'define NAME silhouette|matte|blinn_phong|glass [PROPERTY VALUES]...'"
 #define NORMALS   STATEMENT "'normals flat|smooth [DEGREES]'"
 #define CAMERA                                                                                     \
     STATEMENT "'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES|orthographic HEIGHT [WIDTH]'"
@@ -256,6 +272,11 @@ TEST(faults_name_line_column_and_the_statement)
         {"define jade matte color 0.2 0.7 0.4",
          "1:19: expected a property of a material (diffuse, checker, kd, specular, ks, "
          "shininess, reflectivity): found 'color'" DEFINE},
+        {"define a glass diffuse 1 1 1",
+         "1:16: expected a property of a material (color, ior): found 'diffuse'" DEFINE},
+        {"define a glass ior 0", "1:20: expected a number between 0.1 and 10: found '0'" DEFINE},
+        {"define a glas", "1:10: expected 'silhouette', 'matte', 'blinn_phong' or 'glass': found "
+                          "'glas'" DEFINE},
         {"up 0 1 0", "1:1: no camera follows this 'up': found 'up'" STATEMENT "'up X Y Z'"},
         {"normals smooth 180.5",
          "1:16: expected a number between 0 and 180: found '180.5'" NORMALS},

@@ -65,6 +65,8 @@ TEST(every_statement_comes_back)
         "define gold blinn_phong diffuse 1 .8 .2 shininess 200.5 reflectivity .3 ks 3.3 kd 0.7\n"
         "define \"my wax\" matte diffuse 0.1 0.2 0.3 checker 0.1 .1 .2 .3 .9 .8 .7 kd 0.9\ndefine "
         "\"#a\" silhouette\n"
+        "define pane glass ior 1.33 color 0.9 1 0.8\nmaterial pane\nsphere 1 1 1 1\n"
+        "material 0\n"
         "sphere 0.1 0.2 0.3 1e-7\nmaterial gold\nsphere 1 2 3 4\nmaterial 3\nsphere 5 6 7 8\n"
         "material \"my wax\"\nply_file cube.ply\nsides two\nnormals flat\nply_file cube.ply\n"
         "sides one\nmaterial \"#a\"\nply_file cube.ply\nmaterial 2\nsphere 5 6 7 8\n"

@@ -18,9 +18,9 @@ syntax match clrtString contained /"[^"]*"/
 
 syntax keyword clrtStatement contained ambient background camera define light material max_level
 syntax keyword clrtStatement contained mesh normals ply_file sides size sphere sun up
-syntax keyword clrtProperty contained diffuse checker specular kd ks shininess reflectivity
+syntax keyword clrtProperty contained diffuse checker specular kd ks shininess reflectivity color ior
 syntax keyword clrtProperty contained up scale rotate translate
-syntax keyword clrtConstant contained silhouette matte blinn_phong own one two smooth flat orthographic area
+syntax keyword clrtConstant contained silhouette matte blinn_phong glass own one two smooth flat orthographic area
 
 highlight default link clrtUnknown Error
 highlight default link clrtStatement Statement

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Splits paths at glass. trace.cl includes this file only if the scene has glass. A path follows
+// the refracted ray first, and the reflected ray waits on a stack. docs/numerics.md, "Glass",
+// bounds the stack.
+//
+// Invariant: the order in which a path's rays are followed depends only on the path itself. A color
+// is therefore the same sum in every form of the kernels, although the lanes of a packet are at
+// different levels.
+
+// A ray to follow, and its weight in the sample's color.
+typedef struct {
+    Ray ray;
+    Real weight;
+    Real3 tint; // multiplies the weight: the product of the colors of glass
+} Branch;
+
+static inline Branch choose_branch(Mask first, const Branch *a, const Branch *b)
+{
+    const Ray ray = {choose3(first, a->ray.origin, b->ray.origin),
+                     choose3(first, a->ray.direction, b->ray.direction),
+                     first ? a->ray.own : b->ray.own,
+                     first ? a->ray.own_index : b->ray.own_index,
+                     RAY_REFLECTED,
+                     first ? a->ray.active : b->ray.active};
+    return (Branch){ray, first ? a->weight : b->weight, choose3(first, a->tint, b->tint)};
+}
+
+// The rays that wait. In each lane, slot i contains a ray of level i if bit i of `waiting` is set.
+typedef struct {
+    Branch slots[GLASS_LEVELS];
+    UInt waiting;
+} Branches;
+
+static inline uint level_among(UInt levels, Mask among)
+{
+    const UInt level = first_lane(levels, among);
+    return ((const uint *)&level)[0];
+}
+
+// Stores a ray in the slot of each lane's level.
+static inline void push_branches(Branches *branches, UInt levels, Mask lanes, const Branch *branch)
+{
+    branches->waiting |= lanes ? (UInt)(1) << levels : (UInt)(0);
+    while (any_lane(lanes)) {
+        const uint level = level_among(levels, lanes);
+        const Mask here = lanes && levels == (UInt)(level);
+        branches->slots[level] = choose_branch(here, branch, &branches->slots[level]);
+        lanes = lanes && !here;
+    }
+}
+
+// Takes the waiting ray of the highest level, in those of the given lanes that have one. Returns
+// these lanes, and stores the levels in *levels.
+static inline Mask pop_branches(Branches *branches, Mask lanes, UInt *levels, Branch *branch)
+{
+    const Mask popped = lanes && branches->waiting != 0;
+    const UInt highest_level = 31 - clz(branches->waiting);
+    *levels = popped ? highest_level : *levels;
+    branches->waiting ^= popped ? (UInt)(1) << *levels : (UInt)(0);
+    for (Mask left = popped; any_lane(left);) {
+        const uint level = level_among(*levels, left);
+        const Mask here = left && *levels == (UInt)(level);
+        *branch = choose_branch(here, &branches->slots[level], branch);
+        left = left && !here;
+    }
+    return popped;
+}
+
+// The rays that leave the surfaces of a packet.
+typedef struct {
+    Branch next;   // followed first
+    Branch other;  // the reflected ray, which waits
+    Mask refracts; // lanes whose next ray is refracted
+    Mask splits;   // lanes that have the other ray
+} Successors;
+
+// Splits the next ray, which must be the reflected ray, in the given lanes, whose surfaces are
+// glass.
+static inline void split_branch(const Tracer *tracer, const Path *path, Mask lanes,
+                                Successors *after)
+{
+    const Surface *surface = &path->surface;
+    const Refraction at = refraction_of(tracer, surface, lanes);
+    Branch *next = &after->next;
+    after->other = *next;
+    after->other.weight = next->weight * at.reflectance;
+    after->refracts = lanes && at.reflectance < 1.0f;
+    after->splits = after->refracts && at.reflectance > 0.0f;
+    if (!any_lane(after->refracts))
+        return;
+    const Branch refracted = {ray_refracted(tracer, surface, &at, after->refracts),
+                              next->weight * (1.0f - at.reflectance),
+                              product3(next->tint, path->material.diffuse)};
+    *next = choose_branch(after->refracts, &refracted, next);
+}
+
+// Returns the next rays in the lanes of path->reflects. In other lanes, `next` is the last ray.
+static inline Successors successors_of(const Tracer *tracer, const Path *path, const Ray *last)
+{
+    const Branch ended = {*last, path->weight, path->tint};
+    Successors after = {ended, ended, 0, 0};
+    if (!any_lane(path->reflects))
+        return after;
+    after.next.ray = ray_reflected(tracer, &path->surface, path->reflects);
+    const Mask glass = path->reflects && is_glass(&path->material);
+    if (any_lane(glass))
+        split_branch(tracer, path, glass, &after);
+    return after;
+}
+
+// Returns the lanes whose next rays would exceed max_level.
+static inline Mask is_cut(const Tracer *tracer, const Path *path)
+{
+    return path->reflects && path->level + 1 >= tracer->frame->max_level;
+}
+
+// Adds the background, as seen along a branch that ends.
+static inline void end_branch(const Tracer *tracer, Path *path, Mask lanes, const Branch *branch)
+{
+    const Real3 background = load_private3(tracer->frame->background);
+    const Real3 seen = scaled3(branch->weight, product3(branch->tint, background));
+    path->color = choose3(lanes, sum3(path->color, seen), path->color);
+}
+
+// Sets the next rays of a packet, and their weights. Returns whether any lane has one.
+static NOT_INLINE bool follow_branches(const Tracer *tracer, Path *path, Branches *branches,
+                                       Ray *ray)
+{
+    const Mask live = ray->active, leads = path->reflects, cut = is_cut(tracer, path);
+    Successors after = successors_of(tracer, path, ray);
+    end_branch(tracer, path, live && (!leads || cut), &after.next);
+    end_branch(tracer, path, after.splits && cut, &after.other);
+    const Mask goes_on = leads && !cut;
+    path->level = goes_on ? path->level + 1 : path->level;
+    push_branches(branches, path->level, after.splits && goes_on, &after.other);
+    const Mask popped = pop_branches(branches, live && !goes_on, &path->level, &after.next);
+    *ray = after.next.ray;
+    ray->active = goes_on || popped;
+    path->weight = ray->active ? after.next.weight : 0.0f;
+    path->tint = after.next.tint;
+    return any_lane(ray->active);
+}
