@@ -241,10 +241,17 @@ static void add_shape(Check *check, size_t object)
 {
     const MeshObject *mesh = &check->scene->objects.data[object];
     const MeshCensus *census = &check->census.meshes[object];
+    const bool is_glass = check->scene->materials.data[mesh->material].shader == SHADER_GLASS;
+    const bool is_open = mesh->mesh.triangle_count > 0 && !census->closedness.is_closed;
     add(check, "empty_mesh", note(object, mesh->mesh.triangle_count == 0),
         "the mesh has no triangles");
-    add(check, "inside_out", note(object, census->closedness.is_inside_out && !mesh->two_sided),
+    const bool is_inside_out = census->closedness.is_inside_out;
+    add(check, "inside_out", note(object, is_inside_out && !is_glass && !mesh->two_sided),
         "its fronts face inwards, so only its far side is visible from outside");
+    add(check, "inside_out", note(object, is_inside_out && is_glass),
+        "its fronts face inwards, so its glass is outside");
+    add(check, "open_glass", note(object, is_glass && is_open),
+        "it is glass but not closed, so light that enters it may never leave it");
     add(check, "unused_vertices", note(object, census->unused_vertices),
         "%zu vertices that no triangle uses", census->unused_vertices);
     const bool is_placed = check->scale_fault.text[0] == '\0';

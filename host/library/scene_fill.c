@@ -6,7 +6,7 @@
 static bool check_material(const ClrtMaterial *material, ClrtError *error)
 {
     return check_number(error, "the shading", (double)material->shading, CLRT_SHADING_SILHOUETTE,
-                        CLRT_SHADING_BLINN_PHONG) &&
+                        CLRT_SHADING_GLASS) &&
            check_color(error, "the diffuse color", material->diffuse) &&
            check_color(error, "the specular color", material->specular) &&
            check_number(error, "kd", material->kd, 0, FACTOR_MOST) &&
@@ -17,7 +17,9 @@ static bool check_material(const ClrtMaterial *material, ClrtError *error)
             check_number(error, "the size of checks", material->check_size, RADIUS_LEAST,
                          RADIUS_MOST)) &&
            check_color(error, "the color of even cubes", material->even) &&
-           check_color(error, "the color of odd cubes", material->odd);
+           check_color(error, "the color of odd cubes", material->odd) &&
+           (material->shading != CLRT_SHADING_GLASS ||
+            check_number(error, "the index of refraction", material->ior, IOR_LEAST, IOR_MOST));
 }
 
 bool clrt_scene_add_material(ClrtScene *scene, const ClrtMaterial *material, uint32_t *number,
@@ -29,11 +31,13 @@ bool clrt_scene_add_material(ClrtScene *scene, const ClrtMaterial *material, uin
         !check_struct(error, "the material", material, &given, sizeof given) ||
         !check_material(&given, error))
         return false;
+    const bool is_glass = given.shading == CLRT_SHADING_GLASS;
     Material made = {.kd = (float)given.kd,
                      .ks = (float)given.ks,
                      .shader = (Shader)given.shading,
-                     .reflectivity = (float)given.reflectivity,
-                     .check_size = (float)given.check_size};
+                     .reflectivity = is_glass ? 1 : (float)given.reflectivity,
+                     .check_size = is_glass ? 0 : (float)given.check_size,
+                     .ior = (float)given.ior};
     for (int channel = 0; channel < 3; channel++) {
         made.diffuse[channel] = (float)given.diffuse[channel];
         made.specular[channel] = (float)given.specular[channel];

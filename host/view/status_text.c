@@ -146,7 +146,7 @@ const char *status_text_help(void)
            "right drag, wheel  move closer or away\n"
            "click  explain the pixel\n"
            "1-9  the scene's cameras\n"
-           "r  rays or OpenGL\n"
+           "r  rays or OpenGL, which draws glass as a grid\n"
            "a  anti-alias the resting picture or not\n"
            "+ -  exposure\n"
            "o  turn continuously\n"

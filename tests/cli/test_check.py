@@ -40,11 +40,14 @@ SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine 
           "parallel": "size 40 20\ncamera 2.6 -9 0 2.6 9 0 orthographic 1\nmesh closed.ply\nlight 9 9 9 1\n",
           "touched": "size 40 20\ncamera 1.9 -9 0 1.9 9 0 orthographic 1\nmesh closed.ply\nlight 9 9 9 1\n",
           "edge": "size 40 20\ncamera 3.9 -1 0 3.9 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
+          "glass": "camera 0 -9 0 0 0 0 45\ndefine clear glass\nmaterial clear\nmesh closed.ply\n"
+                   "mesh open.ply translate 3 0 0\n",
           "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n"}
 # Each file with its exit status, and the places and keywords of its report.
 FINDINGS = [
     ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed", "10 edges and points: 0 hidden", "\nfine\n"]),
     ("open.ply", 0, ["note: 3 edges of a single triangle", "triangle 0", "not closed\n", "\nno faults, 1 note\n"]),
+    ("glass.scn", 0, ["open.ply: 3 triangles", "note: it is glass but not closed", "\nno faults, 2 notes\n"]),
     ("eyes.scn", 0, ["note: 2 cameras are inside", "view 2 in sphere 1\nno faults, 1 note\n"]),
     ("within.scn", 0, ["note: 1 cameras are inside", "view 1 in closed.ply\n"]),
     ("beside.scn", 0, ["\nfine\n"]),

@@ -107,12 +107,25 @@ TEST(no_material_of_impossible_numbers_is_added)
             assert_int_equal(number, 77);
         }
     }
-    for (int shading = -1; shading <= 3; shading += 4) {
+    for (int shading = -1; shading <= 4; shading += 5) {
         uint32_t number;
         ClrtMaterial bad = matte;
         memcpy(&bad.shading, &shading, sizeof shading);
         REFUSES(clrt_scene_add_material(scene, &bad, &number, &error), "the shading is");
     }
+}
+
+TEST(glass_needs_an_index_of_refraction)
+{
+    ClrtMaterial glass = {
+        .size = sizeof glass, .shading = CLRT_SHADING_GLASS, .diffuse = {1, 1, 1}};
+    uint32_t number = 77;
+    REFUSES(clrt_scene_add_material(scene, &glass, &number, &error), "the index of refraction");
+    glass.ior = 1.5;
+    ClrtScene *other = clrt_scene_create(NULL);
+    assert_true(clrt_scene_add_material(other, &glass, &number, NULL));
+    assert_int_equal(number, 4);
+    clrt_scene_free(other);
 }
 
 static const double corners[][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

@@ -44,16 +44,17 @@ class Scene:
     def material(self, shading: str = "blinn_phong", *, diffuse: ArrayLike = (1, 1, 1),
                  specular: ArrayLike = (1, 1, 1), kd: float = 0.8, ks: float = 0.5,
                  shininess: float = 50.0, reflectivity: float = 0.0,
-                 checker: tuple[float, ArrayLike, ArrayLike] | None = None) -> int:
+                 checker: tuple[float, ArrayLike, ArrayLike] | None = None, ior: float = 1.5) -> int:
         """Adds a material and returns its number. clrt.h has the formula of its colors.
 
-        shading: "silhouette", "matte" or "blinn_phong". Colors are R G B in [0, 1]. checker: the
+        shading: "silhouette", "matte", "blinn_phong" or "glass", which uses only diffuse, the
+        color of refracted light, and ior. Colors are R G B in [0, 1]. checker: the
         size of cubes and their two colors, instead of diffuse. The cube at the origin has the first.
         """
         size, even, odd = checker or (0.0, None, None)
         given = struct("ClrtMaterial", shading=shading, diffuse=diffuse, specular=specular, kd=kd,
                        ks=ks, shininess=shininess, reflectivity=reflectivity, check_size=size,
-                       even=even, odd=odd)
+                       even=even, odd=odd, ior=ior)
         return result_of("scene_add_material", self._handle, given)
 
     def mesh(self, vertices: ArrayLike, faces: ArrayLike, material: int | str = "matte", *,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Shades the scene's materials under its lights, without shadows. Mirrors reflect the background.
+// Glass covers every second pixel with its color, so that what is behind it stays visible.
 // As in the traced picture, a light counts only if the shading normal and the face both point
 // toward it.
 #define LIGHTS       64
 #define SILHOUETTE   0.5 // shader numbers below this are silhouettes
 #define BLINN_PHONG  1.5
+#define GLASS        2.5
 
 uniform vec4 lights[LIGHTS]; // position and intensity
 uniform vec3 light_colors[LIGHTS];
@@ -17,7 +19,7 @@ struct Surface {
     vec3 place, normal, face, toward_viewer; // face is the visible side's normal, of any length
     vec4 diffuse;  // color and kd
     vec4 specular; // color and ks
-    vec4 look;     // shader, unused, shininess, reflectivity
+    vec4 look;     // shader, unused, shininess, reflectivity; of glass, only the shader counts
     vec4 even;     // color of even cubes, and cubes per unit; 0 for no checker
     vec4 odd;      // color of odd cubes
     vec4 shift;    // offset of the cubes along each axis
@@ -64,9 +66,12 @@ vec3 shaded(Surface surface)
 
 vec4 seen(Surface surface)
 {
-    bool is_flat = surface.look.x < SILHOUETTE;
+    bool is_glass = surface.look.x > GLASS;
+    bool is_flat = surface.look.x < SILHOUETTE || is_glass;
+    if (is_glass && mod(floor(gl_FragCoord.x) + floor(gl_FragCoord.y), 2.0) < 1.0)
+        discard;
     if (surface.even.w > 0.0)
         surface.diffuse.rgb = checked(surface);
     vec3 color = is_flat ? surface.diffuse.rgb : shaded(surface);
-    return vec4(encoded(mix(color, background, surface.look.w)), 1.0);
+    return vec4(encoded(mix(color, background, is_glass ? 0.0 : surface.look.w)), 1.0);
 }
