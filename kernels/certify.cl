@@ -10,7 +10,7 @@
 //
 // Invariant: an answer of YES or NO is proved. If a bound does not suffice, the answer is UNKNOWN.
 // All decisions that depend on this answer are then uncertain.
-#include "certify_surface.cl"
+#include "certify_glass.cl"
 
 // The decisions so far, all of them certain. A tracer in real arithmetic makes the same decisions.
 typedef struct {
@@ -106,32 +106,51 @@ static inline bool decide_lights(const Tracer *tracer, const UncertainSurface *s
     return true;
 }
 
+// Makes the decisions at the end of the path's ray, and sets the next ray. Clears *leads if the
+// surface has none. Returns false if a decision is not certain.
+static inline bool decide_ray(const Tracer *tracer, ConePath *path, Decisions *decisions,
+                              bool *leads)
+{
+    *leads = false;
+    if (!is_usable(&path->ray))
+        return false;
+    const Nearest nearest = certify_nearest_hit(tracer, &path->ray);
+    if (!nearest_is_certain(&nearest))
+        return false;
+    hash_decision(decisions, nearest.id);
+    if (nearest.id == NOTHING)
+        return true;
+    const UncertainSurface surface = uncertain_surface(tracer, &path->ray, &nearest);
+    if (CLRT_CHECKERS && !decide_check(tracer, &surface, path->ray.u, decisions))
+        return false;
+    const MaterialLanes material = fetch_material(tracer, surface.material);
+    const bool glass = CLRT_GLASS && is_glass(&material);
+    Decisions here = {nearest.id, 0, decisions->signature};
+    if (material.shader != SHADER_SILHOUETTE && !glass &&
+        !decide_lights(tracer, &surface, path->ray.u, &here))
+        return false;
+    *decisions =
+        path->level == 0 ? here : (Decisions){decisions->first_id, decisions->lit, here.signature};
+    *leads = material.reflectivity != 0.0f;
+    if (glass)
+        return decide_refraction(tracer, &surface, path);
+    if (*leads)
+        path->ray = reflected_cone(&surface, &path->ray);
+    return true;
+}
+
 // Makes the decisions of a sample's ray tree. Returns false if a decision is not certain.
 static inline bool decide(const Tracer *tracer, uint2 sample, Real u, Decisions *decisions)
 {
-    RayCone ray = camera_cone(tracer->frame, sample, u);
+    ConePath path;
+    path.ray = camera_cone(tracer->frame, sample, u);
+    path.level = path.waiting = 0;
     *decisions = (Decisions){NOTHING, 0, 0};
-    for (uint level = 0; level < tracer->frame->max_level; level++) {
-        if (!is_usable(&ray))
+    for (bool leads = true; leads || pop_cone(&path); path.level++) {
+        if (path.level >= tracer->frame->max_level)
+            leads = false;
+        else if (!decide_ray(tracer, &path, decisions, &leads))
             return false;
-        const Nearest nearest = certify_nearest_hit(tracer, &ray);
-        if (!nearest_is_certain(&nearest))
-            return false;
-        hash_decision(decisions, nearest.id);
-        if (nearest.id == NOTHING)
-            return true;
-        const UncertainSurface surface = uncertain_surface(tracer, &ray, &nearest);
-        if (CLRT_CHECKERS && !decide_check(tracer, &surface, u, decisions))
-            return false;
-        const MaterialLanes material = fetch_material(tracer, surface.material);
-        Decisions here = {nearest.id, 0, decisions->signature};
-        if (material.shader != SHADER_SILHOUETTE && !decide_lights(tracer, &surface, u, &here))
-            return false;
-        *decisions =
-            level == 0 ? here : (Decisions){decisions->first_id, decisions->lit, here.signature};
-        if (material.reflectivity == 0.0f)
-            return true;
-        ray = reflected_cone(&surface, &ray);
     }
     return true;
 }

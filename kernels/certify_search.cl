@@ -39,6 +39,7 @@ typedef struct {
     Nearest nearest;
     uint triangle;  // index of the nearest hit if it is a triangle, else NOTHING
     Answer blocked; // for a shadow ray
+    bool may_meet_glass;
 } ConeSearch;
 
 // Returns the growth of a box whose farthest corner is `far` away.
@@ -163,6 +164,13 @@ static inline void add_triangle(const Tracer *tracer, ConeSearch *search, uint i
         search->triangle = index;
 }
 
+static inline void add_blocker(const Tracer *tracer, ConeSearch *search, Answer met, uint material)
+{
+    search->blocked = max(search->blocked, met);
+    if (CLRT_GLASS && met != ANSWER_NO)
+        search->may_meet_glass |= tracer->materials[material].shader == SHADER_GLASS;
+}
+
 static inline void search_leaf(const Tracer *tracer, ConeSearch *search, uint2 range)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
@@ -172,13 +180,14 @@ static inline void search_leaf(const Tracer *tracer, ConeSearch *search, uint2 r
         const Candidate candidate = leaf_candidate(tracer, search->ray, index);
         if (search->ray->kind != RAY_SHADOW)
             add_triangle(tracer, search, index, &candidate);
-        search->blocked = max(search->blocked, candidate.met);
+        add_blocker(tracer, search, candidate.met, triangle->material & ~TRIANGLE_MARKS);
     }
 }
 
 static inline bool search_is_over(const ConeSearch *search)
 {
-    return search->ray->kind == RAY_SHADOW && search->blocked == ANSWER_YES;
+    const bool is_decided = CLRT_GLASS ? search->may_meet_glass : search->blocked == ANSWER_YES;
+    return search->ray->kind == RAY_SHADOW && is_decided;
 }
 
 static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
@@ -214,27 +223,29 @@ static inline Nearest certify_nearest_hit(const Tracer *tracer, const RayCone *r
     return search.nearest;
 }
 
-static inline Answer spheres_block(const Tracer *tracer, const RayCone *ray)
+static inline void search_spheres(const Tracer *tracer, ConeSearch *search)
 {
+    const RayCone *ray = search->ray;
     const Real margin = ray->around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
-    Answer blocked = ANSWER_NO;
     for (uint index = 0; index < tracer->frame->sphere_count; index++) {
         if (index == ray->own)
             continue;
         const PlainSphere sphere = plain_sphere(&tracer->spheres[index]);
         const Chord chord = chord_of(ray, &sphere);
-        blocked = max(blocked, sphere_blocks(&chord, ray->length - margin, ray->length + margin));
+        const Answer met = sphere_blocks(&chord, ray->length - margin, ray->length + margin);
+        add_blocker(tracer, search, met, tracer->spheres[index].material);
     }
-    return blocked;
 }
 
+// Returns whether anything blocks the shadow ray. If the ray may hit glass, the answer is unknown,
+// because a new shadow ray starts behind the glass.
 static inline Answer certify_occlusion(const Tracer *tracer, const RayCone *ray)
 {
     ConeSearch search = search_in_cone(ray);
-    search.blocked = spheres_block(tracer, ray);
-    if (tracer->frame->triangle_count > 0 && search.blocked != ANSWER_YES)
+    search_spheres(tracer, &search);
+    if (tracer->frame->triangle_count > 0 && !search_is_over(&search))
         search_triangles(tracer, &search);
-    return search.blocked;
+    return search.may_meet_glass ? ANSWER_UNKNOWN : search.blocked;
 }
 
 #endif

@@ -102,14 +102,16 @@ typedef struct {
     float share;
 } Seen;
 
-// Returns whether the plain picture has the mark's first hit and number of lights. Silhouettes have
-// no lights.
+// Returns whether the plain picture has the mark's first hit and number of lights. The lights of
+// silhouettes and glass decide nothing.
 static bool is_alike(const Certified *certified, const CertaintyMark *mark, const Seen *seen)
 {
     if (seen->primitive != mark->first_id)
         return false;
-    if (seen->primitive == NOTHING ||
-        certified->stage.flat.materials[seen->material].shader == SHADER_SILHOUETTE)
+    if (seen->primitive == NOTHING)
+        return true;
+    const uint32_t shader = certified->stage.flat.materials[seen->material].shader;
+    if (shader == SHADER_SILHOUETTE || shader == SHADER_GLASS)
         return true;
     const long lights = lroundf(seen->share * (float)certified->stage.flat.light_count);
     return lights == __builtin_popcount(mark->lit);

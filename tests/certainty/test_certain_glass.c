@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Tests --aov certainty in random scenes with glass: the colors of certified pixels differ from
+// fp64 only by rounding, repaired pixels have the colors of fp64, and most pixels are certified.
+// Tier 0 draws 10 scenes, and tier 1 draws 50.
+#include "certainty/certified.h"
+#include "extremes/support/check.h"
+#include "image/form.h"
+#include "image/rendered.h"
+#include "unit/cmocka_all.h"
+#include "unit/random.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FOLDER CLRT_SOURCE_FOLDER "/scenes"
+#define BLOCK  CLRT_SOURCE_FOLDER "/tests/image/block.ply"
+#define BALL   CLRT_SOURCE_FOLDER "/tests/image/ball.ply"
+
+static const Studio *studio;
+
+static double between(uint64_t *random, double least, double most)
+{
+    return least + random_unit(random) * (most - least);
+}
+
+static void write_place(FILE *stream, uint64_t *random, double height)
+{
+    fprintf(stream, " %g %g %g", between(random, -1.6, 1.6), between(random, -1.6, 1.6), height);
+}
+
+static void write_random_meshes(FILE *stream, uint64_t *random)
+{
+    for (int i = 0; i < 3; i++) {
+        fprintf(stream, "define m%d glass ior %g color 0.9 1 0.8\nmaterial m%d\nnormals %s\n", i,
+                between(random, 1.1, 2.4), i, i == 2 ? "smooth" : "flat");
+        fprintf(stream, "mesh %s scale %g rotate %g %g 1 %g translate", i == 2 ? BALL : BLOCK,
+                between(random, 0.2, 0.4), between(random, -1, 1), between(random, -1, 1),
+                between(random, 0, 360));
+        write_place(stream, random, between(random, 0.4, 1.2));
+        fputc('\n', stream);
+    }
+}
+
+// Writes a floor and a mirror with balls and meshes of glass, of which some are in others.
+static void write_random_scene(char path[TEMPORARY_PATH], uint64_t seed)
+{
+    FILE *stream = temporary_open(path);
+    uint64_t random = seed;
+    fprintf(stream, "size 40 30\nbackground 0.5 0.7 0.9\nmax_level 5\nlight 4 -3 6 0.6\n"
+                    "sun -2 -3 5 0.3\ndefine chrome matte kd 0.3 reflectivity 0.7\nmaterial 1\n"
+                    "mesh " FOLDER "/plateau.ply\nmaterial 2\nsphere");
+    write_place(stream, &random, 0.3);
+    fputs(" 0.3\nmaterial chrome\nsphere", stream);
+    write_place(stream, &random, 0.4);
+    fputs(" 0.4\n", stream);
+    for (int i = 0; i < 4; i++) {
+        fprintf(stream, "define s%d glass ior %g\nmaterial s%d\nsphere", i,
+                between(&random, i == 3 ? 0.6 : 1.1, 2), i);
+        write_place(stream, &random, between(&random, 0.5, 1));
+        fprintf(stream, " %g\n", between(&random, 0.1, 0.5));
+    }
+    write_random_meshes(stream, &random);
+    fprintf(stream, "camera %g -4 %g  0 0 0.4  45\n", between(&random, -3, 3),
+            between(&random, 0.5, 4));
+    temporary_close(stream);
+}
+
+typedef struct {
+    uint64_t pixels, certified, open, wrong;
+    uint64_t differing; // pixels that are not certified and differ from fp64
+    float largest;      // difference of a certified pixel from fp64
+} Sum;
+
+// The largest difference that rounding causes if no decision differs.
+#define ROUNDED 1e-5f
+
+static float difference(const float a[3], const float b[3])
+{
+    return fmaxf(fabsf(a[0] - b[0]), fmaxf(fabsf(a[1] - b[1]), fabsf(a[2] - b[2])));
+}
+
+static void check_scene(Sum *sum, uint64_t seed)
+{
+    char path[TEMPORARY_PATH];
+    write_random_scene(path, seed);
+    const PictureRequest request = picture_request(path, 1);
+    const PictureRequest in_fp64 = rendered_in_form(request, &form_all[FORMS_FP32]);
+    FREED_BY(framebuffer_free) Framebuffer exact = rendered(&in_fp64);
+    FREED_BY(scene_free) Scene scene = rendered_scene(path);
+    const CertifiedView view = {1, scene.width, scene.height, 1};
+    FREED_BY(certified_free) Certified certified = certified_make(studio, &scene, &view);
+    unlink(path);
+    for (uint32_t i = 0; i < exact.width * exact.height; i++) {
+        const uint32_t certainty = certified.map.marks[i].certainty;
+        const float apart = difference(certified.plain.pixels[i], exact.pixels[i]);
+        sum->pixels++;
+        sum->open += certainty == CERTAINTY_OPEN;
+        sum->differing += certainty != CERTAINTY_CERTIFIED && apart > ROUNDED;
+        if (certainty == CERTAINTY_REPAIRED)
+            sum->wrong +=
+                memcmp(certified.picture.pixels[i], exact.pixels[i], sizeof exact.pixels[i]) != 0;
+        if (certainty != CERTAINTY_CERTIFIED)
+            continue;
+        sum->certified++;
+        sum->wrong += !(apart <= ROUNDED);
+        sum->largest = fmaxf(sum->largest, apart);
+    }
+}
+
+TEST(certified_pixels_of_random_glass_agree_with_fp64)
+{
+    Sum sum = {0};
+    const uint64_t scenes = tier_size(10, 50);
+    for (uint64_t seed = 1; seed <= scenes; seed++)
+        check_scene(&sum, seed);
+    print_message(
+        "%llu pixels, %.1f %% certified, %.1f %% open, %llu wrong, differences up to %.2g; "
+        "%llu others differ\n",
+        (unsigned long long)sum.pixels, 100 * (double)sum.certified / (double)sum.pixels,
+        100 * (double)sum.open / (double)sum.pixels, (unsigned long long)sum.wrong,
+        (double)sum.largest, (unsigned long long)sum.differing);
+    assert_int_equal(sum.wrong, 0);
+    assert_true(sum.differing > 0); // otherwise, the test would not notice wrong certificates
+    assert_true(2 * sum.certified >= sum.pixels);
+}
+
+static int keep_studio(void **state)
+{
+    studio = *state;
+    return 0;
+}
+
+FIXTURES(picture_setup, picture_teardown)
+AT_START(studio)
+{
+    test_set_up(keep_studio);
+}
