@@ -122,14 +122,32 @@ static inline void end_branch(const Tracer *tracer, Path *path, Mask lanes, cons
     path->color = choose3(lanes, sum3(path->color, seen), path->color);
 }
 
+// Ends branches that max_level cuts off. Their color would have been at most 1.
+static inline void cut_branch(const Tracer *tracer, Path *path, Mask lanes, const Branch *branch)
+{
+    end_branch(tracer, path, lanes, branch);
+    path->cut += lanes ? branch->weight * largest_component(branch->tint) : 0.0f;
+}
+
+// Adds the squares of the samples' errors by cut branches, in steps of 2^-32. The factor covers the
+// rounding of the weights and of their sum.
+static inline void count_cut(Tally *tally, Real cut)
+{
+    const Real error = clamp_to_one((1.0f + 0x1p-8f) * cut);
+    const Real steps = ceil(0x1p32f * error * error);
+    for (uint lane = 0; lane < CLRT_LANES; lane++)
+        tally->cut += (ulong)((const Scalar *)&steps)[lane];
+}
+
 // Sets the next rays of a packet, and their weights. Returns whether any lane has one.
 static NOT_INLINE bool follow_branches(const Tracer *tracer, Path *path, Branches *branches,
                                        Ray *ray)
 {
     const Mask live = ray->active, leads = path->reflects, cut = is_cut(tracer, path);
     Successors after = successors_of(tracer, path, ray);
-    end_branch(tracer, path, live && (!leads || cut), &after.next);
-    end_branch(tracer, path, after.splits && cut, &after.other);
+    end_branch(tracer, path, live && !leads, &after.next);
+    cut_branch(tracer, path, cut, &after.next);
+    cut_branch(tracer, path, after.splits && cut, &after.other);
     const Mask goes_on = leads && !cut;
     path->level = goes_on ? path->level + 1 : path->level;
     push_branches(branches, path->level, after.splits && goes_on, &after.other);

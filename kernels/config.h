@@ -33,6 +33,8 @@
 #define CLRT_STATISTICS 0 // rays and tests are counted
 #endif
 
+#define CLRT_TALLIES (CLRT_STATISTICS || CLRT_GLASS) // the kernels store tallies
+
 // The form of the kernels, set by kernel_choice.c, program.c and KernelEntry (all in host/device).
 #ifndef CLRT_WIDE_NODES
 #define CLRT_WIDE_NODES 0 // BvhWide and TriangleBlock replace BvhPair and TriangleData

@@ -203,6 +203,6 @@ kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, 
             add_packet(sums + begin, &sum, colors[i],
                        (Span){samples, start + i * CLRT_LANES, count});
     }
-    if (CLRT_STATISTICS)
+    if (CLRT_TALLIES)
         store_tally(tallies + (size_t)begin * TALLY_KINDS, &tally);
 }

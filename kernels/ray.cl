@@ -41,6 +41,9 @@ static inline float length_of_ray(const Ray *ray)
 typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
     uint triangle_tests, box_tests, sphere_tests;
+#if CLRT_GLASS
+    ulong cut; // the sum of TALLY_CUT
+#endif
 #if CLRT_SIGNATURES
     UInt signatures[PACKETS]; // hashes of the surfaces hit and the lights that reach them
 #endif

@@ -106,6 +106,10 @@ static inline void store_tally(global uint *counts, const Tally *tally)
     counts[TALLY_TRIANGLE_TESTS] = tally->triangle_tests;
     counts[TALLY_BOX_TESTS] = tally->box_tests;
     counts[TALLY_SPHERE_TESTS] = tally->sphere_tests;
+#if CLRT_GLASS
+    counts[TALLY_CUT] = (uint)tally->cut;
+    counts[TALLY_CUT_HIGH] = (uint)(tally->cut >> 32);
+#endif
 }
 
 static inline void store_lane(global float *pixel, const Real3 *color, uint lane)

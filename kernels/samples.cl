@@ -47,7 +47,7 @@ kernel void trace_samples(TRACER_ARGUMENTS, global const uint *places, uint firs
         for (uint i = 0; i < min(beam, end - start); i++)
             store_sample(samples + start + i, &colors[i / CLRT_LANES],
                          tally.signatures[i / CLRT_LANES], i % CLRT_LANES);
-        if (CLRT_STATISTICS)
+        if (CLRT_TALLIES)
             store_tally(tallies + (size_t)start * TALLY_KINDS, &tally);
     }
 }

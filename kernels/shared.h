@@ -266,6 +266,8 @@ typedef enum {
     TALLY_TRIANGLE_TESTS,
     TALLY_BOX_TESTS,
     TALLY_SPHERE_TESTS,
+    TALLY_CUT, // the low word and the high word of a sum over samples (branches.cl)
+    TALLY_CUT_HIGH,
     TALLY_KINDS
 } TallyKind;
 

@@ -51,7 +51,7 @@ static inline void store_packet(const FrameData *frame, uint2 corner, const Real
                                 const Tally *tally, const Output *output)
 {
     const Tally none = {0};
-    if (!CLRT_STATISTICS && store_rows(frame, corner, color, output->pixels))
+    if (!CLRT_TALLIES && store_rows(frame, corner, color, output->pixels))
         return;
     for (uint lane = 0; lane < CLRT_LANES; lane++) {
         const uint column = corner.x + lane % PACKET_WIDTH, row = corner.y + lane / PACKET_WIDTH;
@@ -59,7 +59,7 @@ static inline void store_packet(const FrameData *frame, uint2 corner, const Real
             continue;
         const size_t place = (size_t)row * frame->tile_width + column;
         store_lane(output->pixels + 3 * place, color, lane);
-        if (CLRT_STATISTICS)
+        if (CLRT_TALLIES)
             store_tally(output->tallies + place * TALLY_KINDS, lane == 0 ? tally : &none);
     }
 }

@@ -34,6 +34,7 @@ typedef struct {
 #if CLRT_GLASS
     Real3 tint; // multiplies the weight
     UInt level; // of the last ray; 0 for camera rays
+    Real cut;   // sum of the weights of rays that max_level cuts off
 #endif
 } Path;
 
@@ -64,6 +65,7 @@ static inline void paths_start(Paths *paths, uint number, Ray ray)
 #if CLRT_GLASS
     path->tint = real3_of(1.0f, 1.0f, 1.0f);
     path->level = 0;
+    path->cut = 0.0f;
     paths->branches[number].waiting = 0;
 #endif
 }
@@ -227,6 +229,10 @@ static inline void trace(const Tracer *tracer, Paths *paths, Real3 colors[PACKET
     }
     for (uint i = 0; i < PACKETS; i++)
         colors[i] = in_steps3(path_color(tracer, &paths->paths[i]));
+#if CLRT_GLASS
+    for (uint i = 0; i < PACKETS; i++)
+        count_cut(tracer->tally, paths->paths[i].cut);
+#endif
 }
 
 #endif

@@ -15,8 +15,7 @@ static void take_tallies(void *context, const Tile *tile, void *const values[2])
     Renderer *renderer = context;
     RenderProgress *progress = &renderer->progress;
     const uint(*tallies)[TALLY_KINDS] = values[1];
-    const size_t count =
-        renderer->kernel->traits.statistics ? (size_t)tile->width * tile->height : 0;
+    const size_t count = renderer_has_tallies(renderer) ? (size_t)tile->width * tile->height : 0;
     for (size_t pixel = 0; pixel < count; pixel++)
         for (int kind = 0; kind < TALLY_KINDS; kind++)
             progress->tallies[kind] += tallies[pixel][kind];
@@ -36,7 +35,7 @@ bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObs
 {
     if (!check_size(renderer, framebuffer, error))
         return false;
-    const bool counts = renderer->kernel->traits.statistics;
+    const bool counts = renderer_has_tallies(renderer);
     const TilePass pass = {.frame = renderer_frame(renderer, camera),
                            .sizes = {sizeof(float[3]), counts ? sizeof(uint[TALLY_KINDS]) : 0},
                            .first = renderer->settings.ready_tiles,

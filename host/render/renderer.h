@@ -9,7 +9,7 @@
 typedef struct {
     uint64_t tiles_done, tiles;
     uint64_t tiles_ready;          // tiles that existed before the run
-    uint64_t tallies[TALLY_KINDS]; // zeros without statistics
+    uint64_t tallies[TALLY_KINDS]; // zeros without statistics, except for TALLY_CUT with glass
 } RenderProgress;
 
 // tile_done is called after every tile, and by sampler_trace after every launch. If tile_done
@@ -52,6 +52,13 @@ typedef struct {
     double launch_samples;   // samples of the sampler's next launch on GPUs; 0 at first
     bool is_special;         // the kernel is specialized for the scene
 } Renderer;
+
+// Returns whether the kernel stores tallies.
+static inline bool renderer_has_tallies(const Renderer *renderer)
+{
+    const SceneTraits *traits = &renderer->kernel->traits;
+    return traits->statistics || traits->glass;
+}
 
 // Returns the kernel's parameters for a picture. Callers set the tile (tile_aim).
 FrameData renderer_frame(const Renderer *renderer, const CameraData *camera);

@@ -95,7 +95,7 @@ static bool open_buffers(Sampling *sampling, Error *error)
 {
     const SampleList *list = sampling->list;
     const size_t tallies =
-        sampling->renderer->kernel->traits.statistics ? (size_t)list->count * TALLY_KINDS : 16;
+        renderer_has_tallies(sampling->renderer) ? (size_t)list->count * TALLY_KINDS : 16;
     sampling->host_tallies = memory_zeroed(tallies, sizeof *sampling->host_tallies, error);
     if (sampling->host_tallies == NULL)
         return false;
@@ -207,7 +207,7 @@ static bool read_tallies(Sampling *sampling, Error *error)
 {
     Renderer *renderer = sampling->renderer;
     const size_t tallies = (size_t)sampling->list->count * TALLY_KINDS;
-    if (!renderer->kernel->traits.statistics)
+    if (!renderer_has_tallies(renderer))
         return true;
     if (!read_back(sampling, sampling->tallies, tallies * sizeof *sampling->host_tallies, error))
         return false;

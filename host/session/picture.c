@@ -84,6 +84,17 @@ bool session_prepare(Session *session, const SessionPicture *request, PictureRes
     return open_renderer(session, request, &renderer, result, error);
 }
 
+// Replaces the bound on the error of max_level in scenes with glass by the root mean square of the
+// samples' cut weights. The samples so far must be spread evenly.
+static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
+{
+    const Renderer *renderer = &drawing->renderer;
+    const uint64_t *tallies = renderer->progress.tallies;
+    const double squares = (double)tallies[TALLY_CUT_HIGH] + (double)tallies[TALLY_CUT] * 0x1p-32;
+    if (renderer->scene->traits.glass && renderer->settings.max_level > 0 && samples > 0)
+        drawing->result->truncated = sqrt(squares / (double)samples);
+}
+
 static void count_tree(uint32_t *samples, const RefineTree *tree)
 {
     for (uint32_t y = 0; y < tree->height; y++)
@@ -125,8 +136,9 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
                                  .scene = session->scene.scene,
                                  .normalization = &session->scene.normalization};
     const float contrast = (float)drawing->request->goal.contrast;
-    const bool ok = adaptive_open(&adaptive, &setup, drawing->observer, error) &&
-                    adaptive_refine(&adaptive, contrast, drawing->observer, error);
+    bool ok = adaptive_open(&adaptive, &setup, drawing->observer, error);
+    measure_truncation(drawing, adaptive.samples);
+    ok = ok && adaptive_refine(&adaptive, contrast, drawing->observer, error);
     if (ok)
         adaptive_store(&adaptive, drawing->framebuffer);
     if (ok && result->pixel_samples != NULL)
@@ -155,7 +167,7 @@ static bool draw_for_goal(PictureDrawing *drawing, Error *error)
     Ladder ladder;
     GoalOutcome outcome = {0};
     const Session *session = drawing->session;
-    const PictureGoal *goal = &drawing->request->goal;
+    PictureGoal goal = drawing->request->goal;
     PictureResult *result = drawing->result;
     const double start = clock_seconds();
     const CameraData camera = session_camera(session, drawing->request, LADDER_GRID);
@@ -169,9 +181,12 @@ static bool draw_for_goal(PictureDrawing *drawing, Error *error)
                                .observer = drawing->observer};
     if (!ladder_open(&ladder, &setup, error))
         return false;
-    const bool ok = refine(goal, &ladder, start, &outcome, error);
-    result->estimate = hypot(outcome.estimate, goal->truncated);
-    result->bound = hypot(outcome.bound, goal->truncated);
+    measure_truncation(drawing, ladder.samples);
+    if (goal.truncated > 0)
+        goal.truncated = result->truncated;
+    const bool ok = refine(&goal, &ladder, start, &outcome, error);
+    result->estimate = hypot(outcome.estimate, goal.truncated);
+    result->bound = hypot(outcome.bound, goal.truncated);
     result->goal_missed = !outcome.reached;
     result->samples = ladder.samples;
     result->feature = ladder_feature(&ladder);
@@ -215,6 +230,7 @@ static bool draw_evenly(PictureDrawing *drawing, Error *error)
     const SampleShare all = {settings->samples * settings->samples, 1};
     result->samples = result->pixels * all.samples;
     result->feature = feature_smallest(&all, 1);
+    measure_truncation(drawing, result->samples);
     return true;
 }
 

@@ -39,7 +39,7 @@ typedef struct {
     size_t upload_size;
     double upload_seconds, build_seconds;
     uint32_t group[2]; // size of the work-groups
-    double truncated;  // SessionPicture::truncated
+    double truncated;  // SessionPicture::truncated; with glass, session_draw measures it
     // Set by session_draw.
     RenderProgress progress;
     bool is_complete;

@@ -104,6 +104,48 @@ TEST(levels_may_be_none_or_follow_an_error)
     assert_true(expect_program(picture, "--max-level auto").max_level > 3);
 }
 
+static double rms_difference(const float *a, const float *b)
+{
+    double sum = 0;
+    for (int i = 0; i < 3 * PIXELS; i++)
+        sum += (double)(a[i] - b[i]) * (double)(a[i] - b[i]);
+    return sqrt(sum / (3 * PIXELS));
+}
+
+TEST(in_glass_the_weights_of_cut_rays_bound_the_error)
+{
+    static float deep[3 * PIXELS];
+    static const int levels[] = {16, 2, 4, 8};
+    double bounds[4];
+    ClrtScene *glass = clrt_scene_load(program_file("tests/image/glass.scn"), NULL, NULL);
+    for (int i = 0; i < 4; i++) {
+        ClrtResult result = {.size = sizeof result};
+        ClrtPicture picture = request();
+        picture.max_level = levels[i];
+        picture.result = &result;
+        assert_true(clrt_render(renderer, glass, &picture, i == 0 ? deep : rgb, NULL));
+        bounds[i] = result.truncation;
+        if (i > 0)
+            assert_true(rms_difference(deep, rgb) <= bounds[i] + bounds[0]);
+    }
+    assert_true(bounds[0] < bounds[3] && bounds[3] < bounds[2] && bounds[2] < bounds[1]);
+    assert_true(bounds[0] < 0.01 && bounds[1] < 1);
+    clrt_scene_free(glass);
+}
+
+TEST(in_glass_an_error_includes_the_cut_rays)
+{
+    ClrtResult result = {.size = sizeof result};
+    ClrtPicture picture = request();
+    ClrtScene *glass = clrt_scene_load(program_file("tests/image/glass.scn"), NULL, NULL);
+    picture.error = 0.05;
+    picture.result = &result;
+    assert_true(clrt_render(renderer, glass, &picture, rgb, NULL));
+    assert_true(!result.goal_missed && result.max_level == 16 && result.error_bound <= 0.05);
+    assert_true(result.truncation > 0 && result.truncation < result.error);
+    clrt_scene_free(glass);
+}
+
 TEST(a_turned_camera_is_the_turntables)
 {
     ClrtCamera camera = {.size = sizeof camera};
