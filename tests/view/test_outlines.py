@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Tests that OpenGL and rays show the same outlines in all views of scenes of the course and of
 clrt. Each object gets its own color, and the two pictures may differ only within two pixels of an
-edge. Both must also show the same lit sides of a coarse convex mesh with smooth normals, the same colors
-of vertices, and the same checks. Usage: CLRT=path/to/clrt test_outlines.py"""
+edge. Both must also show the same lit sides of a coarse convex mesh with smooth normals, the same light of
+large lights, the same colors of vertices, and the same checks. Usage: CLRT=path/to/clrt test_outlines.py"""
 
 import pathlib
 import tempfile
@@ -133,6 +133,18 @@ def light_falls_on_the_same_side_of_a_convex_mesh(screen, folder):
         traced, drawn = both_pictures(screen, scene)
         apart = compare(f"ball, {light}", "1", drawn, traced)
         print(f"         {light}: {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")
+
+
+def all_points_of_large_lights_shine(screen, folder):
+    """OpenGL joins the 257 lights. The red one comes last."""
+    scene = folder / "area.scn"
+    scene.write_text("background 0 0 0\nambient 0.1\nmaterial 1\nlight -3 -4 2 0.6 area 0.2 0 0 0 0 0.2 16\n"
+                     "light 5 -4 1 0.4 1 0 0\nsphere 0 0 0 1\ncamera 0 -5 0 0 0 0 30\n")
+    traced, drawn = both_pictures(screen, scene)
+    apart = [sum(abs(a - b) > 4 for a, b in zip(traced[channel::4], drawn[channel::4]))
+             for channel in range(3)]
+    print(f"         {apart} of {SIZE[0] * SIZE[1]} pixels differ by more than 4 of 255")
+    assert max(apart) < 300, apart
 
 
 def colors_of_vertices_agree(screen, folder):

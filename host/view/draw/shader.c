@@ -185,15 +185,35 @@ void lens_apply(const Lens *lens, GLuint program)
 
 // The following functions convert a scene's lights and materials to the shaders' layout.
 
+// Returns the mean of the scene's lights [first, end) with their whole intensity, and with a
+// normalized position.
+static Light mean_light(const Scene *scene, size_t first, size_t end,
+                        const Normalization *normalization)
+{
+    Light mean = {.intensity = 0};
+    for (size_t i = first; i < end; i++)
+        mean.intensity += scene->lights.data[i].intensity;
+    for (size_t i = first; i < end; i++) {
+        const Light *light = &scene->lights.data[i];
+        const double share = mean.intensity > 0 ? light->intensity / mean.intensity : 0;
+        const Vec3 position = normalize_light(normalization, light);
+        mean.position = vec3_add(mean.position, vec3_scale(position, share));
+        mean.color = vec3_add(mean.color, vec3_scale(light->color, share));
+    }
+    return mean;
+}
+
+// Above the limit, neighbors in the list become one light. They are mostly points of one area.
 static int store_lights(float lights[LIGHT_LIMIT][4], float colors[LIGHT_LIMIT][3],
                         const Scene *scene, const Normalization *normalization)
 {
-    size_t count = 0;
-    for (; count < scene->lights.count && count < LIGHT_LIMIT; count++) {
-        const Light *light = &scene->lights.data[count];
-        vec3_store(lights[count], normalize_light(normalization, light));
-        lights[count][3] = (float)light->intensity;
-        vec3_store(colors[count], light->color);
+    const size_t all = scene->lights.count, count = all < LIGHT_LIMIT ? all : LIGHT_LIMIT;
+    for (size_t i = 0; i < count; i++) {
+        const Light light =
+            mean_light(scene, all * i / count, all * (i + 1) / count, normalization);
+        vec3_store(lights[i], light.position);
+        lights[i][3] = (float)light.intensity;
+        vec3_store(colors[i], light.color);
     }
     return (int)count;
 }
