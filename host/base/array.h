@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Growable arrays of any type. `ARRAY(Light) lights = {0};` declares one, and array_push appends to
-// it. The anonymous union lets one function grow arrays of every type without breaking C's aliasing
-// rules.
+// it. The anonymous union lets one function grow arrays of every type within C's aliasing rules.
 #pragma once
 
 #include "base/error.h"

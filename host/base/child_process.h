@@ -14,8 +14,8 @@ typedef struct {
 } ChildProcess;
 
 // Starts the program words[0]. Its arguments are `words`, which NULL terminates. Its standard
-// output is the socket, and its standard input and error are /dev/null. Its environment is the one
-// that this process was started with. Any thread may call child_spawn, even while another thread
+// output is the socket, and its standard input and error are /dev/null. Its environment is the
+// initial environment of this process. Any thread may call child_spawn, even while another thread
 // changes the environment. On failure, returns false and stores the reason without a file name in
 // *cause.
 bool child_spawn(ChildProcess *child, const char *const words[], Error *cause);

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Reads a stream to its end, but at most one byte more than `most`. Pipes report no size, so the
+// Reads a stream to its end, or up to one byte more than `most`. Pipes report no size, so the
 // buffer grows while bytes arrive.
 static bool read_all(File *file, FILE *stream, size_t expected, size_t most, Error *error)
 {

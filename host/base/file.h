@@ -28,8 +28,7 @@ bool file_read_stream(File *file, FILE *stream, const char *name, Error *error);
 
 void file_free(File *file);
 
-// Returns whether path ends in `ending`, such as ".mtl", and has characters before it. Ignores
-// case.
+// Returns whether path ends in `ending`, such as ".mtl", after other characters. Ignores case.
 bool file_has_ending(const char *path, const char *ending);
 
 // If path is relative, puts the folder of the file `beside` in front of it. Returns the new path,

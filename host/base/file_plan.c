@@ -45,8 +45,7 @@ static char *follow_links(const char *path, Error *error)
     return end;
 }
 
-// Identifies a file that does not exist. If its folder is missing, inode stays 0, which no file
-// has.
+// Identifies a new file. If its folder is missing, inode stays 0, which no file has.
 static bool identify_new(PlannedFile *file, Error *error)
 {
     struct stat status;

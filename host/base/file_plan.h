@@ -21,9 +21,8 @@ typedef struct {
     ARRAY(PlannedFile) list;
 } FilePlan;
 
-// Adds the file at path; "-" is standard input or output. Ignores pipes and devices, because
-// writing does not replace them. Ignores inputs that do not exist. Returns false if memory runs
-// out.
+// Adds the file at path; "-" is standard input or output. Ignores missing inputs. Ignores pipes and
+// devices, because writing does not replace them. Returns false if memory runs out.
 bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *path, Error *error);
 
 // Returns false if an output is also an input or another output. The message names both.

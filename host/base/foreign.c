@@ -22,8 +22,7 @@ static bool name_beside_library(char path[COMPANION_PATH_SIZE])
 }
 
 // Searches the folder of the running program first. Other programs that use clrt's library find
-// clrt-foreign beside the library, as in a Python package, or in the configured installation
-// folder.
+// clrt-foreign beside the library, as in a Python package, or in the installation folder.
 static bool find_program(char path[COMPANION_PATH_SIZE], Error *cause)
 {
     if ((file_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER) && access(path, X_OK) == 0) ||

@@ -4,11 +4,9 @@
 // of clrt: if clrt-foreign crashes, hangs or exhausts its memory, the read fails with one error
 // message. The limits do not confine a library that a hostile file has taken over.
 //
-// The output of clrt-foreign is a sequence of records. Each record consists of a ForeignHead and
-// data.
+// The output of clrt-foreign is a sequence of records. Each record is a ForeignHead and its data.
 //
-// Invariant: clrt trusts no byte of the output. Readers check every size, index and number before
-// use.
+// Invariant: clrt trusts no byte of the output. Readers first check each size, index and number.
 #pragma once
 
 #include "base/child_process.h"

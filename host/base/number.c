@@ -2,9 +2,8 @@
 // Converts decimal text to int64_t or to a correctly rounded double, in every locale. The digits
 // are gathered in a 64-bit integer, which holds any 19 digits. One of three methods then applies
 // the power of ten:
-// 1. If the integer and the power are exact doubles, a single multiplication or division is
-// correctly rounded (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI
-// 1990).
+// 1. If the integer and the power are exact doubles, one multiplication or division is correctly
+// rounded (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990).
 // 2. For powers from 10^-27 to 10^27, 128-bit integers hold enough of the result. Only their
 // conversion to double rounds.
 // 3. All other numbers are rewritten as DIGITSeEXPONENT for strtod. This form has no decimal point,

@@ -48,9 +48,8 @@ static void read_boot(char digits[BOOT_DIGITS + 1])
         fclose(stream);
 }
 
-// Locks an open file. Returns false if another process has locked or removed the file. Returns true
-// on file systems without locks. Other runs cannot lock the file there either, so they do not
-// remove it.
+// Locks an open file. Returns false if another process has locked or removed it. Returns true on
+// file systems without locks, because other runs cannot lock the file there either.
 static bool take_file(int file)
 {
     struct stat status;

@@ -60,9 +60,8 @@ static bool read_line(int file, char line[LINE_SIZE])
     return next == '\n';
 }
 
-// Returns the name, without folders, of the mapped file that contains the address `place`, or NULL.
-// Stores the name in `line`. Reads /proc, because dladdr takes locks that the crashed thread may
-// hold.
+// Returns the name, without folders, of the mapped file that contains `place`, or NULL. Stores the
+// name in `line`. Reads /proc, because dladdr takes locks that the crashed thread may hold.
 static const char *file_at(uintptr_t place, char line[LINE_SIZE])
 {
     const int maps = open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
@@ -83,8 +82,7 @@ static void print_message(const char *message)
     (void)written; // if standard error is closed, there is no message
 }
 
-// Prints the message and ends the process. If several threads crash, the first one prints, and the
-// others wait.
+// Prints the message and ends the process. If several threads crash, the others wait.
 static _Noreturn void end(const char *message)
 {
     while (atomic_flag_test_and_set(&has_ended))

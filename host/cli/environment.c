@@ -4,8 +4,7 @@
 // The C library's setenv frees or overwrites the array to which environ points.
 //
 // The executable therefore overrides setenv, unsetenv and putenv. Each change replaces environ by a
-// new array, and the old array is never freed. Programs change few variables, so this takes little
-// memory.
+// new array. Old arrays are never freed, but there are few changes.
 #include <errno.h>
 #include <pthread.h>
 #include <stdbool.h>

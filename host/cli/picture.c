@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// clrt SCENE -o FILE: renders a scene file to picture files. For each picture, clrt resumes an
-// earlier run, draws the colors, certifies them, draws the channels, measures the error, and writes
-// the file.
+// clrt SCENE -o FILE: renders picture files. For each picture, clrt resumes an earlier run, draws
+// the colors, certifies them, draws the channels, measures the error, and writes the file.
 #include "cli/commands.h"
 
 #include "base/clock.h"

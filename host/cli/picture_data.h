@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The data of a picture that clrt renders to a file. cli/picture.c fills the data, and reports read
-// them.
+// The data of a picture that clrt renders to a file. cli/picture.c fills the data for reports.
 #pragma once
 
 #include "cli/stages.h"

@@ -18,7 +18,6 @@ void picture_print_beginning(const Picture *picture);
 // Sets picture->moment to the current time.
 void picture_print_end(Picture *picture);
 
-// These functions fill error for a picture that misses its goal or is stopped, and return the exit
-// status.
+// Fill error for a picture that misses its goal or is stopped, and return the exit status.
 ExitCode picture_fail_goal(const Picture *picture, Error *error);
 ExitCode picture_fail_stopped(const Picture *picture, Error *error);

@@ -18,12 +18,10 @@ Progress progress_begin(bool silent);
 // Returns whether standard error is a terminal that can rewrite lines.
 bool progress_on_terminal(void);
 
-// Implements Cache::announce for terminals. Shows a line with the elapsed seconds while kernels are
-// compiled.
+// Implements Cache::announce for terminals. Shows the elapsed seconds while kernels are compiled.
 void progress_show_compiling(bool begins);
 
-// Shows a line with the elapsed seconds while a scene is loaded or its tree is built, but not in
-// the first 0.5 s.
+// Shows the elapsed seconds while a scene is loaded or its tree is built, after the first 0.5 s.
 void progress_show_loading(bool begins);
 
 // Implements RenderObserver::tile_done, and prints the progress of tracing; context is a Progress.

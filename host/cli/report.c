@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lists the fields of a picture's report. JSON contains all fields, and the text contains some of
-// them.
+// Lists the fields of a picture's report. JSON contains all fields. The text contains a selection.
 #include "cli/report.h"
 
 #include "image/json_file.h"
@@ -263,9 +262,8 @@ bool report_write_json(const Picture *picture, const char *path, Error *error)
     return json_file_write(report_json(picture), path, error);
 }
 
-// The following functions fill the metadata of a picture's file. Settings that change no pixel are
-// left out, so that they do not change the file. Parts and unfinished pictures also record their
-// tiles.
+// The following functions fill the metadata of a picture's file. The file omits settings that
+// change no pixel. Parts and unfinished pictures also record their tiles.
 
 static json_t *stored_samples_json(const Picture *picture)
 {
@@ -273,8 +271,7 @@ static json_t *stored_samples_json(const Picture *picture)
                                                   : json_count(picture->request.settings.samples);
 }
 
-// Adds the tree's builder and node layout if the file contains counts of tests, which depend on
-// both.
+// Adds the tree's builder and node layout if the file has counts of tests, which depend on both.
 static void add_tree(json_t *json, const Picture *picture)
 {
     if (!aov_needs(picture->options->aovs, AOV_NEEDS_TESTS))

@@ -20,6 +20,5 @@ bool report_write_json(const Picture *picture, const char *path, Error *error);
 // Fills the texts that the picture's file stores.
 void report_fill_provenance(Provenance *provenance, const Picture *picture);
 
-// Prints the hash of the pixels if the options request it. Fails if the hash differs from the
-// expected hash.
+// Prints the hash of the pixels if the options request it. Fails if it is not the expected hash.
 bool report_print_hash(const Options *options, const char *hash, Error *error);

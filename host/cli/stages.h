@@ -26,8 +26,7 @@ bool stage_read(Scene *scene, const Options *options, Error *error);
 bool stage_load(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
                 Error *error);
 
-// Calls stage_begin and stage_load, and checks the scene's files against the outputs. Returns the
-// exit status.
+// Calls stage_begin and stage_load, and checks the scene's files against the outputs.
 ExitCode stage_start(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
                      Error *error);
 
@@ -40,7 +39,6 @@ bool stage_request(SessionPicture *request, const Options *options, const Scene 
 const SceneForm *stage_build(Session *session, const Options *options, Error *error);
 
 // Waits for the device, chooses the kernels for the device, the scene and the work, and calls
-// stage_build. Adds the time of stage_build to seconds->build. work may be NULL. Returns the exit
-// status.
+// stage_build. Adds the time of stage_build to seconds->build. work may be NULL.
 ExitCode stage_prepare(Session *session, const Options *options, const SessionWork *work,
                        StageSeconds *seconds, Error *error);

@@ -68,8 +68,7 @@ bool limits_parse(Limits *limits, const char *text, Error *cause);
 // The names of limits in --fail and in reports.
 extern const char *const limit_names[LIMIT_KINDS];
 
-// Returns the measured value to which the limit applies. Returns NAN if the files lack the channel
-// that the limit needs.
+// Returns the measured value to which the limit applies, or NAN if the files lack its channel.
 double limit_measured(LimitKind kind, const Difference *difference);
 
 // Returns whether the measured value is within the limit. NAN is outside every limit.

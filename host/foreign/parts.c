@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Walks Assimp's tree of nodes, multiplies their matrices in fp64, and sends the meshes in the
 // coordinates of the whole file. Identity matrices are not applied, so that coordinates keep their
-// bits. If a matrix mirrors, the order of corners is reversed, so that front faces stay front
-// faces.
+// bits. If a matrix mirrors, the order of corners is reversed, which preserves front faces.
 #include "foreign/parts.h"
 
 #include "base/limits.h"
@@ -125,8 +124,7 @@ static Vec3 column_of(const Placement *placement, int column)
     return vec3(placement->rows[0][column], placement->rows[1][column], placement->rows[2][column]);
 }
 
-// Returns whether the placement changes no coordinates. Negative zeros in the placement count as
-// zeros.
+// Returns whether the placement changes no coordinates. Negative zeros count as zeros.
 static bool is_identity(const Placement *placement)
 {
     for (int row = 0; row < 3; row++)
@@ -170,8 +168,7 @@ static void place_vertices(const Sender *sender, const struct aiMesh *mesh,
     }
 }
 
-// Transforms a normal. Normalizes the normal before and after the transform, so that large values
-// do not overflow.
+// Transforms a normal. Normalizing before and after the transform avoids overflow.
 static void transform_normal(const struct aiVector3D *given, const NormalMatrix *normal_matrix,
                              float normal[3])
 {
@@ -209,8 +206,7 @@ static void copy_colors(const Sender *sender, const struct aiMesh *mesh)
         memcpy(colors[i], &mesh->mColors[0][i], sizeof *colors); // without the alpha at the end
 }
 
-// Returns whether all corners of a face are vertices of its mesh. Assimp does not check this for
-// all formats.
+// Returns whether a face's corners are vertices of its mesh. Assimp does not always check this.
 static bool is_within(const struct aiFace *face, size_t vertex_count)
 {
     for (size_t corner = 0; corner < face->mNumIndices; corner++)

@@ -69,8 +69,7 @@ void limits_take(void)
     alarm(SECONDS);
 }
 
-// Returns the number of bytes mapped into this process so far, or 0 if the system does not report
-// them.
+// Returns the number of bytes mapped into this process so far, or 0 if it is unknown.
 static rlim_t mapped_memory(void)
 {
     unsigned long pages = 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The limits of this process. They make hostile files fail early, but they are no sandbox. A file
-// that takes over a library acts with the user's permissions. Only root can raise the hard limits
-// again.
+// that takes over a library acts with the user's permissions. Only root can raise the hard limits.
 #pragma once
 
 #include <stdint.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes the records of base/foreign.h. These functions do not report failures, which the stream's
-// error state shows.
+// Writes the records of base/foreign.h. The stream's error state shows failures.
 #pragma once
 
 #include "mesh/foreign_stream.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Converts colors from floats to bytes. Rounds to the nearest byte, because truncation would double
-// the largest error.
+// Converts colors from floats to bytes by rounding. Truncation would double the largest error.
 #include "image/encode.h"
 
 #include <math.h>

@@ -36,8 +36,7 @@ bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned c
                    unsigned char *scratch);
 
 // Copies the values of a tile into framebuffer and layers. position is X and Y of the tile's upper
-// left pixel in both. Skips channels that are in neither of them. Returns false if the tile is
-// damaged.
+// left pixel in both. Skips channels that are in neither. Returns false if the tile is damaged.
 bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const Framebuffer *framebuffer, const Layers *layers,
                      const size_t position[2]);

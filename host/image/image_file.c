@@ -95,8 +95,7 @@ bool image_check_size(const char *format, uint32_t width, uint32_t height, Error
                      most);
 }
 
-// Returns a whole picture as width * height * 3 bytes, which the caller frees, or NULL if memory
-// runs out.
+// Returns a whole picture as width * height * 3 bytes, or NULL. The caller frees the bytes.
 static unsigned char *encode_bytes(const Framebuffer *framebuffer, const ImageSettings *settings,
                                    Error *error)
 {

@@ -63,8 +63,7 @@ static bool read_stream(StoredImage *image, FILE *stream, const char *path, Erro
     return image_process_read(image, &(ImageRequest){path, format, bytes}, cause);
 }
 
-// Rejects pipes and devices, because their data may never end. Pipes also cannot be rewound after
-// the signature is read.
+// Rejects pipes and devices, because their data may never end. Pipes cannot be rewound either.
 static FILE *open_file(const char *path, Error *cause)
 {
     struct stat status;

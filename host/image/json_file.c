@@ -62,8 +62,7 @@ json_t *json_of(const JsonField *fields, size_t count)
     return NULL;
 }
 
-// Returns the value at a path below `value`, for example lights.0.name. Numbers select elements of
-// arrays.
+// Returns the value at a path such as lights.0.name. Numbers are indices of arrays.
 static const json_t *find_value(const json_t *value, char *path)
 {
     for (const char *name; (name = strsep(&path, ".")) != NULL;)

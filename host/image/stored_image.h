@@ -10,9 +10,8 @@
 #define STORED_TEXT_SIZE 512
 
 // image_read rejects pictures beyond these limits. A picture's values take at most 4 GiB. A hostile
-// file of some kilobytes could claim to contain gigabytes. The file of a picture with more than
-// STORED_VALUES_LEAST values must therefore have at least one byte for every STORED_VALUES_PER_BYTE
-// values.
+// file of some kilobytes could claim to contain gigabytes. A file of more than STORED_VALUES_LEAST
+// values must therefore have at least one byte for every STORED_VALUES_PER_BYTE values.
 #define STORED_SIDE_MAX        65536
 #define STORED_CHANNELS_MAX    64
 #define STORED_VALUES_MAX      ((uint64_t)1 << 30)

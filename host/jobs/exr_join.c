@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copies the compressed tiles of parts into one file. The tiles of a whole picture are stored row
-// by row, so the sizes of all tiles determine each tile's place. Threads can then write tiles in
-// any order.
+// by row, so the sizes of all tiles determine their places. Threads can then write in any order.
 #include "jobs/exr_join.h"
 
 #include "image/exr_write.h"
@@ -56,8 +55,7 @@ typedef struct {
 } TileJoin;
 
 // Fills bytes with the tile's head and compressed data. Returns false if the tile is damaged, or if
-// its size differs from its size in the first pass. The size of the picture's last tile is not
-// compared.
+// its size has changed since the first pass. Does not check the size of the picture's last tile.
 static bool read_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {
     const ExrJoin *join = work->join;

@@ -16,8 +16,7 @@ typedef struct {
     atomic_int write_error; // the errno of a failed write; 0 without one
 } ExrJoin;
 
-// Allocates join->starts for all tiles of the whole picture. The caller frees the array. `file` may
-// be any part.
+// Allocates join->starts for the whole picture. The caller frees it. `file` may be any part.
 bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error);
 
 // First pass: records the sizes of the part's tiles. Fails if a tile is missing.

@@ -52,8 +52,7 @@ static bool check_head(const Journal *journal, const uint64_t key[2], Error *err
                      journal->path);
 }
 
-// Returns whether the journal is a regular file. Reading from a pipe would block instead of
-// failing.
+// Returns whether the journal is a regular file. Reading from a pipe would block.
 static bool is_regular(const Journal *journal)
 {
     struct stat status;

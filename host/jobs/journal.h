@@ -12,8 +12,7 @@
 // every network file system. journal_claim therefore copies the records into a new file under the
 // same name. A process that still has the old file open can only append to the old file.
 //
-// Invariant: all records before the first damaged one are complete, and in the order of the
-// journal_add calls.
+// Invariant: all records before the first damaged one are complete and in their original order.
 #pragma once
 
 #include "base/error.h"

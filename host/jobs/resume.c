@@ -109,8 +109,7 @@ static void read_journal(Resume *resume, RenderSettings *settings, const Framebu
 }
 
 // Copies the tiles of a complete EXR file into framebuffer. Requires the journal's lock, because
-// another run might be about to write the file. Ignores an incomplete EXR file, so that the picture
-// is drawn again.
+// another run might be about to write the file. Ignores an incomplete EXR file.
 static bool restore_stored(Resume *resume, const Provenance *own, RenderSettings *settings,
                            Framebuffer *framebuffer, Error *error)
 {

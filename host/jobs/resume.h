@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Restores the tiles that an earlier run stored in the journal FILE.part (--resume). This run
-// appends its own tiles to the journal. If FILE is a complete EXR file, all its tiles count as
-// finished.
+// appends its own tiles to the journal. If FILE is a complete EXR file, all its tiles are finished.
 #pragma once
 
 #include "image/exr_file.h"
@@ -18,8 +17,7 @@ typedef struct {
     float *tile;    // the colors of one tile, row by row; owned
 } Resume;
 
-// Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees the
-// result.
+// Returns the journal's path for a picture's path, or NULL. The caller frees the result.
 char *resume_journal_name(const char *output_path, Error *error);
 
 // Prepares to resume the picture at path. If is_exr, the file at path can also contain finished

@@ -18,8 +18,7 @@ const Exclusion exclusion_table[] = {
 };
 const size_t exclusion_count = sizeof exclusion_table / sizeof exclusion_table[0];
 
-// Returns the first of `names`, except `but`, that the command line contains, or NULL if there is
-// none.
+// Returns the first of `names`, except `but`, that the command line contains, or NULL.
 static const char *first_given(const Options *options, const char *const names[], const char *but)
 {
     for (int i = 0; i < EXCLUSION_NAMES && names[i] != NULL; i++)

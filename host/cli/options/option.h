@@ -81,8 +81,7 @@ typedef struct {
 
 bool option_argument_is_optional(const Option *option);
 
-// Returns KEY if the row's name is "tune KEY", which stands for a key of --tune. Otherwise, returns
-// NULL.
+// Returns the key of --tune if the row's name is "tune KEY". Otherwise, returns NULL.
 const char *option_key(const Option *option);
 
 // Returns whether the option's argument is a file name.
@@ -92,8 +91,7 @@ bool option_names_file(const Option *option);
 // environment variable.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);
 
-// A way to run clrt. A command with several FOR_... bits, such as explain, has one row for each
-// bit.
+// A way to run clrt. A command with several uses, such as explain, has one row for each use.
 typedef struct {
     const char *name;     // "": clrt shows or renders a scene
     const char *operands; // the words after the name, for --help

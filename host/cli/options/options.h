@@ -29,8 +29,7 @@ bool share_parse(Share *share, const char *text, uint32_t most, Error *error);
 // items, and their lengths differ by at most one.
 uint32_t share_begin(const Share *share, uint32_t total);
 
-// The frames of a run and their file names. A frame is a view of the scene or a step of a
-// turntable.
+// The frames of a run and their file names. A frame is a view or a step of a turntable.
 
 #define FRAMES_MOST 1000000
 
@@ -76,8 +75,7 @@ typedef struct {
 bool crop_parse(Crop *crop, const char *text);
 
 // Sets the crop of a picture whose size is set. Rounds fractions to the nearest pixel edge, so
-// neighboring crops neither overlap nor leave gaps. Fails if the crop contains no pixel or exceeds
-// the picture.
+// neighboring crops neither overlap nor leave gaps. Fails if the crop is empty or too large.
 bool crop_apply(const Crop *crop, ClrtPicture *picture, Error *error);
 
 // Returns [left, top, right, bottom] of the crop, in pixels of the whole picture.
