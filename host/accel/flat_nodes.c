@@ -52,9 +52,8 @@ static Box box_grow(const Box *box, float share)
 }
 
 // Stores a child's box, grown by BVH_SLACK, in the planes of a node with room for `children`
-// children. The slack makes the kernels' culling conservative (kernels/search.cl). If box is NULL,
-// no ray enters the stored box. On each axis, the low planes of all children precede the high
-// planes.
+// children. If box is NULL, no ray enters the stored box. On each axis, the low planes of all
+// children precede the high planes.
 static void box_store(float *planes, uint32_t children, uint32_t child, const Box *box)
 {
     const Box grown =

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes aims, and rays toward the aims. A ray is cast only if all triangles around its aim face its
-// origin. In a closed mesh, the exact ray then hits one of these triangles, so a ray that passes
-// shows a leak. The bounds on rounding are generous: aims get no ray if angles are too sharp or
-// triangles are too small.
+// Makes aims, and rays toward the aims. The bounds on rounding are generous.
 #include "check/aims.h"
 
 #include "base/array.h"

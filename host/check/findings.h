@@ -5,7 +5,6 @@
 #include "check/census.h"
 #include "check/leaks.h"
 
-// The measurements and findings of a check.
 typedef struct {
     const char *scene_path;
     const Scene *scene; // borrowed
@@ -28,7 +27,6 @@ size_t check_count_failing(const Check *check);
 // Returns the path of a mesh's file, or NULL if a program has made the mesh.
 const char *check_mesh_path(const Check *check, size_t object);
 
-// The kinds of faults in a mesh.
 typedef enum {
     FAULT_BAD_POSITIONS,
     FAULT_BAD_NORMALS,

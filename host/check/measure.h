@@ -11,5 +11,4 @@ bool check_measure(Check *check, Error *error);
 // Casts rays at the meshes, after check_measure. On failure, check->leaks is NULL.
 bool check_trace(Check *check, Session *session, Error *error);
 
-// Releases the measurements and the findings.
 void check_free(Check *check);

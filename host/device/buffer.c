@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes, reads and releases device buffers. OpenCL has no empty buffers, so the buffer of an empty
-// array has a few bytes.
+// OpenCL has no empty buffers, so the buffer of an empty array has a few bytes.
 #include "device/buffer.h"
 
 #include "device/device.h"

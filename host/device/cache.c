@@ -4,9 +4,8 @@
 // first, and then a folder that packages fill for all users. A missing, damaged or rejected file
 // only means that clrt builds the program from source.
 //
-// Writing is atomic: a temporary file gets its name KEY.bin by rename. Concurrent processes need no
-// lock, because a reader sees a whole file or none. Two writers of one key store equivalent
-// binaries.
+// Writing is atomic: a temporary file gets its name KEY.bin by rename. Two writers of one key store
+// equivalent binaries.
 //
 // The lock protects only PoCL's own files, and only in the library, which has no private folder.
 // The lock is an flock, which the system releases when the process dies.

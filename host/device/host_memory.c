@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps buffers that the OpenCL implementation allocates on the host. Keeps the last freed buffers.
+// Maps buffers that the OpenCL implementation allocates on the host.
 #include "device/host_memory.h"
 
 #include "base/array.h"

@@ -25,7 +25,7 @@ typedef struct {
     ARRAY(Kernel *) kernels;
 } KernelSet;
 
-// A kernel to make. If an element of group is 0, the device determines it (Kernel::launch).
+// If an element of group is 0, the device determines it (Kernel::launch).
 typedef struct {
     const KernelEntry *entry;
     KernelChoice choice;
@@ -41,7 +41,6 @@ bool kernel_set_has(const KernelSet *set, const KernelSpec *spec);
 
 #define KERNEL_ARGUMENTS 6
 
-// A run of a kernel.
 typedef struct {
     cl_command_queue queue;
     const FrameData *frame;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chooses the form of the kernels and converts the choice to switches for the compiler
-// (kernels/config.h). On most CPUs, packets trace fastest. By default, clrt uses single rays for
-// GPUs, for fp64 and on the platforms listed below.
+// On most CPUs, packets trace fastest. By default, clrt uses single rays for GPUs, for fp64 and on
+// the platforms listed below.
 #include "device/kernel_choice.h"
 
 #include <assert.h>

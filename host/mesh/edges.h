@@ -46,7 +46,6 @@ typedef struct {
 bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error);
 void edges_free(Edges *edges);
 
-// The sides of one edge.
 typedef struct {
     uint32_t low; // the edge's lower point
     const EdgeSide *sides;
@@ -57,8 +56,8 @@ typedef struct {
 // edge.
 bool edges_next(const Edges *edges, Edge *edge);
 
-// The fans of a mesh. Each fan is a set of corners at one point. The caller joins fans across
-// edges. Corner i of a triangle has the number 3 * triangle + i, where i is 0, 1 or 2.
+// Each fan is a set of corners at one point. The caller joins fans across edges. Corner i of a
+// triangle has the number 3 * triangle + i, where i is 0, 1 or 2.
 typedef struct {
     const Mesh *mesh;
     const Weld *weld;

@@ -32,8 +32,8 @@ typedef struct {
     ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
     MeshFault equal_corners; // removed triangles with two equal corners
     MeshFault lost_corners;  // removed triangles with a bad position
-    // Vertices with a bad position, and vertices with a bad component of the normal. Such positions
-    // and components are replaced by zero. Only tolerant readers accept these vertices.
+    // Vertices with a bad position, and with a bad component of the normal. These values are
+    // replaced by zero. Only tolerant readers accept such vertices.
     MeshFault bad_positions, bad_normals;
 } Mesh;
 

@@ -44,7 +44,6 @@ typedef struct {
 extern const Aov aov_table[];
 extern const size_t aov_count; // at most 32
 
-// Returns the number of the channel's components.
 uint32_t aov_channel_count(const Aov *aov);
 
 // A set of channels: one bit per table index.

@@ -9,7 +9,6 @@ extern const char tile_source[];
 
 const KernelEntry draw_entry = {"render_tile", tile_source, NULL, "bb", .dimensions = 2};
 
-// Adds the tile's counts to the picture's counts.
 static void take_tallies(void *context, const Tile *tile, void *const values[2])
 {
     Renderer *renderer = context;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Uploads a FlatScene into device buffers. A device that shares the host's memory reads the
-// FlatScene in place.
+// A device that shares the host's memory reads the FlatScene in place.
 #include "render/renderer.h"
 
 #include "base/clock.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chooses the next pass, and the resolution of pictures of a moving camera. Tracing may take only
-// part of a frame's time, because displaying takes time too and tracing times vary.
+// Tracing may take only part of a frame's time, because displaying takes time too and tracing times
+// vary.
 #include "view/plan.h"
 
 #include "session/costs.h"

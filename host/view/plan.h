@@ -11,7 +11,6 @@
 
 #define PLAN_FRAME_SECONDS (1 / 30.0)
 
-// The requested picture and its cost.
 typedef struct {
     bool is_wanted;
     uint64_t subject; // identifies scene, camera and size; pictures of other subjects do not count

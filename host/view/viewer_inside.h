@@ -81,10 +81,8 @@ bool viewer_recover(Viewer *viewer, Error *error);
 // Returns whether the effects of all keys played so far are complete.
 bool viewer_is_settled(const Viewer *viewer);
 
-// Returns whether keys remain to be played.
 bool viewer_has_keys(const Viewer *viewer);
 
-// Draws the window's picture and text.
 bool viewer_draw(Viewer *viewer, Error *error);
 
 // Saves the picture if a save is requested and the picture is complete.

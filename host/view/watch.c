@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares the files' signatures at each poll. A file's signature is a hash of its modification
-// time, size and inode. A folder's signature is the sum of its files' signatures.
+// A file's signature is a hash of its modification time, size and inode. A folder's signature is
+// the sum of its files' signatures.
 #include "view/watch.h"
 
 #include <dirent.h>

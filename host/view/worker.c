@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The worker's thread. It waits for a difference between the request and the finished work, chooses
-// the next job from this difference (next_kind), and runs the job without the lock (jobs.c).
+// The worker's thread. It chooses the next job by next_kind, and runs the job without the lock
+// (jobs.c).
 #include "view/worker_inside.h"
 
 #include <stdlib.h>

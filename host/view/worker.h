@@ -19,7 +19,6 @@
 #include "view/draw/canvas.h"
 #include "view/tracer.h"
 
-// A request from the window to the worker thread.
 typedef struct {
     const char *path; // path of the scene; the string outlives the worker
     SceneLoadOptions load;
@@ -40,7 +39,6 @@ typedef enum { FAULT_NONE, FAULT_SCENE, FAULT_DEVICE } WorkerFault;
 
 #define EXPLANATION_SIZE 4096
 
-// The worker's status.
 typedef struct {
     uint64_t number;     // number of status updates
     WorkerFault fault;   // a fault after which nothing can be displayed

@@ -43,7 +43,6 @@ void drawing_close(Drawing *drawing);
 // Makes the program and its vertex array current.
 void drawing_use(const Drawing *drawing);
 
-// Replaces the contents of a buffer.
 void drawing_fill(const Drawing *drawing, int buffer, const void *bytes, size_t size);
 
 // Sets a uniform of the current program. Ignores names that the program does not use.
