@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Writes small files that claim vast contents. All pixels are zero.
+# Makes small files with huge pictures or headers. All pixels are zero.
 import json
 import struct
 import zlib
@@ -46,8 +46,8 @@ def exr(width, height):
 
 
 def exr_part(settings, attributes=0):
-    """Returns the part of a picture that these settings describe, without its tiles but with this
-    number of attributes that clrt does not know."""
+    """Returns the EXR file of a part with these settings and without tiles. `attributes` is the
+    number of further attributes, which clrt does not know."""
     (width, height), tile = (settings["width"], settings["height"]), settings["tile"]
     texts = {"clrt:version": "1", "clrt:complete": "yes", "clrt:settings": json.dumps(settings)}
     more = [(f"a{i}", "string", b"x") for i in range(attributes)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Runs of clrt with a separate kernel cache for each test. The first argument of these tests is
-# CLRT.
+# Runs clrt with a separate kernel cache for each test. Tests that import this module take CLRT as
+# their first argument.
 import os
 import pathlib
 import shutil
@@ -8,12 +8,12 @@ import tempfile
 
 from work import ROOT, Work
 
-# The picture uses the kernels that compile fastest.
+# PICTURE uses the kernels that compile fastest.
 PICTURE = [str(ROOT / "tests/cli/sphere.scn"), "-s", "48x32", "-q", "--tune=kernel=pair,specialize=always"]
 CHOSEN = ("POCL_CACHE_DIR", "XDG_CACHE_HOME", "TMPDIR", "CLRT_KERNEL_DIR")
 
 
-# Each test gets a copy of a cache with PICTURE's compiled kernels. `expected` is the picture.
+# Each test gets a copy of a cache with PICTURE's compiled kernels. `expected` is PICTURE's file.
 class CacheWork(Work):
     compiled = expected = None
 
@@ -39,7 +39,7 @@ class CacheWork(Work):
         return self.start(*words, env={**kept, "XDG_CACHE_HOME": str(self.cache)}, **settings)
 
     def run_picture(self, *words, before=(), **more):
-        """Returns the exit status, standard error and the picture, if there is one."""
+        """Returns the exit status, standard error, and the picture or None."""
         picture = self.work / "picture.pfm"
         picture.unlink(missing_ok=True)
         done = self.run_clrt(*(words or PICTURE), "-o", picture, before=before, **self.environment(**more))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// If preloaded, makes a driver crash at the first launch of a kernel. CLRT_CRASH selects how:
-// "abort", "libc", "exit", "segv", "bus" or "ill". "libc" crashes in a function of the C library.
-// With "-thread" appended, a thread of the driver crashes. With "-two", two threads crash at once.
-// "own" crashes in the program's code. "fpe" crashes at the first call of OpenCL, before PoCL
-// installs its handler for divisions by zero.
+// If preloaded, this library makes a driver crash at the first launch of a kernel. CLRT_CRASH
+// selects the crash: "abort", "libc", "exit", "segv", "bus" or "ill". "libc" crashes in a function
+// of the C library. With the suffix "-thread", a thread of the driver crashes. With the suffix
+// "-two", two threads crash at once. "own" crashes in the program's code. "fpe" crashes at the
+// first call of OpenCL, before PoCL installs its handler for divisions by zero.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <pthread.h>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The words of scene files, read from the tables of the parser's source.
+# Reads the words of scene files from the tables of the parser's source.
 import pathlib
 import re
 
@@ -19,6 +19,6 @@ def properties():
 
 
 def value_words():
-    """Returns the words that are not keywords: fixed words of the usages, and properties."""
+    """Returns the other words of scene files: fixed words of the usages, and properties."""
     usage = " ".join(text.split(" ", 1)[1] for text in usages().values())
     return {*re.findall(r"(?<![\w-])-?[a-z_]+\b", usage), *properties()}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Encodes meshes of Python numbers in several formats. Each format's function returns the content
+# Encodes meshes of Python numbers in several formats. The function of a format returns the content
 # of a file.
 import io
 import json
@@ -9,13 +9,13 @@ import zipfile
 
 
 def rounded(value):
-    """Returns the nearest float."""
+    """Returns the float that is nearest to the value."""
     return struct.unpack("<f", struct.pack("<f", value))[0]
 
 
 def knot(rings=24, sides=10):
-    """Returns points and triangles of a closed tube around a trefoil. Most coordinates have no
-    short decimals."""
+    """Returns points and triangles of a closed tube around a trefoil. Most coordinates need many
+    decimals."""
     points, triangles = [], []
     for ring in range(rings):
         turn = 2 * math.pi * ring / rings
@@ -94,8 +94,8 @@ def collada(points, triangles, up):
 
 
 def obj(points, triangles, head="", groups=None):
-    """Returns an OBJ file. A point may have a color, as its last three numbers. groups contains pairs (line, index of the first triangle after this
-    line)."""
+    """Returns an OBJ file. The last three numbers of a point may be its color. `groups` contains
+    pairs of a line and the index of the triangle that follows the line."""
     lines = [head] + ["v " + " ".join(map(repr, point)) for point in points]
     starts = {first: line for line, first in groups or []}
     for number, triangle in enumerate(triangles):
@@ -124,8 +124,8 @@ def _low_high(points):
 
 
 def glb(points, triangles, normals=None, node=None, change=None):
-    """Returns a GLB file. node contains further properties of the mesh's node. change modifies the
-    document before it is packed."""
+    """Returns a GLB file. `node` contains further properties of the mesh's node. `change` modifies
+    the document before it is packed."""
     parts = [b"".join(struct.pack("<3I", *t) for t in triangles)]
     parts += [b"".join(struct.pack("<3f", *p) for p in v) for v in (points, normals) if v]
     low, high = _low_high(points)
@@ -155,7 +155,7 @@ def glb(points, triangles, normals=None, node=None, change=None):
     return head + text + struct.pack("<I4s", len(body), b"BIN\0") + body
 
 
-# %d is the vertex index of the last corner.
+# %d is the vertex index of the triangle's last corner.
 THREE_MF_TRIANGLE = """<model unit="millimeter"><resources><object id="1" type="model"><mesh>
 <vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>
 </vertices><triangles><triangle v1="0" v2="1" v3="%d"/></triangles></mesh></object></resources>
@@ -163,7 +163,7 @@ THREE_MF_TRIANGLE = """<model unit="millimeter"><resources><object id="1" type="
 
 
 def three_mf(model, is_found=True):
-    """Returns a 3MF file with the XML in model. If not is_found, no relation names the model."""
+    """Returns a 3MF file that contains the XML `model`. If is_found is false, no relation names it."""
     relation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
     target = f'<Relationship Target="/3D/3DModel.model" Id="rel0" Type="{relation}"/>'
     file = io.BytesIO()

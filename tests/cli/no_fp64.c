@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// If preloaded, makes every OpenCL device report that it has no double arithmetic.
+// If preloaded, this library makes every OpenCL device report that it has no double arithmetic.
 #include <CL/cl.h>
 #include <dlfcn.h>
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Readers of PNG, PFM and OpenEXR files that share no code with clrt, libpng or OpenEXR. Rows come
-# top first. In PNG and PFM, a row is a flat list of red, green and blue.
+# Reads PNG, PFM and OpenEXR files without code of clrt, libpng or OpenEXR. The top row comes first.
+# In PNG and PFM, a row is a flat list of red, green and blue values.
 import struct
 import zlib
 
@@ -24,7 +24,7 @@ def pfm(*rows):
 
 
 def read_png_chunks(data):
-    """Checks the checksums, and returns the type and bytes of each chunk."""
+    """Verifies the checksums, and returns the type and bytes of each chunk."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n", "the signature is wrong"
     chunks, place = [], 8
     while place < len(data):
@@ -123,8 +123,8 @@ def read_exr_tiles(data):
 
 
 def read_exr(path, row=None):
-    """Returns the types and values of the channels. Missing tiles are 0. If row is given,
-    the values begin at the top of the row's tiles and end with this row."""
+    """Returns the types and values of the channels. Pixels of missing tiles are 0. If `row` is given,
+    the values begin at the top of this row's tiles and end with this row."""
     with open(path, "rb") as file:
         data = file.read()
     attributes, _ = read_header(data)

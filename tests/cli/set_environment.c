@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// If preloaded, opens a device whose driver changes the environment, while another of its threads
-// reads the environment, as OpenGL's libraries do.
+// If preloaded, this library imitates a driver that changes the environment. Meanwhile, another
+// thread reads the environment, as OpenGL's libraries do.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <pthread.h>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Tests that this machine cannot run, and ctest's reports on them.
+# Skips tests that this machine cannot run, and reads ctest's reports.
 import os
 import pathlib
 import subprocess
@@ -16,8 +16,8 @@ def leave(reason):
 
 
 def ctest_output(ctest, build, *words, **settings):
-    """Returns the output of ctest for the tests of a build. Its log is separate, because ctest replaces
-    the log even if it only lists tests, and tools/test reads the log."""
+    """Returns the output of ctest for the tests of a build. Even if ctest only lists tests, it
+    replaces its log. tools/test reads the build's log, so this function uses a separate one."""
     with tempfile.TemporaryDirectory() as folder:
         pathlib.Path(folder, "CTestTestfile.cmake").write_text(f'subdirs("{build}/tests")\n')
         command = [ctest, "--test-dir", folder, *words]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests damaged, missing and full kernel caches: clrt draws the picture. Only if no folder has room,
-# it exits with status 4 and one message.
+# Tests that clrt draws the picture with damaged, missing and full kernel caches. If no folder has
+# room, clrt must exit with status 4 and one message.
 # Usage: test_cache.py CLRT [TEST...]
 import random
 import shutil
@@ -67,7 +67,7 @@ class Damage(CacheWork):
         self.assert_heals("killed while it compiled")
         self.assertEqual(self.private_folders(), [])
 
-    # A network file system keeps the folders of files that are open at the end, such as kernels.
+    # On network file systems, a process cannot remove folders of files that it has open, such as kernels.
     def test_the_rest_of_a_private_folder_is_removed_by_the_next_process(self):
         left = self.cache / "clrt" / f"clrt-{socket.gethostname()}-abcdef" / "IP" / "render_tile"
         others = self.cache / "clrt" / "clrt-another.host-abcdef" / "IP"
@@ -78,7 +78,7 @@ class Damage(CacheWork):
 
     def test_a_running_process_keeps_its_private_folder(self):
         running = self.start_clrt(*PICTURE, "--aa=60", "-s", "800x600", "-o", "long.pfm")
-        self.wait_for(lambda: any(self.cache.glob("clrt/clrt-*/**/*.so")))  # it has loaded its kernels
+        self.wait_for(lambda: any(self.cache.glob("clrt/clrt-*/**/*.so")))  # the kernels are loaded
         kept = self.private_folders()
         self.assertEqual(self.draw(), self.expected)
         self.assertEqual(self.private_folders(), kept)

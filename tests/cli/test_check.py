@@ -7,7 +7,7 @@ from work import NO_OPENCL, ROOT, SharedWork, main
 
 CORNERS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 CLOSED = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-STEP = 16777216  # floats are 2 apart here
+STEP = 16777216  # adjacent floats differ by 2 from here on
 MESHES = {"closed": (CORNERS, CLOSED), "open": (CORNERS, CLOSED[:3]), "turned": (CORNERS, [*CLOSED[:3], (1, 3, 2)]),
           "equal": (CORNERS, [*CLOSED[:2], (0, 0, 2), *CLOSED[2:], (1, 1, 1)]),
           "line": ([*CORNERS, (2, 0, 0)], [*CLOSED[:2], (0, 1, 4)]),
@@ -31,9 +31,10 @@ SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine 
           "eyes": "camera 0 -9 0 0 0 0 45\ncamera 0.5 0.5 0 9 0 0 45\ncamera 3 0 0 0 0 0 45\n"
                   "sphere 0 0 0 1\nsphere 3 0 0 1\nlight 9 9 9 1\n",
           "within": "camera 0.2 0.2 0.2 1 0 0 45\nmesh closed.ply\nsides two\nlight 9 9 9 1\nmesh open.ply\n",
-          # The point is in the bounding box of the tetrahedron, but not in the tetrahedron.
+          # The camera is in the bounding box of the tetrahedron, but not in the tetrahedron.
           "beside": "camera 0.6 0.6 0.6 0 0 0 45\nmesh closed.ply\nlight 9 9 9 1\n",
-          # The cameras look away from the mesh, and past it: the picture is 2 wide at a distance of 1.
+          # The first camera looks away from the mesh. The others look past the mesh: their pictures are 4
+          # wide at a distance of 1.
           "behind": "size 40 20\ncamera 5 0.5 0.5 9 0.5 0.5 90\ncamera 0.5 -3 0.5 9 -3 0.5 90\n"
                     "camera 5.1 -1 0 5.1 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
           # The picture is 2 wide at any distance.
@@ -43,7 +44,7 @@ SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine 
           "glass": "camera 0 -9 0 0 0 0 45\ndefine clear glass\nmaterial clear\nmesh closed.ply\n"
                    "mesh open.ply translate 3 0 0\n",
           "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n"}
-# Each file with its exit status, and the places and keywords of its report.
+# Each row has a file, its exit status, and places and keywords of its report.
 FINDINGS = [
     ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed", "10 edges and points: 0 hidden", "\nfine\n"]),
     ("open.ply", 0, ["note: 3 edges of a single triangle", "triangle 0", "not closed\n", "\nno faults, 1 note\n"]),
@@ -77,7 +78,7 @@ class Meshes(SharedWork):
             (self.work / f"{name}.ply").write_bytes(ply(*mesh))
         for name, text in SCENES.items():
             (self.work / f"{name}.scn").write_text(text)
-        # One file announces more vertices than it contains. The other is noise.
+        # The first file announces more vertices than it contains. The second file is noise.
         self.write(lie_ply="ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\n",
                    noise_ply=b"\0\xffply")
 
@@ -111,7 +112,7 @@ class Check(Meshes):
             found = self.mesh("knot.ply", *form.split())[1]
             self.expect(found, closed=True, leak_test__leaks__count=0, leak_test__aimed_at=720 + 240,
                         leak_test__hidden=0)
-            self.assertGreater(found["leak_test"]["rays"], 960)  # hidden edges and points needed more
+            self.assertGreater(found["leak_test"]["rays"], 960)  # hidden edges and points need several
             for name in "gap", "crack":
                 found = self.mesh(f"{name}.ply", *form.split())[1]
                 self.expect(found, closed=False, faults__open_edges__count=3)

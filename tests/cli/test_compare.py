@@ -37,7 +37,7 @@ REFUSALS = [
 
 
 class Rows(SharedWork):
-    """Pictures of one row, in which green and blue are constant."""
+    """Each picture has one row, in which green and blue are constant."""
 
     def prepare(self):
         inf, nan = float("inf"), float("nan")
@@ -148,7 +148,8 @@ class Formats(SharedWork):
 
 @needs_exr
 class Causes(SharedWork):
-    """Pictures with the channels from which clrt compare derives causes. tests/unit/test_causes.c has each cause."""
+    """The pictures have the channels from which clrt compare derives causes. tests/unit/test_causes.c
+    tests each cause."""
 
     def prepare(self):
         scene = (ROOT / "scenes/reflections.scn").read_text().replace("ply_file ", f"ply_file {ROOT}/scenes/")
@@ -158,7 +159,7 @@ class Causes(SharedWork):
                       "-o", f"{name}.exr", *words)
 
     def causes(self, name):
-        """Returns the report and the causes. Their mean squares must sum to RMSE squared."""
+        """Returns the report and the causes. The mean squares of all causes must add up to RMSE squared."""
         found = self.report("compare", "plain.exr", f"{name}.exr", "--json")
         whole = found["rmse"] ** 2
         total = sum(cause["mean_square"] for cause in found["causes"].values())

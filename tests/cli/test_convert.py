@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests that files written by clrt convert give the same picture, bit for bit, and that wrong or
-# damaged inputs get one message. Usage: test_convert.py CLRT 1|0, with 0 for a build without Assimp
+# Tests that files written by clrt convert give the picture of their source, bit for bit, and that
+# wrong or damaged inputs get one message. Usage: test_convert.py CLRT 1|0, with 0 for a build
+# without Assimp
 import os
 import pathlib
 import random
@@ -31,7 +32,7 @@ class Convert(Work):
 
 class Scenes(Convert):
     def scenes(self):
-        """Yields the scenes whose meshes exist and are below 4 MB. Larger meshes take minutes."""
+        """Yields the scenes whose meshes exist and have less than 4 MB. Larger meshes take minutes."""
         for scene in sorted(ROOT.glob("scenes/*.scn")) + sorted(COURSE.glob("scenes/*.scn")):
             statements = [line.split() for line in scene.read_text(errors="replace").splitlines()]
             meshes = [scene.parent / words[1].strip('"')

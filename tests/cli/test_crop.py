@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests that a crop has the bits of that part of the whole picture, and which options allow no crop.
+# Tests that a crop has the bits of this part of the whole picture, and that some options reject crops.
 # Usage: test_crop.py CLRT FORMATS
 import struct
 
@@ -22,7 +22,7 @@ def channels_in_rows(path):
     data, display = (struct.unpack("<4i", attributes[name]) for name in ("dataWindow", "displayWindow"))
     width = data[2] - data[0] + 1
     _, channels = read_exr(path)
-    # Converts values to texts, because NaN does not equal itself.
+    # The values become texts, because NaN does not equal itself.
     rows = {name: [list(map(repr, values[at : at + width])) for at in range(0, len(values), width)]
             for name, values in channels.items()}
     return rows, data, display

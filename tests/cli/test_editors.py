@@ -46,7 +46,7 @@ def vim_roles(text):
 
 def textmate_roles(text):
     """Returns the role of every character as an editor with TextMate grammars colors the text. The leftmost
-    match wins. If several matches begin there, the first pattern wins."""
+    match wins. Of several matches at one place, the match of the first pattern wins."""
     patterns = json.loads(TEXTMATE.read_text())["patterns"]
 
     def roles(line):
@@ -98,7 +98,7 @@ class Words(unittest.TestCase):
 
 class Colors(unittest.TestCase):
     def expect_roles(self, text, roles):
-        """Expects one role for each word. Strings and comments in text must contain no blanks."""
+        """Expects one role for each word. Strings and comments in the text must contain no blanks."""
         for editor, color in EDITORS.items():
             (line,) = color(text + "\n")
             found = [set(line[word.start() : word.end()]) for word in re.finditer(r"\S+", text)]

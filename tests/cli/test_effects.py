@@ -24,8 +24,9 @@ MESH = [FLAT, "-s", "24x16", "-o", "a.pfm"]
 CONE = [str(ROOT / "scenes/cone.ply"), "-s", "24x16", "-o", "a.pfm"]
 COMPARE = ["compare", "black.pfm", "white.pfm"]
 
-# For each option, arguments without it (or with another value) and with it. Their effects must differ. If the option
-# changes the picture, the arguments write no statistics, because statistics repeat the settings.
+# Each option has two lists of arguments: one without the option or with another value, and one with
+# the option. The effects of the two lists must differ. If the option changes the picture, the
+# arguments write no statistics, because statistics repeat the settings.
 TRIALS = {
     "output": (PLAIN, [SCENE, "-s", "24x16", "-o", "b.pfm"]),
     "format": (PLAIN, PLAIN + ["--format", "png"]),

@@ -15,7 +15,7 @@ MIRRORS = (f"{HEAD}light 0 0 2 1\nmaterial mirror\nsphere 0 3 0 1\nsphere 0 -3 0
            "camera 0 0 0 0 1 0 90\n")
 BALL = "light 0 -5 0 0.5\nmaterial plain\nsphere 0 0 0 1\ncamera 0 -5 0 0 0 0 90\n"
 LAMP = "light 0 0 4 1\nmaterial plain\nply_file floor.ply\nsphere 0 0 1 0.5\n"
-# The first light is behind the face only. The second is behind the face and the normal.
+# The first light is only behind the face. The second light is behind the face and the normal.
 LEANING = "size 5 5\nlight 11 -2 -5 1\nlight -9 -2 -5 1\nmaterial 1\nply_file leaning.ply\nup 0 1 0\n" \
           "camera 1 -2 4 1 -2 0 90\n"
 
@@ -35,21 +35,21 @@ def light(state, distance=None, cosine=None, **more):
 
 
 def mirror_ball(level, number, distance):
-    """The light is 2 above and 2 beside every hit, so each ball adds 0.1 + 0.5 * 0.707107."""
+    """Returns an expected ray. The light is 2 above and 2 beside every hit, so the color is 0.1 + 0.5 * 0.707107."""
     return {"weight": 0.5**level, "hit": sphere(number, distance, light("reaches", cosine=0.707107),
                                                 share=0.5 ** (level + 1), color=[0.453553] * 3)}
 
 
 # Pictures have 5 x 5 pixels and a field of view of 90 degrees. The ray through pixel (2, 2) points at
-# the camera's target. Each case has the scene, the pixel, the rays and parts of the report.
+# the camera's target. Each row has the scene, the pixel, the rays and parts of the report.
 BY_HAND = [
-    # The eye is 5 from a sphere's center. The hit faces the light at the eye: 0.1 + 0.5 * 0.5, times 0.8.
+    # The eye and the light are 5 from a sphere's center. The hit faces them. The color is 0.8 * (0.1 + 0.5 * 0.5).
     (BALL, "2,2", [{"hit": sphere(1, 4, light("reaches", 4, 1, diffuse=0.25), point=[0, -1, 0],
                                   normal=[0, -1, 0])}], {"color": [0.28] * 3}),
     # The direction (-0.8, 1, 0.8) misses the sphere.
     (BALL, "0,0", [{"hit": None, "direction": [-0.529813, 0.662266, 0.529813]}], {"color": [0, 0, 1]}),
-    # A ball is between the point and the light, which is 4 above the point. The ball's lowest point
-    # is 0.5 away, and the eye is sqrt(16 + 0.16) away.
+    # The light is 4 above the hit point, with a ball between them. The distance from the hit point is
+    # 0.5 to the ball's lowest point and sqrt(16 + 0.16) to the eye.
     (LAMP + "camera 1e-3 -4 0.4 1e-3 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4, 1, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.5), normal=[0, 0, 1])}], {"color": [0.08] * 3}),
@@ -60,39 +60,38 @@ BY_HAND = [
     (LAMP + "camera 0.65 -4 0.4 0.65 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4.052468, 0.987053, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.955450))}], {}),
-    # At x = 0.7, nothing occludes the light, sqrt(0.49 + 16) away at the cosine 4 / 4.060788.
+    # At x = 0.7, nothing occludes the light. Its distance is sqrt(0.49 + 16), and the cosine is 4 / 4.060788.
     (LAMP + "camera 0.7 -4 0.4 0.7 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("reaches", 4.060788, 0.985030))}], {"color": [0.474012] * 3}),
-    # Each mirror ball halves the weight, and rays of level 3 see the background. The balls add 0.453553
-    # with weights 1/2, 1/4 and 1/8, and the background 1/8 of blue.
+    # Each mirror ball halves the weight, and level 3 is the background. The balls add 0.453553 with
+    # weights 1/2, 1/4 and 1/8. The background adds 1/8 of blue.
     (MIRRORS, "2,2", [mirror_ball(0, 1, 2), {**mirror_ball(1, 2, 4), "direction": [0, -1, 0]},
                       mirror_ball(2, 1, 4)], {"color": [0.396859, 0.396859, 0.521859]}),
     # The line x = 0 is 0.999 from the ball's center. Half the chord is sqrt(1 - 0.999^2), so the
     # ray from y = -5 hits after 4.955290. The light is 4 to the left of the hit.
     ("light -4 -0.0447102 0 1\nmaterial plain\nsphere 0.999 0 0 1\ncamera 0 -5 0 0 0 0 90\n", "2,2",
      [{"hit": sphere(1, 4.955290, light("reaches", 4, 0.999), normal=[-0.999, -0.0447102, 0])}], {}),
-    # The ray runs from 0.001 above the floor to a point 4 away.
+    # The eye is 0.001 above the floor. The ray meets the floor at a distance of 4.
     ("light 1 0 4 1\nmaterial plain\nply_file floor.ply\ncamera 1 -4 0.001 1 0 0 90\n", "2,2",
      [{"hit": floor(4, light("reaches", 4, 1), point=[1, 0, 0])}], {}),
     # Triangle 0 of the file has two equal corners and is left out.
     ("light 1 0 4 1\nmaterial plain\nply_file dropped.ply\ncamera 1 -4 0.001 1 0 0 90\n", "2,2",
      [{"hit": floor(4, light("reaches", 4, 1), primitive={"kind": "triangle", "id": 0, "number": 1})}], {}),
-    # The eye is in the center of a mirror ball. The ball's normal points away from the light
-    # inside.
+    # The eye is in the center of a mirror ball. The light is in the ball too, so normals face away from it.
     ("light 0 0 0.5 1\nmaterial mirror\nsphere 0 0 0 1\ncamera 0 0 0 0 1 0 90\n", "2,2",
      [{"hit": sphere(1, 1, light("behind"), normal=[0, 1, 0])},
       {"hit": sphere(1, 2, light("behind"), point=[0, -1, 0])}, {"hit": sphere(1, 2, light("behind"))}],
      {"color": [0.0875, 0.0875, 0.2125]}),
-    # From below, the one-sided floor is invisible. The two-sided floor a unit higher is visible, with its
-    # normal turned down. The one-sided floor occludes the light a unit below it, because the shadow ray
-    # meets its front.
+    # From below, the one-sided floor is invisible. The two-sided floor is one unit higher and visible, and
+    # its normal is turned down. The one-sided floor occludes the light one unit below, because the shadow
+    # ray meets the floor's front.
     ("light 1 -2 -1 1\nmaterial plain\nply_file floor.ply\nsides two\nmesh floor.ply translate 0 0 1\n"
      "up 0 1 0\ncamera 1 -2 -2 1 -2 0 90\n", "2,2",
      [{"hit": floor(3, light("blocked", 2, blocker={"kind": "triangle", "id": 0}, blocker_distance=1),
                     primitive={"kind": "triangle", "id": 2, "number": 0}, point=[1, -2, 1],
                     normal=[0, 0, -1])}], {"color": [0.08] * 3}),
-    # The light is 10 beside and 5 below the point. The normal faces it at the cosine (0.6 * 10 - 0.8 * 5) /
-    # sqrt(125). The face points up, away from the light.
+    # The light is 10 beside and 5 below the hit point. The normal faces the light, and the cosine is
+    # (0.6 * 10 - 0.8 * 5) / sqrt(125). The face points up, away from the light.
     ("light 11 -2 -5 1\nmaterial plain\nply_file leaning.ply\nup 0 1 0\ncamera 1 -2 4 1 -2 0 90\n", "2,2",
      [{"hit": floor(4, light("behind_face", 11.180340, 0.178885), normal=[0.6, 0, 0.8])}],
      {"color": [0.08] * 3}),
@@ -142,7 +141,7 @@ def color_of_json(report):
 
 
 def color_of_text(text):
-    """Does the same with the printed lines."""
+    """Computes the pixel's color from the factors in the printed lines."""
     total, samples = [0, 0, 0], text.count("the sample's color")
     for line in text.splitlines():
         part = None
@@ -206,7 +205,7 @@ class Pixels(Explain):
         self.assertIn("meets      nothing", self.clrt("explain", "mirrors.scn", "0,4"))
 
     def expect_near(self, found, expected, place=""):
-        """Compares parts of a report. Numbers are rounded to six digits."""
+        """Compares parts of a report. Expected numbers are rounded to six digits."""
         if isinstance(expected, dict):
             for name, part in expected.items():
                 self.expect_near(found[name], part, f"{place}.{name}")
@@ -262,10 +261,10 @@ class Pixels(Explain):
 
 
 class Scenes(Explain):
-    """Specialized kernels omit features that a scene lacks; general kernels contain them unused."""
+    """Specialized kernels omit features that a scene lacks. General kernels contain most of them unused."""
 
     def expect_parts(self, words, **parts):
-        """Compares whether each part is needed and compiled, and the reason; returns the report."""
+        """Expects each part's need, its presence in the program and the reason. Returns the report."""
         found = self.report("explain", *words, "--json")
         by_name = {part["name"]: part for part in found["parts"]}
         for name, expected in parts.items():

@@ -15,8 +15,8 @@ import bombs
 from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main, needs_exr
 
 FAIL_MEMORY, FAIL_DEVICE, SET_ENVIRONMENT = (os.path.abspath(word) for word in sys.argv[3:6])
-# LARGE's picture does not fit on a disk of DISK_SIZE in any format. The kernels are the same in
-# every run.
+# LARGE's picture does not fit on a disk of DISK_SIZE bytes in any format. All runs use the same
+# kernels.
 LARGE = [SCENE, "-s", "400x300", "-q", "--tune=kernel=wide,specialize=never"]
 DISK_SIZE = 8192
 # The kernels of this picture compile fastest.
@@ -35,7 +35,7 @@ class Faults(Work):
         for name in os.listdir(self.target):
             os.remove(self.target / name)
 
-    # Runs clrt with a new disk, mounted at target for this process alone. Then lists the disk's files.
+    # Runs clrt with a new disk, which only this process sees at `target`. Then lists the disk's files.
     def clrt_on_disk(self, options, *words):
         script = 'mount -t tmpfs -o "$1" clrt-test target && shift && echo old >target/old && \
             { [ "$1" != ro ] || mount -o remount,ro target; } && shift && "$@"; code=$?; \
@@ -80,7 +80,7 @@ class Outputs(Faults):
         limit = ["prlimit", f"--fsize={5 << 18}"]
         large = [*LARGE, "-s", "800x600"]
         for format in {"pfm", "ppm"} & set(FORMATS):
-            self.run_clrt(*large, "-o", "warm." + format)  # compiled kernels are files too
+            self.run_clrt(*large, "-o", "warm." + format)  # the limit also applies to compiled kernels
             run = self.run_clrt(*large, "-o", f"target/a.{format}", before=limit)
             self.assert_fails(run, 5, f"target/a.{format}: cannot be written: ")
             self.assertEqual(os.listdir(self.target), [])
@@ -119,7 +119,7 @@ class Inputs(Faults):
                 self.assert_fails(run, 3, "mesh.ply")
 
 
-# Inputs of few bytes, or without an end, that could take hours or all memory.
+# Small or endless inputs could take hours or all memory.
 class Sizes(Faults):
     SECONDS, MEGABYTES = 10, 1000
     PICTURE = ["-s", "8x8", "-q", "-o", "a.pfm"]
@@ -251,8 +251,8 @@ class Device(Faults):
 
 
 class Memory(Faults):
-    # Tests each of the first allocations as the first failure, and later allocations in larger
-    # steps.
+    # Lets all allocations from number `first` on fail, and increases `first` until clrt succeeds. The
+    # steps grow. Returns the number of runs that failed.
     def count_failures(self, *words):
         first, failures = 1, 0
         self.compile_kernels(*words)

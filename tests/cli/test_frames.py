@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests runs with many pictures. Each numbered file must equal the file of a run that draws only
+# Tests runs that draw many pictures. Each numbered file must equal the file of a run that draws only
 # this picture.
 # Usage: test_frames.py CLRT FORMATS
 import json

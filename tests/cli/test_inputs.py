@@ -23,7 +23,7 @@ mesh {1}
 """
 MESHES = [(ROOT / f"scenes/{name}.ply").read_bytes() for name in ("cone", "plateau")]
 REFERENCE = ["--reference-samples", "2", "--reference"]
-# All commands that read a scene, without the scene.
+# All commands that read a scene, without the scene's name.
 COMMANDS = [
     ["-o", "a.pfm", *REFERENCE[:2], "--reference=b.pfm"],
     ["-o", "a.#.pfm", "--frames", "1-2", "--aa-adaptive", *REFERENCE],
@@ -47,7 +47,7 @@ def line_of(command, scene):
 
 class Inputs(Work):
     def run_command(self, command, scene, **more):
-        """Fails if clrt crashes or corrupts memory."""
+        """Runs a command, and fails if clrt crashes or corrupts memory."""
         done = self.run_clrt(*line_of(command, scene), **more)
         if b"LeakSanitizer has encountered a fatal error" in done.stderr:
             self.skipTest("LeakSanitizer crashed, as it rarely does while threads end")
@@ -56,7 +56,7 @@ class Inputs(Work):
         return done
 
     def feed(self, name, content):
-        """Makes a pipe that gives its content to the first reader, and nothing to others."""
+        """Makes a pipe that gives the content to its first reader, and nothing to later readers."""
         path = self.work / name
         os.mkfifo(path)
 
@@ -77,7 +77,7 @@ class Inputs(Work):
         self.addCleanup(release)
 
     def take_outputs(self, done, mesh):
-        """Returns and removes what a command wrote, without the names of the scene and the mesh."""
+        """Returns a command's outputs without the names of the scene and the mesh. Removes the files."""
         outputs = {"": re.sub(rb"(?m)(^|of )(file\.scn|-)(?=[: \n])", b"", done.stdout).replace(mesh.encode(), b"")}
         for path in sorted(self.work.glob("[ab][.-]*")):
             outputs[path.name] = read_exr(path)[1] if path.suffix == ".exr" else path.read_bytes()
@@ -123,7 +123,7 @@ class Inputs(Work):
             ended.set()
             writer.join()
 
-    # All other commands may find their kernels in the tests' cache.
+    # The other tests may find all kernels in the cache that the tests share.
     def test_a_command_compiles_kernels_and_stores_them(self):
         self.write(cone_ply=MESHES[0], file_scn=SCENE.format(64, "cone.ply"))
         done = self.run_command(["-o", "a.pfm"], "file.scn", content=b"", POCL_CACHE_DIR=str(self.work))

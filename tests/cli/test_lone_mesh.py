@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests meshes that are rendered without a scene: which way is up, that turning is exact, and that
-# they fill the picture. Every run makes new meshes. Usage: test_lone_mesh.py CLRT 1|0, with 0 for a build without Assimp
+# Tests meshes that are rendered without a scene: the up axis, exact turns, computed normals, samples,
+# and the cameras, floor and lights of the generated scene. Every run makes new random meshes.
+# Usage: test_lone_mesh.py CLRT 1|0, with 0 for a build without Assimp
 import math
 import random
 import sys
@@ -127,7 +128,7 @@ class Upright(Random):
 
     @unittest.skipUnless(ASSIMP, "this build is without Assimp")
     def test_formats_have_their_axes(self):
-        # An octahedron, which stands on a point with any axis up.
+        # The octahedron stands on a point with any axis up, so its shape selects no axis.
         points = [(1.0, 0.0, 0.0), (0.0, 2.0, 0.0), (0.0, 0.0, 3.0), (-1.0, 0.0, 0.0), (0.0, -2.0, 0.0), (0.0, 0.0, -3.0)]
         triangles = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
         files = {
@@ -159,7 +160,7 @@ class Upright(Random):
 
 
 def rough_ball(rings=40, sides=40):
-    """Returns a ball whose points are moved toward its center. Larger steps are rarer."""
+    """Returns a ball whose points are moved toward its center. Larger moves are rarer."""
     source, points = random.Random(5), [(0.0, 0.0, -1.0), (0.0, 0.0, 1.0)]
     for ring in range(rings):
         for side in range(sides):
@@ -183,7 +184,7 @@ class Normals(Work):
         return self.bytes_of("out.ply")
 
     def test_the_shape_chooses_the_crease(self):
-        """A rough ball is round all over. A tripod is too small for statistics."""
+        """A rough ball is round everywhere. A tripod has too few edges for statistics."""
         self.write(a_ply=models.ply(*rough_ball()), b_ply=models.ply(*tripod()))
         for name, crease in ("a.ply", "70"), ("b.ply", "33"):
             chosen = self.mesh_of(name)
@@ -257,7 +258,7 @@ def dot(a, b):
 
 
 def cameras(scene):
-    """Returns eye, point, up, height and width in degrees of a scene's cameras."""
+    """Returns the eye, target, up vector, and vertical and horizontal angle of each camera of a scene."""
     up, found = [0, 0, 1], []
     for words in map(str.split, scene.splitlines()):
         if words[:1] == ["up"]:
@@ -269,8 +270,8 @@ def cameras(scene):
 
 
 def extents(camera, points, width, height):
-    """Returns the points' lowest and highest horizontal and vertical positions. The picture's edges
-    are at -1 and 1."""
+    """Returns the ranges of the points' horizontal and vertical positions. The picture's edges are at
+    -1 and 1."""
     eye, point, up, tall, wide = camera
     forward = unit([b - a for a, b in zip(eye, point)])
     right = unit(cross(forward, up))
@@ -284,7 +285,7 @@ def extents(camera, points, width, height):
 
 class Studio(Random):
     def mesh(self):
-        """Returns the points and triangles of a box or a bent tube, of any size and place."""
+        """Returns the points and triangles of a box or a tube of random size and position."""
         points, triangles = models.knot(self.random.randrange(3, 30), self.random.randrange(3, 9))
         if self.random.random() < 0.5:
             points = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]

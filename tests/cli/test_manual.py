@@ -142,7 +142,7 @@ class Terminal:
         os.write(self.file, text.encode())
 
     def read(self, until, seconds=20):
-        """Returns the output up to the moment when until(output) is true or the time is over."""
+        """Reads until until(output) is true or the time is over. Returns the output."""
         text, end = "", time.monotonic() + seconds
         while time.monotonic() < end and not until(text):
             if select.select([self.file], [], [], 0.2)[0]:
@@ -222,7 +222,7 @@ class Completions(Work):
             text = self.offered(shell, f"clrt a.scn --{name}{separator}")
             for word in value.strip(" [=]").split("|"):
                 if word.isupper():
-                    continue  # any value
+                    continue  # stands for any value
                 self.assertRegex(text, rf"(?<!\w){word}(?!\w)", f"{shell} --{name}")
         self.assertIn("pfm", self.offered(shell, "clrt a.scn --format p"))
         text = self.offered(shell, "clrt a.scn --tune ")

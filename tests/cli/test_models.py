@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests meshes in formats other than PLY: the same picture, the materials of files, and hostile
-# files. Usage: test_models.py CLRT 1|0 [EXPORT], with 0 for a build without Assimp. EXPORT is the
-# program of export_model.c.
+# Tests meshes in formats other than PLY: they give the picture of the PLY mesh and keep their
+# materials. Also tests hostile files. Usage: test_models.py CLRT 1|0 [EXPORT], with 0 for a build
+# without Assimp. EXPORT is the program of export_model.c.
 import os
 import re
 import subprocess
@@ -86,7 +86,7 @@ class Formats(Work):
         self.assertEqual(len({plain, smooth, self.picture("round.scn")}), 3)
         self.converts_to_flat("a.ply")
 
-    # A lone mesh has its own camera, so the flat picture comes from its converted scene.
+    # A lone mesh has its own cameras, so the flat picture comes from the mesh's converted scene.
     def converts_to_flat(self, name):
         self.clrt("convert", name, "lone.scn")
         self.expect_same(name, "lone.scn", "--aa=1")

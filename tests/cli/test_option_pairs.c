@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests every pair of options with every command: clrt either rejects the pair with a sentence that
-// names an option, or both options have the effect that each has alone, in either order. clrt
+// Tests every pair of options with every command, in both orders. clrt either rejects the pair with
+// a sentence that names one of the options, or each option has the same effect as alone. clrt
 // rejects exactly the documented pairs.
 #include "cli/options/option.h"
 #include "unit/cmocka_all.h"
@@ -10,7 +10,7 @@
 
 #define WORDS_MOST 12
 
-// A command line without options that it does not need.
+// The words of a command with only the options that it needs.
 typedef const char *Words[WORDS_MOST];
 static const Words lines[] = {
     {"a.scn"},
@@ -32,7 +32,7 @@ static const Words lines[] = {
 };
 #define LINES (sizeof lines / sizeof *lines)
 
-// A value for each option with an argument that is not the default.
+// Each option that requires an argument has a value here. The value differs from the default.
 static const struct {
     const char *name, *value;
 } samples[] = {
@@ -72,14 +72,15 @@ static const struct {
     {"quit-after", "1"},
 };
 
-// Other tests cover the rest: --help and --version ignore the other options, --tune has its keys as
-// rows, and a second -o is an error.
+// Returns whether this test covers the option. Other tests cover the rest: --help and --version
+// ignore the other options, each key of --tune is a row of its own, and a second -o is an error.
 static bool is_walked(const Option *option)
 {
     return option->kind != OPTION_ACTION && option->set != set_tune && option->set != set_output;
 }
 
-// The option with its value, at the same address in all command lines, and its value.
+// Each option as a word of the command line, and the value within this word. Parsed options point
+// to their values, so all command lines share these words.
 static char texts[OPTIONS_MOST][80];
 static const char *values[OPTIONS_MOST];
 
@@ -108,7 +109,7 @@ typedef struct {
     Error error;
 } Parsed;
 
-// Parses the line with up to two options, which may be NULL.
+// Parses the line with two more options. An option may be NULL.
 static void parse(Parsed *parsed, const Words line, const Option *first, const Option *second)
 {
     const Option *added[] = {first, second};
@@ -129,12 +130,12 @@ static void copy_derived(Options *to, const Options *from)
     to->action = from->action;
     to->format = from->format;
     to->frames = from->frames;
-    to->resume = from->resume;                         // moves to frames
+    to->resume = from->resume;                         // frames have skips_finished instead
     to->picture.statistics = from->picture.statistics; // implied by --json
     to->part_paths = from->part_paths;
 }
 
-// Fails unless the options are the line's, changed by the two options.
+// Fails unless the parsed options are the options of the line, changed by the pair.
 static void expect_effects(const Options *found, const Words line, const Option *pair[2])
 {
     Parsed expected;
@@ -165,8 +166,8 @@ static void expect_sentence(const char *text, const Option *pair[2])
         fail_msg("--%s and --%s: %s", pair[0]->name, pair[1]->name, text);
 }
 
-// Pairs that some values or other options allow. --help lists the pairs that exclude each other
-// always, those of exclusion_table.
+// clrt rejects these pairs, unless some values or further options allow them. --help lists the
+// pairs of exclusion_table, which always exclude each other.
 static const char *const conflicts[][2] = {
     {"resume", "aa-adaptive"}, {"resume", "error"},          {"resume", "time"},
     {"frames", "view"},        {"frames", "reference"},      {"frames", "hash"},
@@ -196,8 +197,8 @@ static bool is_conflict(const char *one, const char *other)
     return false;
 }
 
-// Fails if clrt accepts a pair of the lists, or if it accepts each option alone and rejects a pair
-// that is not in the lists.
+// Fails if clrt rejects an undocumented pair although it accepts each option alone. Also fails if
+// clrt accepts a documented pair.
 static void expect_documented(const Parsed *both, const Words line, const Option *pair[2])
 {
     static Parsed one, other;
@@ -205,7 +206,8 @@ static void expect_documented(const Parsed *both, const Words line, const Option
     parse(&one, line, pair[0], NULL);
     parse(&other, line, pair[1], NULL);
     const bool is_documented = is_conflict(name[0], name[1]) || is_conflict(name[1], name[0]);
-    const bool is_of_command = strncmp(both->error.text, "clrt ", 5) == 0; // --hash is a command
+    // A line with --hash is a command of its own.
+    const bool is_of_command = strncmp(both->error.text, "clrt ", 5) == 0;
     const bool is_rejected = !both->ok && one.ok && other.ok && !is_of_command;
     if (is_rejected ? !is_documented : is_documented && both->ok)
         fail_msg("--%s and --%s are %s", name[0], name[1],

@@ -109,7 +109,7 @@ static const char *help_text(void)
     return text;
 }
 
-// Finds the start and the end of the option's text in --help.
+// Returns the start of the option's text in --help, and stores its end.
 static const char *find_entry(const char *help, const Option *option, const char **end)
 {
     char start[96], letter[8] = "    ";

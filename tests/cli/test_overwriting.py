@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests that no output replaces an input or another output, for all kinds of names and links. Usage:
-# test_overwriting.py CLRT FORMATS
+# Tests that no output replaces an input or another output, even through other names and links.
+# Usage: test_overwriting.py CLRT FORMATS
 import os
 import subprocess
 
@@ -21,7 +21,7 @@ class Overwriting(Work):
         return {file.name: file.read_bytes() for file in self.work.iterdir() if file.is_file()}
 
     def refuses_files(self, one, other, *words, **settings):
-        """Expects a message that both names are one file. No file in the folder may change."""
+        """Expects the message that both names are the same file. No file in the folder may change."""
         before = self.contents()
         done = subprocess.run([CLRT, *words], cwd=self.work, stderr=subprocess.PIPE, text=True, timeout=300,
                               **{"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, **settings})

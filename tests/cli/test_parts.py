@@ -15,7 +15,7 @@ CHANNELS = ["--aov", "depth,normal,primitive,material,samples", "--tune", "bvh=s
 
 
 def part_of(column, row, parts):
-    """Returns a tile's part. The golden ratio shifts rows, so no part gets a whole column."""
+    """Returns the number of a tile's part. The golden ratio shifts rows, so no part gets a whole column."""
     return (column - (row * 2654435769 % 2**32 * parts >> 32)) % parts
 
 
@@ -40,7 +40,7 @@ class Parts(SharedWork):
         type(self).thirds = self.draw("third")
 
     def draw(self, name, *words, of=3, parts=None):
-        """Draws the parts. Returns the names of their files."""
+        """Draws the given parts or all parts. Returns the names of their files."""
         names = []
         for part in parts or range(1, of + 1):
             names.append(f"{name}{part}.exr")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests that every feature that docs/peers.md claims for clrt has an existing test. Usage:
-# test_peers.py CTEST BUILD_FOLDER
+# Tests that docs/peers.md names an existing test for every feature that clrt has.
+# Usage: test_peers.py CTEST BUILD_FOLDER
 import json
 import pathlib
 import re
@@ -15,7 +15,7 @@ PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/peers.md"
 PEERS = ["POV-Ray", "c-ray", "LuxCoreRender", "Mitsuba 3", "Cycles", "pbrt-v4", "OSPRay Studio", "Embree",
          "F3D", "Radiance", "tinybvh", "appleseed", "nobody", "all but"]
 LOSSES = ["glass", "textures", "instancing", "Windows and macOS"]
-# Features that peers have, though they are easily overlooked.
+# Easily overlooked features, with peers that have them.
 OVERLOOKED = {
     "more samples where pixels differ": ["Cycles (by default, threshold 0.01)"],
     "transparency where nothing is hit": ["F3D (`--no-background`)"],
@@ -26,7 +26,7 @@ OVERLOOKED = {
 
 
 def rows():
-    """Returns the cells of every row of the tables of features, without the heads."""
+    """Returns the cells of every row of the tables of features. Heads of tables are left out."""
     tables = PAGE.read_text().split("\n## Sources of the tables\n")[1]
     lines = [line for line in tables.splitlines() if line.startswith("|")]
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the remaining time in the lines of a log.
+// Tests the remaining time that clrt prints to a log.
 #include "base/clock.h"
 #include "cli/progress.h"
 #include "unit/cmocka_all.h"
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-// Writes the progress text of a picture that began this many seconds ago.
+// Stores the progress text of a picture that began `seconds` ago.
 static void tell(char *text, size_t size, double seconds, const RenderProgress *render)
 {
     Progress progress = {.start = clock_seconds() - seconds};

@@ -34,7 +34,7 @@ def tiff_description(data):
 
 def jpeg_comment(data):
     place = 2
-    while data[place + 1] != 0xDA:  # until the start of the picture
+    while data[place + 1] != 0xDA:  # the start of the pixels
         (size,) = struct.unpack_from(">H", data, place + 2)
         if data[place + 1] == 0xFE:
             return data[place + 4 : place + 2 + size].rstrip(b"\0").decode()

@@ -12,8 +12,8 @@ from skips import leave
 from work import ROOT, Work, main, needs_exr
 
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT.parent / "shared/course"))
-# Camera rays that hit, shaded points, reflected rays and shadow rays. The course's tracer also
-# casts shadow rays toward lights behind the surface.
+# The course's numbers of camera rays that hit, shaded points, reflected rays and shadow rays. The
+# course's tracer also casts shadow rays toward lights behind the surface.
 COUNTS = {"silhouette": (95935, 95935, 0, 0), "matte": (95935, 95935, 0, 191870),
           "blinn_phong": (95935, 95935, 0, 191870), "simple": (98036, 98036, 0, 196072),
           "reflections": (95935, 118573, 114328, 237146), "cow": (95935, 95935, 0, 191870),

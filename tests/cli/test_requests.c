@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every option and command of the program has a counterpart in clrt.h, or a reason why only the
-// program has it. Every setting of the library's requests is reached by an option, or is listed as
-// the library's own.
+// Tests that every option and command of the program has a counterpart in clrt.h, or a reason why
+// only the program has it. Also tests that an option sets every member of the library's requests,
+// except library_members.
 #include "base/file.h"
 #include "cli/options/option.h"
 #include "unit/cmocka_all.h"
@@ -10,9 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-// The parts of clrt.h by which the library offers an option: "Struct::member" or a function,
-// separated by spaces. Otherwise, a sentence with a final period says why the program alone has the
-// option.
+// Each option has its counterparts in clrt.h, or a reason why only the program has the option.
+// Counterparts are functions or "Struct::member", separated by spaces. A reason ends with a period.
 static const char *const counterparts[][2] = {
     {"output", "The library fills memory, and other libraries write files."},
     {"format", "It is for files."},
@@ -59,7 +58,7 @@ static const char *const counterparts[][2] = {
     {"help", "The header is the library's help."},
 };
 
-// As above, for the rows of command_table by their actions.
+// Each action of command_table has its counterparts or a reason, too.
 static const char *const commands[] = {
     [ACTION_RENDER] = "clrt_render",
     [ACTION_VIEW] = "The library opens no window.",
@@ -73,7 +72,7 @@ static const char *const commands[] = {
     [ACTION_DEVICES] = "clrt_device_count clrt_device_get",
 };
 
-// Members that no option sets, because only a caller in C can.
+// Members that no option sets, because only C code can set them.
 static const char library_members[] = " ClrtPicture::size ClrtPicture::camera "
                                       "ClrtPicture::progress ClrtPicture::user ClrtLoad::size ";
 
@@ -106,7 +105,7 @@ static bool has_word(const char *text, size_t size, const char *word)
     return false;
 }
 
-// Returns the body of a struct and its size.
+// Returns the start of a struct's body, and stores the body's size.
 static const char *body_of(const char *name, size_t *size)
 {
     char ending[80];
@@ -180,7 +179,8 @@ static bool is_reached(const char *member)
     return has_word(library_members, sizeof library_members, member);
 }
 
-// Calls is_reached for each member: the words before a semicolon or a comma, outside of comments.
+// Fails unless an option sets each member of the struct. Members are the words before a semicolon
+// or a comma, outside of comments.
 static void expect_members_reached(const char *name)
 {
     size_t size;

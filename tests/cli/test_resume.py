@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests runs that are killed or stopped at any moment and then resumed. They must write the same file in
-# the end. Only EXR files that are marked as incomplete may be incomplete under the final name.
+# Tests runs that are killed or stopped at any moment and then resumed. The final file must equal the
+# file of an uninterrupted run. Only EXR files may be incomplete under the final name, and only with a mark.
 # Usage: [CLRT_KILLS=N] [CLRT_SEED=N] test_resume.py CLRT FORMATS [TEST...]
 import ctypes
 import fcntl
@@ -38,7 +38,7 @@ class Resume(Work):
         return self.bytes_of(f"whole-{NAME}")
 
     def stop(self, *words, number=signal.SIGINT):
-        """Sends a signal to a run once its journal has 40 tiles and a part of the next."""
+        """Starts a run, and sends it a signal once its journal has 40 tiles and a part of the next."""
         process = self.start(*words, "-o", NAME, "--resume")
         self.wait_for(lambda: (self.journal.exists() and self.journal.stat().st_size > 41 * TILE * TILE * 12)
                       or process.poll() is not None)
@@ -47,7 +47,7 @@ class Resume(Work):
         self.assertEqual(process.returncode, -number if number == signal.SIGKILL else 128 + number)
 
     def resumed_tiles(self, *words):
-        """Continues to the end and returns the number of tiles found."""
+        """Resumes a run until its end. Returns the number of tiles that were already finished."""
         talk = self.run_clrt(*words, "-o", NAME, "--resume", "-v").stderr
         line = next(line for line in talk.splitlines() if line.startswith("resumed: "))
         return int(line.split()[1])
@@ -295,7 +295,7 @@ class Refusals(Resume):
     def test_two_processes_do_not_draw_one_picture(self):
         process = self.start(*LONG, "-o", NAME, "--resume")
         self.wait_for(lambda: self.journal.exists() and self.journal.stat().st_size > 24)
-        process.send_signal(signal.SIGSTOP)  # otherwise it might end before the other begins
+        process.send_signal(signal.SIGSTOP)  # a running process might end too early
         sentence = f"{NAME}.part: another process draws this picture: try again later"
         self.refuses(75, sentence, *LONG, "-o", NAME, "--resume")
 

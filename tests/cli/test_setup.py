@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests tools/setup, tools/render and tools/test with stubs in place of apt-get, dpkg-query, sudo,
-# id, cmake and ctest. Usage: test_setup.py
+# Tests tools/setup, tools/render and tools/test. Stubs replace apt-get, dpkg-query, sudo, id, cmake
+# and ctest. Usage: test_setup.py
 import os
 import pathlib
 import pty
@@ -14,7 +14,7 @@ import unittest
 from skips import has_terminals, leave, needs_terminal
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Without /dev/pts, apt-get fails when the status shares standard output.
+# Without /dev/pts, apt-get fails if its status goes to standard output.
 APT = """#!/bin/sh
 echo "$*" >>"$LOG"
 case "$*" in *Status-Fd=1*) exec 3>&1 ;; esac
@@ -136,7 +136,7 @@ class Setup(unittest.TestCase):
         self.assertNotRegex(told, "[\r\x1b]")
 
     def hasten(self):
-        """Lines between steps that are not on a terminal come every 2 s instead of every 15 s."""
+        """Makes tools print progress lines every 2 s instead of every 15 s if there is no terminal."""
         steps = self.work / "tools/steps.sh"
         text = steps.read_text()
         self.assertIn("period=14", text)

@@ -8,7 +8,7 @@ SMALL = [SCENE, "-s", "32x24"]
 FROM_ZERO = ["AWS_BATCH_JOB_ARRAY_INDEX", "JOB_COMPLETION_INDEX", "OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"]
 NAMES = ["SLURM_ARRAY_TASK_ID", *FROM_ZERO]
 UNSET = dict.fromkeys(NAMES)
-# The variables of each scheduler for one of three tasks, and the number of this task, from 1.
+# The variables that each scheduler sets for one of three tasks, and this task's number from 1 to 3.
 TASKS = [
     ({"SLURM_ARRAY_TASK_ID": "2", "SLURM_ARRAY_TASK_COUNT": "1", "SLURM_PROCID": "0"}, 2),
     ({"AWS_BATCH_JOB_ARRAY_INDEX": "2", "AWS_BATCH_JOB_ID": "6c7a:2"}, 3),

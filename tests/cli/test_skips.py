@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests that ctest reports a test as skipped, with its reason, if the machine lacks its programs. Usage:
-# test_skips.py CTEST BUILD_FOLDER
+# Tests that ctest reports a test as skipped, with the reason, if the machine lacks the test's
+# programs. Usage: test_skips.py CTEST BUILD_FOLDER
 import os
 import pathlib
 import shutil
@@ -17,7 +17,7 @@ PRESENT = "bash", "dirname", "env", "id", "python3", "readlink"
 
 class Skips(unittest.TestCase):
     def run_label(self, label):
-        """Returns ctest's output on a machine with few programs."""
+        """Returns ctest's output for the tests with this label on a machine with few programs."""
         with tempfile.TemporaryDirectory() as folder:
             for name in PRESENT:
                 pathlib.Path(folder, name).symlink_to(shutil.which(name))

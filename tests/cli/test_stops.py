@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Stops clrt by signals at any moment, while it compiles kernels or draws tiles. Drivers cannot stop
-# compiling. clrt must print one message and exit with 128 + the signal. It must write no picture,
-# or one that it reports as incomplete. Usage: test_stops.py CLRT FORMATS
+# compiling. clrt must print one message and exit with 128 + the signal's number. It must write no
+# picture, or a picture that it reports as incomplete. Usage: test_stops.py CLRT FORMATS
 import json
 import os
 import pathlib
@@ -30,7 +30,7 @@ class Stops(Work):
         self.caches = 0
 
     def start_picture(self, *words, cold, **more):
-        """Starts a picture, and waits until clrt handles signals."""
+        """Starts a picture, and waits until clrt handles signals. If cold, the kernel cache is empty."""
         environment = dict(os.environ)
         if cold:
             self.caches += 1
@@ -49,7 +49,7 @@ class Stops(Work):
         return int(caught.split()[1], 16) >> signal.SIGINT - 1 & 1
 
     def expect_stopped(self, process, number):
-        """Returns whether clrt has written a picture."""
+        """Expects the exit status and a message. Returns whether clrt has written a picture."""
         talk = process.communicate(timeout=30)[1]
         self.assertEqual(process.returncode, 128 + number, talk)
         if talk == EARLY:
@@ -89,10 +89,10 @@ class Stops(Work):
                 process.wait()
 
     def test_once_tiles_are_drawn_there_is_a_picture(self):
-        # Compiles the kernels that LONG uses, because a stopped run compiles none.
+        # Compiles LONG's kernels, because a run that is stopped while it compiles stores none.
         self.clrt(*LONG, "-s", "8x8", "--tune", "kernel=packet", "-o", "/dev/null", "--format", "pfm")
         moment = 1
-        while self.stop_often([moment], cold=False) == 0:  # a busy machine takes longer to the first tile
+        while self.stop_often([moment], cold=False) == 0:  # a busy machine draws its first tile later
             moment *= 2
         self.stop_often([self.chance.uniform(0, 0.3) for _ in range(5)], cold=False)
 
@@ -127,6 +127,6 @@ class Stops(Work):
 
 
 if __name__ == "__main__":
-    # In a background job, clrt would inherit that SIGINT is ignored.
+    # Background jobs ignore SIGINT, and clrt would inherit this setting.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     main(2)

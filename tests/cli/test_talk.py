@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests the program's output: data on standard output, messages on standard error, JSON that follows
-# its schemas, and the output of stopped runs.
+# Tests the program's output: data on standard output, messages on standard error, JSON and its
+# schemas, and the output of stopped runs.
 # Usage: test_talk.py CLRT FORMATS
 import json
 import os
@@ -91,7 +91,7 @@ class StandardInput(Talk):
 @needs_terminal
 class Terminal(Talk):
     def on_terminal(self, *words):
-        """Returns what clrt prints on a terminal. The kernel cache is empty when a test begins."""
+        """Returns clrt's output on a terminal. The kernel cache is empty when a test begins."""
         ours, theirs = pty.openpty()
         environment = {**os.environ, "TERM": "xterm", "POCL_CACHE_DIR": str(self.work / "cache")}
         process = self.start(*words, stderr=theirs, env=environment)
@@ -192,7 +192,7 @@ class Stopped(Talk):
 @unittest.skipUnless(jsonschema, "Python's jsonschema is not installed")
 class Schemas(Talk):
     def validate(self, name, *words, code=0, **environment):
-        """Checks the JSON on standard output against the schema. Returns both, the schema first."""
+        """Checks the JSON on standard output against its schema. Returns the schema and the JSON."""
         found = self.report(*words, code=code, **environment)
         schema = json.loads((ROOT / f"tools/manual/{name}.schema.json").read_text())
         jsonschema.Draft202012Validator.check_schema(schema)

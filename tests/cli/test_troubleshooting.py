@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Provokes the faults of docs/troubleshooting.md and compares the messages with the page's. Usage:
-# test_troubleshooting.py CLRT 1|0, with 0 for a build without the window
+# Provokes the faults of docs/troubleshooting.md and compares the messages with the page's.
+# Usage: test_troubleshooting.py CLRT 1|0, with 0 for a build without the window
 import re
 import sys
 import unittest
@@ -17,7 +17,8 @@ INSIDE_OUT = ply([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2), (0, 3
 
 class Messages(Work):
     def provoke(self):
-        """Yields each fault's output in the page's order; None for faults of a missing window."""
+        """Yields the output of each fault in the page's order. In builds without the window, the output
+        of the window's fault is None."""
 
         def run(*words, **environment):
             done = self.run_clrt(*words, **environment)

@@ -20,8 +20,8 @@ PICTURES = re.findall(r"\]\((tutorial/[^)]+\.png)\)", TEXT)
 
 
 def shell_text(kind, text):
-    """Returns the commands for a block. Scene text that starts with its name or with the size
-    replaces the file. Other scene text is appended to it."""
+    """Returns the shell commands for a block of the page. Scene text that starts with a file's name
+    or with the size replaces the file. Other scene text is appended to the file."""
     if kind == "sh":
         return text
     name = re.match(r"// (\w+\.scn)\n", text)

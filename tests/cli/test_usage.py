@@ -96,8 +96,7 @@ class Combinations(Work):
 
 class Notes(Work):
     def draws(self, note, *words):
-        """Expects that clrt draws the picture, and prints the note on standard error unless -q is
-        given."""
+        """Expects that clrt draws the picture, and prints only the note. With -q, it prints nothing."""
         for quiet in [], ["-q"]:
             done = self.run_clrt(*words, "-s", "8x6", "-o", "a.pfm", *quiet)
             expected = f"clrt: {note}\n" if note and not quiet else ""
@@ -128,7 +127,7 @@ class Notes(Work):
 
     def test_scenes_that_need_no_light_have_no_note(self):
         self.write(
-            a_scn="sphere 0 0 0 1\n",  # default material: a silhouette
+            a_scn="sphere 0 0 0 1\n",  # the default material is a silhouette
             b_scn="define all matte reflectivity 1\nmaterial all\nsphere 0 0 0 1\n",
             c_scn="light 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
         )

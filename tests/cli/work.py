@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Gives each test a folder, and runs clrt in it. The first argument of these tests is CLRT.
+# Gives each test a folder, and runs clrt in this folder. Tests that import this module take CLRT as
+# their first argument.
 import json
 import os
 import pathlib
@@ -13,7 +14,8 @@ CLRT = pathlib.Path(sys.argv[1]).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
 EVERY_FEATURE = str(ROOT / "tests/image/every_feature.scn")
-# The formats of this build, the second argument of tests that depend on them; empty for other tests.
+# The formats of this build. They are the second argument of tests that depend on them. For other
+# tests, the list is empty.
 FORMATS = sys.argv[2].split(", ") if len(sys.argv) > 2 and "pfm" in sys.argv[2] else []
 HAS_EXR = "jpg" in FORMATS  # only OpenImageIO writes JPEG, and reads EXR for clrt compare
 NO_OPENCL = {"OCL_ICD_VENDORS": "/nonexistent"}
@@ -27,7 +29,8 @@ def main(words):
 
 
 def no_fp64(library):
-    """Returns the environment of a device without doubles. library is the path of the built tests/cli/no_fp64.c."""
+    """Returns the environment of a device without doubles. `library` is the path of the library that
+    the build makes of tests/cli/no_fp64.c."""
     # With this option, AddressSanitizer accepts libraries that are loaded before its own.
     sanitizer = "verify_asan_link_order=0:" + os.environ.get("ASAN_OPTIONS", "")
     return {"LD_PRELOAD": os.path.abspath(library), "ASAN_OPTIONS": sanitizer}
@@ -48,7 +51,7 @@ class Work(unittest.TestCase):
         self.work = pathlib.Path(folder.name)
 
     def write(self, **files):
-        """Writes files. In their names, the last underscore means a dot."""
+        """Writes files. The last underscore of a name stands for a dot."""
         for name, content in files.items():
             content = content.encode() if isinstance(content, str) else content
             path = self.work / ".".join(name.rsplit("_", 1))
@@ -80,8 +83,8 @@ class Work(unittest.TestCase):
             time.sleep(0.002)
 
     def run_clrt(self, *words, before=(), content="", **environment):
-        """Runs clrt with content as its standard input. `before` is a command that runs clrt.
-        Variables of the environment that are None are unset."""
+        """Runs clrt with `content` as its standard input. `before` is a command that runs clrt. A
+        variable of the environment is unset if its value is None."""
         text = isinstance(content, str)
         environment = {**os.environ, **environment}
         kept = {name: value for name, value in environment.items() if value is not None}
@@ -89,8 +92,8 @@ class Work(unittest.TestCase):
                               capture_output=True, timeout=600)
 
     def run_within(self, seconds, megabytes, *words, **settings):
-        """Runs clrt and returns its exit status and standard error. Fails if clrt or a process that
-        it started takes more processor time or memory."""
+        """Runs clrt and returns its exit status and standard error. Fails if clrt or a process that it
+        starts exceeds the limit of processor time or memory."""
         process = self.start(*words, **settings)
         text = process.stderr.read()
         _, status, usage = os.wait4(process.pid, 0)
@@ -100,13 +103,14 @@ class Work(unittest.TestCase):
         return process.returncode, text
 
     def clrt(self, *words, code=0, **environment):
-        """Returns standard output or, if code is not 0, standard error. clrt must exit with code."""
+        """Expects that clrt exits with `code`. Returns standard output or, if `code` is not 0,
+        standard error."""
         done = self.run_clrt(*words, **environment)
         self.assertEqual(done.returncode, code, (words, done.stderr))
         return done.stderr if code else done.stdout
 
     def report(self, *words, code=0, **environment):
-        """Returns the JSON on standard output."""
+        """Expects that clrt exits with `code`. Returns the JSON on standard output."""
         done = self.run_clrt(*words, **environment)
         self.assertEqual(done.returncode, code, (words, done.stderr))
         return json.loads(done.stdout)
@@ -133,7 +137,7 @@ class Work(unittest.TestCase):
         self.assertTrue(self.picture(one, *words) == self.picture(other, *words), (one, other, words))
 
     def refuses(self, code, keyword, *words, **environment):
-        """Expects that clrt exits with code and prints one message, which contains the keyword."""
+        """Expects that clrt exits with `code` and prints one message that contains the keyword."""
         message = self.clrt(*words, code=code, **environment)
         self.assertIn(keyword, message, words)
         self.assertRegex(message, r"^clrt: .*\n$", words)
@@ -143,7 +147,7 @@ class Work(unittest.TestCase):
 
 
 class SharedWork(Work):
-    """All tests of a class share one folder. prepare() writes the files that they read."""
+    """All tests of a class share one folder. prepare() writes the files that the tests read."""
 
     @classmethod
     def setUpClass(cls):
