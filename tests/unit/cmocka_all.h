@@ -11,13 +11,13 @@
 #include <cmocka.h>
 // clang-format on
 
-// Add a function that runs before all tests, a function that runs after them, and a test. Tests run
-// in the order of the file.
+// Register a function that runs before all tests, a function that runs after all tests, and a test.
+// Tests run in the order of the file.
 void test_set_up(CMFixtureFunction fixture);
 void test_tear_down(CMFixtureFunction fixture);
 void test_add(CMUnitTestFunction test, const char *name);
 
-// Returns the number of failures.
+// Runs the registered tests. Returns 0 if all succeed, otherwise 1.
 int tests_run(void);
 
 #define AT_START(name) __attribute__((constructor)) static void at_start_##name(void)
@@ -41,5 +41,5 @@ int tests_run(void);
 #define SET_UP(name)    FIXTURE(name, test_set_up)
 #define TEAR_DOWN(name) FIXTURE(name, test_tear_down)
 
-// Frees a local variable at the end of its block.
+// Calls `function` to free a local variable at the end of its block.
 #define FREED_BY(function) __attribute__((cleanup(function), unused))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For the PLY tests: builds files, and parses them with strict checks.
+// Builds PLY files for tests, and parses them with strict checks.
 #pragma once
 
 #include "mesh/ply.h"

@@ -12,7 +12,7 @@
 #define PI      3.14159265358979323846
 #define DEGREES (180 / PI)
 
-// The caller sets the vertices and triangles.
+// Returns a mesh of this size. The caller sets the vertices and triangles.
 static inline Mesh new_mesh(size_t vertices, size_t triangles)
 {
     Error error = {0};
@@ -29,7 +29,7 @@ static inline void set_vertex(Mesh *mesh, uint32_t vertex, double x, double y, d
     memcpy(mesh->positions[vertex], position, sizeof position);
 }
 
-// Returns the mesh as in an STL file: no triangles share a vertex.
+// Returns the same triangles without shared vertices, as an STL file has them.
 static inline Mesh soup_of(const Mesh *mesh)
 {
     Mesh soup = new_mesh(3 * mesh->triangle_count, mesh->triangle_count);

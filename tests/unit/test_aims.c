@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Tests the aims on a mesh, the starting points of rays, and the judgment of their hits.
+// Tests the points of a mesh that clrt check aims at, its rays to these points, and the judgment of
+// their hits.
 #include "check/aims.h"
 
 #include "unit/cmocka_all.h"
 
 #include <stdlib.h>
 
-// A tetrahedron at four corners of a cube. The cube's other corners are outside of it.
+// A tetrahedron at four corners of a cube. The cube's other corners are outside the tetrahedron.
 static double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
 static uint32_t faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
 

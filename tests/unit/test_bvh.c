@@ -31,7 +31,8 @@ static bool box_holds(const Box *outer, const float point[3])
     return true;
 }
 
-// Checks boxes, children and leaves of a subtree by recursion. Returns its number of levels.
+// Checks boxes, children and leaves of a subtree by recursion. Returns the subtree's number of
+// levels.
 static uint32_t check_node(const Bvh *bvh, const Triangles *triangles, uint32_t number,
                            unsigned *seen)
 {
@@ -79,7 +80,7 @@ TEST(every_triangle_is_in_one_leaf_inside_nested_boxes)
         }
 }
 
-// Compares the subtrees of two trees at the same node.
+// Compares the subtrees below one node of two trees.
 static void expect_same(const Bvh *one, const Bvh *two, uint32_t number)
 {
     const BvhNode *a = &one->nodes[number], *b = &two->nodes[number];
@@ -90,7 +91,7 @@ static void expect_same(const Bvh *one, const Bvh *two, uint32_t number)
     expect_same(one, two, a->first + 1);
 }
 
-// The trees exceed the subtree limit of one thread, so threads also divide the nodes above.
+// The trees are so large that the threads also share the division of the upper nodes.
 TEST(any_number_of_threads_builds_the_same_tree)
 {
     for (int set = 0; set < SET_KINDS; set++) {

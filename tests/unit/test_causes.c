@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests that each cause is found from its channels, with one pixel per cause.
+// Tests that clrt finds each cause of a difference by the pictures' channels.
 #include "compare/difference.h"
 
 #include "unit/cmocka_all.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests each count of clrt check on a mesh or scene with the fault, and on one without.
+// Tests each count of clrt check on meshes or scenes with the counted fault and without it.
 #include "check/census.h"
 #include "mesh/ply.h"
 #include "unit/parsed.h"
@@ -19,7 +19,8 @@ static size_t count_words(const char *text)
     return count;
 }
 
-// Writes a PLY file. points and faces are words separated by spaces, three per point or face.
+// Stores a PLY file in `bytes`, and returns the file's size. `points` and `faces` are words
+// separated by spaces, three per point or face.
 static size_t write_ply(char *bytes, size_t size, const char *points, const char *faces)
 {
     char copy[4096];
@@ -88,7 +89,7 @@ static MeshCensus mesh_census(const char *points, const char *faces)
     return census;
 }
 
-// A fault's count and its first triangle.
+// The expected count and first triangle of a fault.
 typedef struct {
     size_t count, first;
 } Expected;
@@ -110,8 +111,7 @@ static const struct {
     {TETRAHEDRON, "0 1 2  0 3 1  0 2 3  1 3 2", 6, .is_closed = true, .is_inside_out = true},
     // A triangle is missing.
     {TETRAHEDRON, "0 1 3  0 3 2  1 2 3", 6, .open = {3, 0}},
-    // The edge between vertices 1 and 2 is split at its middle, vertex 4, in only one of its
-    // triangles.
+    // Vertex 4 splits the edge between vertices 1 and 2 in one triangle, but not in the other.
     {TETRAHEDRON "  0.5 0.5 0", "0 2 1  0 1 3  0 3 2  1 4 3  4 2 3", 9, .open = {3, 0}},
     // A triangle is turned over.
     {TETRAHEDRON, "0 2 1  0 1 3  0 3 2  1 3 2", 6, .turned = {3, 0}},
@@ -120,7 +120,7 @@ static const struct {
     // Two solids touch at a point.
     {TETRAHEDRON "  -1 0 0  0 -1 0  0 0 -1", FACES "  0 4 5  0 6 4  0 5 6  4 6 5", 12,
      .pinched = {1, 4}},
-    // Duplicate triangles: in one mesh by vertices, in the next by positions.
+    // The first mesh has duplicate triangles by vertices, the second mesh by positions.
     {TETRAHEDRON, "0 1 2  0 1 3  1 2 0  2 1 0", 5, .open = {2, 1}, .crowded = {3, 0},
      .duplicates = {2, 2}},
     {"0 0 0  1 0 0  0 1 0  1 0 0", "0 1 2  0 3 2", 3, .turned = {3, 0}, .duplicates = {1, 1}},

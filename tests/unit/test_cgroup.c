@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the quotas of control groups in file trees like the system's.
+// Tests the quotas of control groups with imitations of the system's file tree.
 #include "base/processors.h"
 #include "unit/cmocka_all.h"
 
@@ -54,7 +54,7 @@ static const struct {
     File files[FILES];
     uint32_t processors;
 } cases[] = {
-    // Version 2: quotas are rounded up. The least quota of a group and its parents counts.
+    // Version 2: quotas are rounded up. The smallest quota of a group and its parents counts.
     {"0::/job\n", {{"job/cpu.max", "250000 100000\n"}}, 3},
     {"0::/slice/job\n",
      {{"slice/job/cpu.max", "max 100000\n"},

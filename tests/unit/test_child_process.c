@@ -49,15 +49,15 @@ TEST(ending_no_child_is_harmless)
     assert_int_equal(child_end(&none), 0);
 }
 
-// Runs work in a fork, which reports through `end`. Returns the fork's status after it and its
-// children have ended.
+// Calls work in a child process, which writes a report to `end`. Returns the child's status after
+// the child and its own children have ended.
 static int status_of(void (*work)(int end), void *report, size_t size)
 {
     int ends[2], status;
     assert_int_equal(pipe2(ends, 0), 0);
     const pid_t id = fork();
     if (id == 0) {
-        dup2(ends[1], STDOUT_FILENO); // limits_take closes the others
+        dup2(ends[1], STDOUT_FILENO); // limits_take closes other files
         work(STDOUT_FILENO);
         _exit(0);
     }
@@ -89,8 +89,8 @@ TEST(a_limited_child_ends_with_its_parent)
     assert_true(WIFSIGNALED(status) && (double)time(NULL) - start < 20);
 }
 
-// Reports the limits of processor time at first, after a file of 10 MB and after one of 1 TB, and
-// of elapsed time.
+// Reports four limits: of processor time without a file, with a file of 10 MB and with a file of
+// 1 TB, and of elapsed time.
 static void report_limits(int end)
 {
     static const uint64_t sizes[3] = {0, 10000000, 1000000000000};
@@ -136,7 +136,7 @@ TEST(a_limited_child_ends_after_its_processor_time)
 
 static atomic_bool has_spawned;
 
-// Adds variables, so that the C library moves environ again and again.
+// Adds and removes variables, so that the C library moves environ repeatedly.
 static void *add_variables(void *context)
 {
     (void)context;

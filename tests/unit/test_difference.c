@@ -9,7 +9,7 @@
 
 #define PIXELS 4
 
-// Returns an image of 2 x 2 pixels, with the first hits as a fourth channel.
+// Returns an image of 2 x 2 pixels. The fourth channel contains the first hits.
 static StoredImage image_of(const float (*values)[4])
 {
     StoredImage image = {
@@ -48,7 +48,7 @@ TEST(all_three_colors_of_all_pixels_count_alike)
     memcpy(other, plain, sizeof other);
     other[1][0] = 0.5f;   // blue
     other[2][2] = 0.75f;  // red
-    other[3][1] = 0.003f; // less than a step
+    other[3][1] = 0.003f; // less than 1/255
     const Difference difference = measured(plain, (const float(*)[4])other);
     const double small = (double)0.003f;
     assert_true(difference.rmse == sqrt((0.25 + 0.0625 + small * small) / 12));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the smallest feature that samples find, with random disks in a picture of square lattices.
+// Tests the size of disks that samples find with a probability of 95 %, by random disks.
 #include "session/feature.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
@@ -9,14 +9,15 @@
 
 #define DISKS 200000
 
-// Returns whether a disk contains a point of a lattice with `side` points along a pixel.
+// Returns whether a random disk contains a sample, if a pixel has side x side samples. The diameter
+// is in pixels.
 static bool disk_is_found(double diameter, uint32_t side, uint64_t *state)
 {
     const double x = random_unit(state) - 0.5, y = random_unit(state) - 0.5;
     return hypot(x, y) <= diameter * side / 2;
 }
 
-// Returns the share of random disks that are found in pixels with these numbers of samples.
+// Returns the share of random disks that pixels with these numbers of samples find.
 static double found_share(double diameter, const SampleShare *shares, size_t count)
 {
     uint64_t state = 1, pixels = 0;

@@ -61,7 +61,7 @@ TEST(ids_number_spheres_first_and_triangles_in_file_order)
 }
 
 // Tests a triangle with its corners in all six orders. The first three orders have the same
-// orientation. Two of its points differ only in the last coordinate.
+// orientation. Two of the corners differ only in the last coordinate.
 TEST(corners_are_stored_in_one_order_whatever_their_order_in_the_file)
 {
     static const float points[3][3] = {{1, 2, 5}, {1, 2, 4}, {1, -3, 6}};
@@ -144,11 +144,11 @@ TEST(a_missing_vertex_normal_becomes_the_faces)
     for (int corner = 0; corner < 3; corner++)
         of[order->places[corner]] = all.flat.normals[0].normals[corner];
     assert_true(of[1][0] == 0 && of[1][1] == 0 && of[1][2] == (order->reversed ? -1 : 1));
-    // Given normals keep their relative lengths.
+    // Normals of the file keep their relative lengths.
     assert_true(of[2][0] == 2 * of[0][0]);
 }
 
-// Reads the shading word of a triangle in either layout.
+// Returns the shading word of a triangle in either layout.
 static uint32_t shading_of(const FlatScene *flat, uint32_t number)
 {
     if (flat->layout == NODES_WIDE)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// If clrt-foreign crashes, hangs, writes endlessly or is missing, clrt reports one message. Shell
-// scripts replace clrt-foreign here.
+// Tests that clrt reports one message if clrt-foreign crashes, hangs, writes endlessly or is
+// missing. Shell scripts replace clrt-foreign.
 #undef _FORTIFY_SOURCE // with it, the system's headers define readlink
 #include "base/foreign.h"
 
@@ -22,7 +22,7 @@ static const char *const words[FOREIGN_WORDS] = {"m.obj"};
 
 static bool is_without_proc;
 
-// Overrides the C library's function.
+// Overrides the C library's function to imitate a system without /proc.
 ssize_t readlink(const char *restrict path, char *restrict target, size_t size)
 {
     if (is_without_proc) {

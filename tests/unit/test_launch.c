@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sizes of work-groups and launches fit the device.
+// Tests that the sizes of work-groups and launches fit the device.
 #include "device/launch.h"
 #include "unit/cmocka_all.h"
 
@@ -7,7 +7,7 @@ static const struct {
     LaunchFacts facts;
     uint32_t group[2], items;
 } devices[] = {
-    // CPUs with 8 and 2 cores. Their sizes do not depend on the device.
+    // On CPUs, the sizes depend only on the layout of nodes.
     {{.is_cpu = true, .compute_units = 8, .group_limit = 4096, .group_multiple = 8}, {8, 8}, 4096},
     {{.is_cpu = true, .compute_units = 2, .group_limit = 4, .group_multiple = 16}, {8, 8}, 4096},
     {{.is_cpu = true, .is_wide = true, .compute_units = 8}, {2, 2}, 4096},
@@ -23,7 +23,7 @@ static const struct {
     {{.compute_units = 4, .group_limit = 64, .group_multiple = 16}, {8, 8}, 32768},
     {{.compute_units = 4, .group_limit = 48, .group_multiple = 16}, {8, 4}, 32768},
     {{.compute_units = 1, .group_limit = 1, .group_multiple = 1}, {1, 1}, 8192},
-    // Drivers that do not report a fact, or an absurd one.
+    // A driver may report no facts, or absurd facts.
     {{.compute_units = 0}, {8, 8}, 8192},
     {{.compute_units = UINT32_MAX, .group_multiple = UINT32_MAX}, {16, 16}, 1048576},
 };
@@ -39,7 +39,7 @@ TEST(groups_and_launches_fit_the_device)
     }
 }
 
-// Returns the time of the longest of launches 2 to 100, in seconds. An item takes `seconds`.
+// Returns the longest time of launches 2 to 100 in seconds. Each work-item takes `seconds`.
 static double longest_launch(const LaunchShape *shape, double samples, double seconds)
 {
     double longest = 0;
@@ -64,7 +64,7 @@ TEST(launches_are_short_on_slow_devices_and_large_on_fast_ones)
     }
 }
 
-// A launch that takes one second is followed by one of 0.03 seconds at the same speed.
+// After a launch of one second, the next launch takes 0.03 seconds at the same speed.
 TEST(the_next_launch_follows_the_time_of_the_last)
 {
     const LaunchShape shape = {.items = 1000000, .is_paced = true};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests how meshes are divided into pieces of connected triangles. Small pieces become one.
+// Tests how meshes are divided into pieces of connected triangles. All small pieces become one
+// piece.
 #include "refine/mesh_pieces.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
@@ -22,7 +23,7 @@ static MeshPieces pieces_of(const Mesh *mesh)
     return pieces;
 }
 
-// Adds a band of triangles. Each triangle shares two vertices with the next.
+// Adds a band of triangles. Each triangle shares two vertices with the next triangle.
 static void fill_band(Mesh *mesh, uint32_t first, uint32_t end, uint32_t vertex)
 {
     for (uint32_t i = first; i < end; i++)
@@ -41,7 +42,8 @@ TEST(a_mesh_of_one_piece_keeps_its_order)
     free(mesh.triangles);
 }
 
-// Computes the lowest vertex of each vertex's piece. Visits all triangles until nothing changes.
+// Computes the lowest vertex of each vertex's piece by passes over all triangles until nothing
+// changes.
 static void find_lowest(const Mesh *mesh, uint32_t *lowest)
 {
     bool changes = true;
@@ -79,7 +81,7 @@ static void expect_pieces(const Mesh *mesh, const MeshPieces *pieces, const uint
 #define VERTICES  40000
 #define TRIANGLES 80000
 
-// Random triangles. The vertices of each triangle are in one range of a thousand.
+// The corners of each random triangle are in one range of a thousand vertices.
 TEST(pieces_are_connected_by_shared_vertices)
 {
     uint64_t random = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests the normalized coordinate frame of scenes, how many levels of rays a scene needs, and the
-// axes of camera rays.
+// Tests the normalized coordinate frame of scenes, the number of levels of rays that a scene needs,
+// and the axes of camera rays.
 #include "accel/triangles.h"
 #include "scene/camera.h"
 #include "scene/normalize.h"
@@ -167,7 +167,7 @@ TEST(only_a_picture_narrower_than_the_width_widens)
     assert_memory_equal(&broad, &plain, sizeof plain);
 }
 
-// A half height of 3 has 300 half steps. Normalization scales it.
+// A half height of 3 has 300 half steps. Normalization scales these steps.
 TEST(orthographic_pictures_have_their_height_in_scene_units)
 {
     Viewpoint flat = {.eye = {4, 0, 0}, .up = {0, 0, 1}, .height = 6};
@@ -220,7 +220,7 @@ TEST(a_shift_moves_samples_by_parts_of_their_distance)
     assert_true(camera.forward[0] == -1);
 }
 
-// The cube at the scene's origin stays even. It is 2.5, -3 and 0 cubes from the frame's center.
+// The frame's center is at 2.5, -3 and 0 cubes. The cube at the scene's origin must stay even.
 TEST(checkers_move_into_the_frame)
 {
     const Normalization normalization = {{1.25, -1.5, 0}, 0.25};

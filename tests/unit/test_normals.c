@@ -25,8 +25,8 @@ static Vec3 flat_normal(const Mesh *mesh, size_t triangle)
                                      vec3_sub(position_at(mesh, triangle, 2), a)));
 }
 
-// Returns a solid of revolution around z: rings of points, and a point at each end. Coordinates are
-// floats, as in files.
+// Returns a solid of revolution around z with rings of points, and with a point at each end.
+// Coordinates are floats, as in files.
 static Mesh revolved(const double (*rings)[2], uint32_t count, uint32_t sides, double low,
                      double high)
 {
@@ -123,7 +123,7 @@ static Mesh cube(void)
     return mesh;
 }
 
-// 1e-4 degrees cover the rounding of coordinates and normals to float.
+// The tolerance of 1e-4 degrees covers the rounding of coordinates and normals to float.
 TEST(a_cylinder_is_round_on_its_side_and_sharp_at_its_rims)
 {
     for (uint32_t sides = 12; sides <= 64; sides++) {
@@ -141,8 +141,8 @@ TEST(a_cylinder_is_round_on_its_side_and_sharp_at_its_rims)
     }
 }
 
-// Returns a ball of 5040 triangles whose points are moved along their radius by random amounts.
-// Large amounts are ever rarer.
+// Returns a ball of 5040 triangles whose points are moved toward the center by random amounts.
+// Larger amounts are rarer.
 static Mesh rough_ball(void)
 {
     uint64_t random = 7;
@@ -172,7 +172,7 @@ TEST(a_rough_ball_is_smooth_and_a_cylinder_keeps_its_rims_by_shape)
     expect_same_normals(&solid, &sharp);
 }
 
-// Each row changes one window of a smooth shape's edges.
+// Each row changes the number of edges in one window of angles of a smooth shape.
 TEST(each_condition_on_the_angles_decides_the_crease)
 {
     static const size_t smooth[ANGLE_WINDOWS] = {500, 300, 200, 150, 100, 60, 40, 30,
@@ -238,7 +238,7 @@ TEST(given_normals_are_kept)
     assert_memory_equal(&mesh, &before, sizeof mesh);
 }
 
-// All triangles share an edge or a point. Quadratic work there would take minutes.
+// All triangles share an edge or a point. Quadratic work at this place would take minutes.
 TEST(a_fan_of_many_triangles_takes_no_quadratic_time)
 {
     const uint32_t count = 300000;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares computed normals of random meshes with an oracle. The oracle floods from each corner
-// through all pairs of corners, in long double and with the C library's functions.
+// Compares computed normals of random meshes with an oracle in long double. The oracle tests all
+// pairs of corners, and floods from each corner through the joined pairs.
 #include "unit/random.h"
 #include "unit/small_mesh.h"
 
@@ -10,7 +10,8 @@
 #include <unistd.h>
 
 // Returns a mesh with few points, so that faces coincide or oppose each other, and many faces meet
-// at an edge. About half of the meshes have points of a grid, which are often on a line.
+// at an edge. In about half of the meshes, all points are on a grid, so corners are often on a
+// line.
 static Mesh random_mesh(uint64_t *seed)
 {
     static const double scales[] = {1e-30, 1e-12, 1, 1, 1, 1e12, 1e29};
@@ -159,8 +160,8 @@ static Long3 flood(Oracle *oracle, size_t start)
     return sum;
 }
 
-// Compares one corner's normal with the oracle's, unless rounding decides. 1e-6 covers the rounding
-// of normals to float, and of sums that are not tiny.
+// Compares one corner's normal with the oracle's, unless rounding decides the result. The tolerance
+// of 1e-6 covers the rounding of normals to float, and of sums that are not tiny.
 static void judge_corner(Oracle *oracle, const Mesh *mesh, size_t corner, size_t *judged)
 {
     Long3 face;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares base/number with known bit patterns, and with the C library's strtod in the C locale.
-// Compares sine_of_degrees and cosine_of_degrees with the C library's long double functions.
+// Compares the sines, cosines and angles of base/vec.h with the C library's long double functions.
 #include "base/number.h"
 #include "base/vec.h"
 
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Copies text without spare bytes, so that sanitizers detect every access beyond the end.
+// Returns a copy without spare bytes, so that sanitizers detect every access beyond the end.
 static char *copy_of(const char *text, size_t size)
 {
     char *copy = malloc(size + (size == 0));
@@ -21,7 +21,7 @@ static char *copy_of(const char *text, size_t size)
     return memcpy(copy, text, size);
 }
 
-// Returns the length of the number in the first size bytes of text, or -1 without a number.
+// Returns the length of the number at the start of the text, or -1 if there is no number.
 static int number_length(const char *text, size_t size, double *value)
 {
     char *copy = copy_of(text, size);
@@ -66,7 +66,7 @@ typedef struct {
     double value;
 } Case;
 
-// Halves, ties and neighbors of powers of two and ten, and exponents past any integer.
+// Halves, ties and neighbors of powers of two and ten, and exponents beyond all integer types.
 static const Case hard_cases[] = {
     {"1e99999999999999999999999", HUGE_VAL},
     {"-1e-99999999999999999999999", -0.0},
@@ -162,7 +162,7 @@ TEST(a_double_printed_with_17_digits_comes_back)
     }
 }
 
-// Expects that head, a million zeros and tail, joined to one text, have this value.
+// Expects this value of a text that joins head, a million zeros and tail.
 static void expect_around_zeros(const char *head, const char *tail, double expected)
 {
     const size_t zeros = 1000000, size = strlen(head) + zeros + strlen(tail) + 1;
@@ -187,7 +187,8 @@ TEST(a_token_of_a_megabyte_is_still_rounded_correctly)
 }
 
 // (2^53 - 1) / 2^1075 is halfway between the largest subnormal and the smallest normal number.
-// Rounding it depends on all of its 768 digits, the digits of (2^53 - 1) * 5^1075.
+// This number has 768 digits, the digits of (2^53 - 1) * 5^1075, and all of them affect the
+// rounding.
 TEST(a_tie_of_768_digits_is_distinguished_from_its_neighbors)
 {
     enum { SIZE = 768 };
@@ -226,8 +227,8 @@ TEST(a_locale_with_a_decimal_comma_changes_nothing)
     else
         assert_string_equal(localeconv()->decimal_point, ",");
     expect_double("1.5", 1.5);
-    expect_double("0.12345678901234567", 0x1.f9add3746f65ep-4);    // in integers
-    expect_double("0.12345678901234567890", 0x1.f9add3746f65fp-4); // by strtod
+    expect_double("0.12345678901234567", 0x1.f9add3746f65ep-4);    // parsed in integers
+    expect_double("0.12345678901234567890", 0x1.f9add3746f65fp-4); // parsed by strtod
     assert_int_equal(number_length("1,5", 3, &value), 1);
     setlocale(LC_ALL, "C");
 }
@@ -277,7 +278,7 @@ TEST(multiples_of_ninety_degrees_are_exact)
     }
 }
 
-// The tolerance of 4 * 2^-53 covers the roundings of the angle and of the series.
+// The tolerance of 4 * 2^-53 covers the rounding errors of the angle and of the series.
 TEST(all_angles_agree_with_the_library)
 {
     for (double degrees = -400; degrees <= 400; degrees += 0.37) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the cells that an outline touches, and the cell centers that it contains, cell by cell.
+// Tests for each cell of a grid whether an outline touches the cell or contains the cell's center.
 #include "refine/outline.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests that files appear complete or not at all, without effects on the rest of the process.
+// Tests that output files appear complete or not at all, without effects on the rest of the
+// process.
 #include "base/output_file.h"
 
 #include "unit/cmocka_all.h"
@@ -15,7 +16,7 @@
 static char folder[] = "/tmp/clrt-output-XXXXXX";
 static int mask_changes;
 
-// Overrides the C library's function.
+// Overrides the C library's function to count changes.
 mode_t umask(mode_t mask)
 {
     mask_changes++;
@@ -24,7 +25,7 @@ mode_t umask(mode_t mask)
 
 static long disk_type = TMPFS_MAGIC;
 
-// Overrides the C library's function.
+// Overrides the C library's function to imitate a disk of type disk_type.
 int statfs(const char *path, struct statfs *disk)
 {
     (void)path;
@@ -130,7 +131,7 @@ TEST(temporary_files_of_killed_runs_are_removed)
     free(lost);
 }
 
-// Locks of other machines may be invisible there.
+// On shared disks, locks of other machines may be invisible.
 TEST(on_a_shared_disk_files_of_other_machines_stay)
 {
     Error error = {0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests mesh/ply with files of every type and encoding, in usual and unusual layouts. Also tests it
-// with truncated and damaged files.
+// Tests mesh/ply with files of every type and encoding, in usual and unusual layouts, and with
+// truncated and damaged files.
 #include "unit/ply_builder.h"
 #include "unit/random.h"
 
@@ -239,7 +239,7 @@ TEST(every_integer_type_counts_and_numbers_corners)
     }
 }
 
-// Colors are between the values that the reader needs. A quad is among the triangles.
+// Unused properties are between the properties of the mesh. A quad is among the triangles.
 TEST(unusual_elements_among_usual_ones_are_read_in_their_order)
 {
     static const double faces[4][4] = {{0, 1, 2}, {0, 1, 2, 3}, {3, 2, 1}, {1, 2, 3}};
@@ -323,7 +323,7 @@ TEST(random_damage_neither_crashes_nor_allocates_much)
     for (size_t round = 0; round < 1000; round++) {
         Builder damaged = whole[round % 3];
         for (int change = 0; change < 100; change++) {
-            if (change % 4 == 0) // up to four changes accumulate; more would break every header
+            if (change % 4 == 0) // more than four changes would break every header
                 damaged = whole[round % 3];
             damaged.bytes[random_below(&random, (uint32_t)damaged.size)] =
                 (char)random_below(&random, 256);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene text -> Scene: tests every statement, and the exact messages of common faults.
+// Tests every statement of scene text, and the exact messages of common faults.
 #include "unit/parsed.h"
 
 #include <math.h>
@@ -192,7 +192,7 @@ TEST(sides_and_normals_are_for_the_objects_that_follow)
     assert_null(scene.objects.data[1].mesh.normals);
 }
 
-// A rotation by 90 degrees about z maps x to y exactly, except for one rounding of the axis'
+// A rotation by 90 degrees about z maps x to y exactly, except for one rounding of the axis's
 // length.
 TEST(transforms_apply_in_the_order_written)
 {
@@ -359,7 +359,7 @@ TEST(the_longest_normals_can_be_rotated)
 {
     FREED_BY(scene_free) Scene scene = parsed("mesh ../tests/unit/huge_normal.ply rotate 1 0 0 20");
     const float *normal = scene.objects.data[0].mesh.normals[0];
-    // y equals z, so the rotation by 20 degrees about x multiplies z by cos + sin.
+    // y equals z, so the rotation by 20 degrees about x multiplies z by the cosine plus the sine.
     assert_true(isfinite(normal[2]));
     assert_true(fabsf(normal[2] / normal[0] - 1.2817128f) < 1e-6f);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests strata with populations of pixels whose errors are known, and the sums of a pixel's
+// Tests strata with populations of pixels whose errors are known. Also tests the sums of a pixel's
 // samples.
 #include "refine/ladder.h"
 #include "refine/ladder_strata.h"
@@ -18,8 +18,8 @@ typedef struct {
     double feature, error, chance;
 } Pixel;
 
-// Squared errors are proportional to the square of the bend, but some flat pixels hide an edge.
-// The share of these pixels differs between populations, and most of them are near contrast.
+// Squared errors are proportional to the square of the bend, but some flat pixels hide an edge. The
+// share of these pixels differs between populations. Most of these pixels are near contrast.
 static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
 {
     uint64_t state = seed;
@@ -64,7 +64,7 @@ static double mean_error(const Pixel pixels[PIXELS])
     return sum / PIXELS;
 }
 
-// Advances pixels until the aim is reached. Returns whether it was reached.
+// Advances pixels until their mean squared error is small enough. Returns whether this succeeds.
 static bool reach(Pixel pixels[PIXELS], Strata *strata, double mean_square, uint64_t seed)
 {
     const StrataAim aim = {.mean_square = mean_square, .samples = INFINITY};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests which cells are subdivided for thin parts, even if these are many or hard to project.
+// Tests which cells are subdivided for thin parts, even if the parts are many or hard to project.
 #include "refine/mesh_pieces.h"
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
@@ -106,7 +106,7 @@ static uint64_t cuts_of_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided)
     return count;
 }
 
-// Returns the point at that depth that appears at (x, y), in pixels from the upper left corner.
+// Returns the point at this depth that appears at (x, y), in pixels from the upper left corner.
 static Vec3 point_at(double x, double y, double depth)
 {
     return vec3((x - SIDE / 2.0) / FOCUS * depth, depth, (SIDE / 2.0 - y) / FOCUS * depth);
@@ -125,7 +125,7 @@ TEST(a_small_triangle_is_cut_where_it_appears_down_to_its_size)
     assert_int_equal(count_cuts(&world, 1), 2);
 }
 
-// The place in an orthographic picture does not depend on the depth.
+// The position in an orthographic picture does not depend on the depth.
 TEST(small_parts_of_orthographic_pictures_are_cut_where_they_appear)
 {
     FREED_BY(close_world) World world = world_of(1);
@@ -169,7 +169,8 @@ TEST(triangles_edge_on_behind_or_beside_are_not_cut)
     assert_int_equal(cuts_of_triangle(vec3(0, 0, 0), vec3(0, 0, 0), vec3(0, 0, 0), true), 0);
 }
 
-// A sliver below the eye that starts behind the eye appears from the picture's lower edge upward.
+// The sliver is below the eye and starts behind it, so it appears from the picture's lower edge
+// upward.
 TEST(a_sliver_through_the_plane_of_the_eye_is_cut_in_front_of_the_eye)
 {
     const double side = 0.5 / FOCUS, far = 1000, end = 1 / ((70.5 - SIDE / 2.0) / FOCUS);
@@ -262,7 +263,7 @@ TEST(a_wide_part_made_of_thin_ones_is_not_cut)
     assert_int_equal(count_cuts(&world, 0), 0);
 }
 
-// Adds a strip whose triangles form a piece.
+// Adds a strip of triangles that form one piece of the mesh.
 static void add_joined_strip(World *world, double left, double right)
 {
     Mesh *mesh = &world->object.mesh;

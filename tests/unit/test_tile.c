@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parts share the tiles of a picture evenly, wherever the costly tiles are. Launches draw each tile
-// once.
+// Tests that parts share the tiles of a picture evenly, regardless of the positions of costly
+// tiles, and that launches draw each tile once.
 #include "render/renderer.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
@@ -9,7 +9,7 @@
 
 #define SIDE 64
 
-// With fewer tiles per part, clrt prints a note. docs/long-jobs.md has the ratios of real scenes.
+// If parts have fewer tiles, clrt prints a note. docs/long-jobs.md has the ratios of real scenes.
 #define PART_TILES    128
 #define SLOWEST_RATIO 1.25
 
@@ -100,7 +100,7 @@ TEST(no_part_is_much_slower_than_the_mean)
             }
 }
 
-// The pixels that launches have drawn, in the framebuffer's layout.
+// The number of launches that have drawn each pixel, in the framebuffer's layout.
 typedef struct {
     unsigned char *counts;
     uint32_t width, height;
@@ -123,8 +123,8 @@ static void expect_drawn_once(const Drawn *drawn, const Tile *tile)
                 drawn->counts[(size_t)(tile->top + row) * drawn->width + tile->left + column], 1);
 }
 
-// Draws a picture by launches of `least` to `most` pixels, and returns their number. A tile must be
-// drawn once when it ends.
+// Draws a picture by launches of `least` to `most` pixels, and returns the number of launches. When
+// a tile ends, each of its pixels must have been drawn once.
 static unsigned count_launches(const RenderSettings *settings, uint32_t least, uint32_t most)
 {
     Drawn drawn;

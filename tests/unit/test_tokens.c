@@ -14,7 +14,7 @@ static Tokens tokens_in(const char *text, Error *error)
     return tokens_of(text, strlen(text), "a.scn", error);
 }
 
-// Expects these statements, each token with its line and column.
+// Expects these statements. Each token follows its line and column.
 static void expect_tokens(const char *text, const char *expected)
 {
     Error error = {0};

@@ -42,8 +42,8 @@ static int tear_down_all(void **state)
     return tear_down_failures = run_all(tear_downs, tear_down_count, state);
 }
 
-// Returns 0 or 1, because ctest reports tests with the exit status 77 as skipped. cmocka does not
-// count failures of tear_down_all.
+// The result is not the number of failures, because ctest reports tests with the exit status 77 as
+// skipped. cmocka does not count failures of tear_down_all.
 int tests_run(void)
 {
     const int failures =
