@@ -3,8 +3,8 @@
 """Runs the extremes with ctest and writes a table of the tests and a list of all cases.
 
 Usage: tests/extremes/gather.py BUILD_FOLDER [-o FILE] [--tiers 2,1,0]
-The output goes to FILE, or to extremes.md in the build folder. Tier 0 counts only for tests without
-another tier. Exits with ctest's status: 0 if every test passed.
+The output goes to FILE, or to extremes.md in the build folder. Results of tier 0 count only for
+tests that no other tier runs. Exits with ctest's status: 0 if every test passed.
 """
 import argparse
 import datetime
@@ -87,7 +87,7 @@ def main():
         output, code = run_tier(options.build, tier)
         known = set(cases) if tier == 0 else set()
         for case, test, form, counts in CASE.findall(output):
-            if test not in known:  # setdefault: tiers 1 and 2 share cases
+            if test not in known:  # setdefault keeps the first line of a case that two tiers share
                 cases.setdefault(test, {}).setdefault(case, (form, case + counts))
         status = status or code
     with open(options.output or os.path.join(options.build, "extremes.md"), "w", encoding="utf-8") as out:

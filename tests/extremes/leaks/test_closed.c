@@ -14,14 +14,14 @@ static const char *const aim_names[AIM_KINDS] = {"random", "edges", "vertices", 
 
 typedef struct {
     const char *test;
-    const char *label; // starts the details of each case
+    const char *label; // the first part of each case's details
     uint64_t seed;     // for exponent 0
     unsigned aims;     // bits of AIM
     size_t rays;       // per aim
 } ClosedTest;
 
 // Traces rays that start around shape_center(exponent), the center of the closed scene, and reports
-// rays that miss.
+// how many rays miss.
 static void judge_aims(Rig *rig, int exponent, const ClosedTest *test)
 {
     Random random = {test->seed + (uint64_t)exponent};
@@ -44,14 +44,14 @@ static void judge_closed(RayBatch *batch, Scene scene, int exponent, const Close
     judge_aims(&rig, exponent, test);
 }
 
-// Returns a sphere at shape_center(exponent). It has 200 rings. From exponent 20 on it has 20
-// rings, because floats are too far apart there for most vertices of a finer sphere.
+// Returns a sphere around shape_center(exponent). It has 200 rings below exponent 20, and 20 rings
+// farther out, because floats there are too far apart for a finer sphere.
 static Scene closed_sphere(int exponent)
 {
     return shape_scene(shape_sphere(exponent < 20 ? 200 : 20, shape_center(exponent)));
 }
 
-// Three tests share the sphere, because its trees take longer than the rays.
+// Three tests share the sphere, because building its trees takes longer than tracing the rays.
 static void judge_sphere(RayBatch *batch, int exponent)
 {
     const unsigned vertices = AIM(AIM_VERTICES) | AIM(AIM_VERTICES_EXACTLY);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ten thousand triangles share a vertex. Rays at this vertex and at edges must hit. Test 25
+// Ten thousand triangles share a vertex. Rays aimed at this vertex and at edges must hit. Test 25
 // compares the trees on a fan of 400 triangles. Test 20 checks, on a cube, that the lowest id wins
 // among triangles at equal distances.
 #include "support/rig.h"
@@ -15,7 +15,8 @@ static Vec3 point_above(Random *random)
     return point;
 }
 
-// At z = 1 the shear is exact. Half of the rays or more start there, and hit all triangles at once.
+// At least half of the rays start at z = 1, where the shear is exact, and hit all triangles at
+// once.
 static void aim_at_apex(Rays rays, Random *random)
 {
     Vec3 origin = {0};

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // At the joint of a fine and a coarse mesh, vertices of the fine side lie inside edges of the
 // coarse side. Rounding moves the vertices off the edges and opens true cracks. Rays may pass only
-// there.
+// through these cracks.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"
 
 #define CELLS 7
 
-// Returns the rotated square [-1, 1]^2. Its left half has two triangles, its right half
-// 2 * CELLS^2.
+// Returns the rotated square [-1, 1]^2. Its left half has two triangles, and its right half has 2 *
+// CELLS^2.
 static Scene joined_halves(const Vec3 axes[3])
 {
     const Vec3 low = rotated(axes, vec3(-1, -1, 0)), middle = rotated(axes, vec3(0, -1, 0));
@@ -35,7 +35,7 @@ static void aim_at_joint(Rays rays, const Stage *stage, const Vec3 axes[3], Rand
     }
 }
 
-// The numbers of rays that pass: with each tracer, and in exact arithmetic.
+// Counts the rays that pass, by tracer and in exact arithmetic.
 typedef struct {
     const Triangles *triangles;
     size_t leaks[TRACERS], true_leaks;

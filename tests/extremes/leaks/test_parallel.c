@@ -32,8 +32,8 @@ static Mesh uneven_cube(Random *random)
     return cube;
 }
 
-// Along an axis, all rays hit vertices or middles of edges exactly. A pixel is as wide as a part of
-// a cell.
+// All rays hit vertices or middles of edges exactly, because a pixel is as wide as a cell or half a
+// cell.
 EXTREME(parallel_rays_at_edges_and_vertices_stay_in_a_closed_cube_t66)
 {
     static const char *const directions[] = {"1 0 0", "-1 0 0", "0 1 0", "0 -1 0"};

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Rays inside a closed shape must hit triangles whose inner sides they see. At a ridge, a ray also
-// hits triangles from outside, at the same distance. In a star, all steps of the kernels are exact.
+// Rays inside a closed shape must hit triangles whose inner sides they see. At a ridge, triangles
+// whose outer sides face the ray are at the same distance. All steps of the kernels are exact in
+// this test's star.
 #include "support/rig.h"
 #include "support/shapes.h"
 
 #define HALF_SIDE 4
 
-// A cube whose faces are pyramids. Their apexes are inside the cube, one unit from its center.
+// Returns a cube whose faces are pyramids that point inward. Their apexes are one unit from the
+// cube's center.
 static Mesh make_star(Random *random)
 {
     static const double turns[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -48,7 +50,7 @@ static Vec3 lattice_point(Random *random, int side, double step)
     return vec3(at[0], at[1], at[2]);
 }
 
-// Returns a vertex, or the middle or a quarter of an edge.
+// Returns a point of an edge: one of its ends, or one, two or three quarters along it.
 static Vec3 star_target(const Mesh *mesh, Random *random)
 {
     const uint32_t *triangle = mesh->triangles[random_below(random, 24)];
@@ -58,7 +60,7 @@ static Vec3 star_target(const Mesh *mesh, Random *random)
     return vec3_add(a, vec3_scale(vec3_sub(b, a), 0.25 * random_below(random, 4)));
 }
 
-// Shearing along a direction is exact if its largest component is a power of two.
+// Shearing is exact if the largest component of the direction is a power of two.
 static bool is_exact(Vec3 direction)
 {
     const double extent = vec3_extent(direction);
@@ -74,7 +76,8 @@ static void aim_at_star(const Rays *rays, const Mesh *mesh, const Stage *stage, 
     }
 }
 
-// A judge whose context is the star's Triangles. The center is on the inner side of all of them.
+// A judge whose context is the star's Triangles. The star's center is on the inner side of every
+// triangle.
 static bool judge_seen_side(void *context, const Traced *traced)
 {
     const Triangles *triangles = context;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Rays must hit open shapes at edges that two triangles share and well inside the outline.
+// Rays at points well inside an open shape's outline must hit it, also at edges that two triangles
+// share.
 #include "support/rig.h"
 #include "support/shapes.h"
 
 #define QUAD_RAYS 1024
 
-// Rays start on one side of the unit quad that axes 0 and 1 span, and go to points of its diagonal.
+// Rays start on one side of the unit quad that axes 0 and 1 span. They go to points of the quad's
+// diagonal.
 static Outcome judge_diagonal(RayBatch *batch, const Vec3 axes[3], Random *random)
 {
     Vec3 from = {0};
@@ -27,7 +29,7 @@ static Outcome judge_diagonal(RayBatch *batch, const Vec3 axes[3], Random *rando
 EXTREME(no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05)
 {
     Random random = {5};
-    // A rotation by 90 degrees around (1, 1, 1) comes first.
+    // The first rotation is by 90 degrees around (1, 1, 1).
     const double a = 1.0 / 3, b = sqrt(a);
     const Vec3 turned[3] = {{a, a + b, a - b}, {a - b, a, a + b}, {a + b, a - b, a}};
     const size_t rotations = tier_size(100, 1000);
@@ -42,7 +44,7 @@ EXTREME(no_ray_slips_through_the_diagonal_of_a_rotated_quad_t05)
     outcome_report(sum, "rotations=%zu", rotations);
 }
 
-// Returns two triangles a b c and b a d that share the edge a b, with c and d on either side.
+// Returns two triangles a b c and b a d that share the edge a b, with c and d on opposite sides.
 static Scene random_pair(Random *random)
 {
     static const Vec3 places[4] = {{0, 2, 0}, {0, -2, 0}, {2, 0, 0}, {-2, 0, 0}};
@@ -94,7 +96,7 @@ EXTREME(no_ray_slips_between_two_triangles_whether_contracted_or_not_t06)
 
 typedef enum { PLANE_POINTS, PLANE_EDGES, PLANE_VERTICES } PlaneTarget;
 
-// Returns a point of the plane, of one of its lines, or one of its vertices, in scene coordinates.
+// Returns a point of the plane, a point of a line of its grid, or a vertex, in scene coordinates.
 static Vec3 plane_target(PlaneTarget kind, Random *random)
 {
     const double cell = 12.0 / 200;
@@ -106,7 +108,7 @@ static Vec3 plane_target(PlaneTarget kind, Random *random)
     return target;
 }
 
-// The larger the rays' distance from the plane, the smaller their angles with each other.
+// Rays from a larger distance are more nearly parallel.
 static void judge_plane(const Rig *rig, double distance, PlaneTarget kind)
 {
     static const char *const names[] = {"points", "edges", "vertices"};

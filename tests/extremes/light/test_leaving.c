@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ray that leaves a convex surface outward must hit nothing again: neither its own triangle or
-// sphere, nor a twin in the same place, nor a neighbor. Sizes, places and angles vary.
+// A ray that leaves a convex surface outward must hit nothing. It must not hit its own triangle or
+// sphere, a twin in the same place, or a neighbor. Sizes, places and angles vary.
 #include "support/outcome.h"
 #include "support/rays.h"
 #include "support/shapes.h"
@@ -21,8 +21,8 @@ static void leaving_free(Leaving *leaving)
     free(leaving->outward);
 }
 
-// Chooses a direction. Every fourth one leaves the face at an angle whose sine is at least
-// 2^-lowest.
+// Chooses a ray's direction. Every fourth ray leaves the face at a low angle. The angle's sine is
+// at least about 2^-lowest.
 static void choose_outward(Leaving *leaving, size_t ray, Vec3 normal, uint32_t lowest,
                            Random *random)
 {
@@ -36,8 +36,8 @@ static void choose_outward(Leaving *leaving, size_t ray, Vec3 normal, uint32_t l
     shape_store(leaving->outward[ray], direction);
 }
 
-// Counts two tries for each ray that left a surface: a reflected ray and a shadow ray. The ray
-// fails if one of the two hits something.
+// Counts two tries, a reflected ray and a shadow ray, for each ray that left a surface. The ray
+// fails if either try hits something.
 static Outcome judge_leaving(const char *test, RayBatch *batch, const Leaving *leaving)
 {
     Outcome outcome = {.test = test};
@@ -57,7 +57,7 @@ static void report_leaving(Outcome sum, const char *shape, size_t least)
     assert_true(sum.count / 2 >= least);
 }
 
-// Returns a coordinate between 1e-8 and 1e8, of either sign.
+// Returns a coordinate of either sign whose size is between 1e-8 and 1e8.
 static double any_coordinate(Random *random)
 {
     const double size = pow(10, random_between(random, -8, 8));
@@ -106,8 +106,8 @@ EXTREME(a_ray_that_leaves_a_triangle_never_meets_it_again_t37)
     leaving_free(&leaving);
 }
 
-// Aims at the triangles from outside. Rounding moves points slightly below their face. From there,
-// a very low ray near the shape's edge would hit the next face, so the test avoids such rays.
+// Aims at the triangles from outside. Rounding can move a ray's start slightly below its face. A
+// very low ray near the shape's edge would then hit the next face, so the test avoids such rays.
 static void aim_at_shape(Leaving *leaving, const Triangles *triangles, Random *random)
 {
     Vec3 origin = {0};
@@ -144,7 +144,7 @@ EXTREME(a_ray_that_leaves_a_convex_shape_never_meets_a_neighbor_t37)
                 shape_plane(vec3(1000, 0, 0), vec3(4, 1, 0.5), vec3(-1, 4, 0.25), 1));
 }
 
-// Spheres have radii from 1e-4 to 1e4, and are up to 1e5 radii away.
+// Spheres have radii from 1e-4 to 1e4. Their centers are up to 1e5 radii from the origin.
 EXTREME(a_ray_that_leaves_a_sphere_never_meets_it_again_t38)
 {
     Random random = {38};

@@ -7,15 +7,15 @@
 #include "support/tubes.h"
 #include "unit/parsed.h"
 
-// A mirror whose picture shows how often each ray was reflected: REFLECTED to this power. Only the
-// background has a color.
+// A black mirror before a white background. A pixel's value is REFLECTED^n if its ray left the
+// mirror after n reflections.
 #define REFLECTED 0.9
 #define MIRROR                                                                                     \
     "define mirror silhouette diffuse 0 0 0 reflectivity 0.9\nbackground 1 1 1\n"                  \
     "camera 0 0 0 1 0 0 120\n"
 #define BOUNCES 64
 
-#define FLAT (-1) // an angle of creases: no normals
+#define FLAT (-1) // instead of a crease angle: no normals
 
 static PictureSettings mirror_settings(uint32_t side)
 {
@@ -74,7 +74,7 @@ EXTREME(no_ray_escapes_from_a_convex_mirror_t45)
     }
 }
 
-// A closed mirror: its mesh is moved by (offset, offset, offset), then scaled.
+// A closed mirror. Its mesh is moved by (offset, offset, offset) and then scaled.
 typedef struct {
     const char *name;
     double crease_degrees, offset, scale;
@@ -98,8 +98,8 @@ static Outcome view_outcome(OpenPicture *open, const Scene *scene, const RenderS
     return outcome_of("T-45", picture_pixels(picture), count_escapes(picture));
 }
 
-// Draws pictures from random points inside the mirror in random directions, and reports the escapes
-// from all of them. A picture with 256 x 256 pixels has four million reflections.
+// Draws pictures from random points inside the mirror in random directions, and reports all
+// escapes. A picture with 256 x 256 pixels has four million reflections.
 static void judge_mirror(const Studio *studio, const Mirror *mirror, Mesh mesh, uint32_t views)
 {
     OpenPicture open;
@@ -126,7 +126,7 @@ static void judge_mirror(const Studio *studio, const Mirror *mirror, Mesh mesh, 
                    BOUNCES, mirror->crease_degrees, mirror->offset, mirror->scale);
 }
 
-// 50 million reflections in each mesh at tier 2.
+// At tier 2, each mesh gets 50 million reflections.
 EXTREME(no_ray_escapes_from_a_closed_mirror_t45)
 {
     static const Mirror smooth = {NULL, 180, 0, 1, tube_inside, 0};
@@ -146,8 +146,8 @@ EXTREME(no_ray_escapes_from_a_closed_mirror_t45)
     }
 }
 
-// A closed mirror: eight triangles at random heights around the origin, and eight that join at
-// (0, 0, -8). Its coordinates are integers.
+// Returns a closed mesh. Triangles join a rim of eight vertices at random heights to the origin and
+// to (0, 0, -8). All coordinates are integers.
 static Mesh saddle_mesh(Random *random)
 {
     static const double rim[8][2] = {{4, 0},  {4, 4},   {0, 4},  {-4, 4},
@@ -207,9 +207,9 @@ static Vec3 cow_inside(Random *random)
     return vec3_add(vec3(0.1, 0.3, 0.36), random_in_cube(random, 0.05));
 }
 
-// 100 million reflections in the course's cow. shape_apart removes the point in which
-// it touches itself, where rays could change sides. Other parts cross, where rays can escape: 3 did
-// when this was measured.
+// Makes 100 million reflections in the course's cow. The cow touches itself in a point, where rays
+// could change sides, so shape_apart removes this point. Rays can also escape where parts of the
+// cow cross. 3 did when this was measured.
 EXTREME(no_ray_escapes_from_a_mirror_cow_t45)
 {
     char path[COURSE_PATH_SIZE];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Tests shadows that are hard to get right: inside a closed shape with lights around it, at points
-// of contact, and of lights on surfaces and in the eye.
+// Tests difficult shadows: inside a closed shape with lights around it, at points of contact, and
+// from lights on surfaces and in the eye.
 #include "support/shapes.h"
 #include "support/varied_scene.h"
 #include "unit/parsed.h"
 
-// With these statements, only lit pixels are not black.
+// With these statements, all unlit pixels are black.
 #define DARK "ambient 0\nbackground 0 0 0\nup 0.01 0.02 1\n"
 
 static PictureSettings shadow_settings(void)
@@ -33,7 +33,7 @@ static Vec3 random_edge_point(const Mesh *mesh, Random *random, bool at_end)
 }
 
 // Returns a closed shape with sharp edges, lights all around it, and a camera inside that looks at
-// an edge or vertex. In the narrowest views, neighboring pixels show the same rounded point.
+// an edge or vertex. In the narrowest views, the points of neighboring pixels round to one point.
 static Scene lit_from_outside(double distance, size_t view, Random *random)
 {
     Error error = {0};
@@ -84,8 +84,8 @@ EXTREME(a_shadow_reaches_the_point_of_contact_t40)
                            "gap=%.0e ball=%s", gap, as_mesh ? "mesh" : "sphere");
 }
 
-// A corner of the wall and two of its edges. Points on this wall are rounded, unlike points on
-// the floor.
+// A corner of the wall, and the vectors along two of its edges. Points on this wall are rounded,
+// unlike points on the floor.
 static const Vec3 wall[] = {{-4.1, 3.5, 0}, {8.3, 1.05, 0}, {0.1, -0.84, 4}};
 
 static Vec3 wall_point(double across, double up)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights of any number and intensity, cameras of any angle at any place, and vertex normals that
-// are zero or cancel out.
+// Compares pictures with the oracle's. The lights vary in number and intensity, and the cameras in
+// angle and place. Some vertex normals are zero or cancel out.
 #include "support/picture.h"
 #include "support/random_points.h"
 #include "support/shapes.h"
@@ -36,7 +36,7 @@ EXTREME(lights_of_any_intensity_and_number_are_added_right_t54)
 
 EXTREME(cameras_of_any_angle_agree_with_the_oracle_t56)
 {
-    // The narrowest angles show the outline of the globe, and the widest its inside.
+    // The narrowest views show the globe's outline, and the widest views show its inside.
     static const struct {
         double angle;
         const char *view;
@@ -60,7 +60,7 @@ EXTREME(cameras_may_stand_anywhere_t57)
         {"on_face", "0.25 1 0.125 0 0 0"},        {"on_face_outward", "0.25 -1 0.125 0 -5 0.5"},
         {"on_plane_beside", "1 -5 0.25 0.2 0 0"}, {"along_edge", "1 -4 1 1 4 1"},
         {"in_plane_of_face", "0.5 -4 1 0.5 4 1"}};
-    // An odd size puts a row and a column of rays into planes and along edges.
+    // In pictures of odd size, the middle row and column of rays lie in planes and along edges.
     const PictureSettings settings = picture_settings(63);
     for (size_t i = 0; i < COUNT(views); i++) {
         Scene scene =
@@ -70,7 +70,8 @@ EXTREME(cameras_may_stand_anywhere_t57)
     }
 }
 
-// Returns a tilted square with the vertex normals (0, 0, z[i]). eye and light are coordinates.
+// Returns a tilted square with the vertex normals (0, 0, z[i]). eye and light are positions as
+// text.
 static Scene square(const float z[4], const char *eye, const char *light)
 {
     Scene scene = parsed_format("up 0 1 0.1\ncamera %s 0 0 0.125 40\nlight %s 1\n", eye, light);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene's size and place, the device's denormals, the order of tiles and of triangles, and the
-// tree must not change a bit of the picture. image/test_identity.c varies kernels and work-groups.
+// A picture's bits must not depend on the scene's size and place, the device's denormals, the order
+// of parts and triangles, or the tree. image/test_identity.c varies kernels and work-groups.
 #include "support/random_points.h"
 #include "support/shapes.h"
 #include "support/varied_scene.h"
@@ -117,7 +117,8 @@ EXTREME(flushing_denormals_to_zero_changes_no_picture_t47)
         "option=%s", settings.extra_options);
 }
 
-// The varied picture's hash, on every device and on every target of CMakeLists.txt.
+// The hash of varied_scene's picture, which is equal on every device and every target of
+// CMakeLists.txt.
 #define PICTURE_ON_RECORD "ec5c80aa50c8f17918c2bed9c22cfbeb"
 
 EXTREME(the_picture_is_the_one_on_record_t48)
@@ -132,7 +133,8 @@ EXTREME(the_picture_is_the_one_on_record_t48)
 
 #define PARTS 9
 
-// Draws the part that the renderer's settings select, and copies its tiles to their places.
+// Draws the part that the renderer's settings select, and copies its tiles to their places in the
+// picture.
 static void draw_part(Renderer *renderer, const CameraData *camera, Framebuffer *picture)
 {
     const RenderSettings *settings = &renderer->settings;

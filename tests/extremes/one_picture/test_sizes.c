@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures of one pixel, one row, and 3.2 billion bytes, and pictures with many samples per pixel.
+// Tests pictures of one pixel, of one row and of 3.2 billion bytes, and pictures with many samples
+// per pixel.
 #include "support/random_points.h"
 #include "support/varied_scene.h"
 #include "unit/parsed.h"
@@ -17,7 +18,8 @@ static bool pixel_agrees(const Framebuffer *picture, const OracleView *view, uin
 
 #define PROBES 100
 
-// Compares the last pixel and random pixels with the oracle's, or all pixels if they are few.
+// Compares the last pixel and PROBES random pixels with the oracle's. Compares all pixels of
+// smaller pictures.
 static void judge_size(const Studio *studio, uint32_t width, uint32_t height)
 {
     Error error = {0};

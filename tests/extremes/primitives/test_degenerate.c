@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles without area must neither show nor open a gap.
+// Triangles without area must be invisible and open no gap.
 #include "support/picture.h"
 #include "support/shapes.h"
 #include "unit/parsed.h"
@@ -29,8 +29,8 @@ static Mesh flat_mesh(void)
 }
 
 // The first view contains everything. The second view looks from the side at the triangle parallel
-// to an axis, so the middle column shows this triangle. The third view looks along the axis, so the
-// middle pixel shows this triangle.
+// to an axis, so the triangle lies in the middle column. The third view looks along the axis, so
+// the triangle lies in the middle pixel.
 static const char *const views[] = {"camera 3 -6 2 0 0 0 45\n",
                                     "up 0 1 0\ncamera 1.5 0.125 6 1.5 0.125 -2 40\n",
                                     "camera 1.5 -6 0.5 1.5 0 0.5 40\n"};

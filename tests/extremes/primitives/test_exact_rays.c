@@ -14,7 +14,7 @@ static Rig open_cube(const char *test, RayBatch *batch, TreeKind tree)
     return rig;
 }
 
-// An axis-parallel ray and the face of the cube that it meets first.
+// An axis-parallel ray, and the face of the cube that the ray meets first.
 typedef struct {
     TestRay ray;
     int axis;
@@ -25,7 +25,8 @@ typedef struct {
 #define STEPS     19 // points across the cube, half a cell apart, and one outside on each side
 #define AXIS_RAYS (3 * 2 * 3 * 4 * 4 * STEPS * STEPS)
 
-// The mixed-radix digits of `number` choose axis, sign, length, distance, signs of zeros, position.
+// The mixed-radix digits of `number` choose axis, sign, length, distance, signs of zeros, and
+// position.
 static AxisRay axis_ray(size_t number)
 {
     static const float lengths[] = {1, 2, 0.25f}, distances[] = {0.5f, 0.625f, 1.5f, 3};
@@ -88,7 +89,7 @@ EXTREME(axis_parallel_rays_meet_a_lattice_cube_exactly_t20)
     }
 }
 
-// A plane through a face: the points whose dot product with normal is HALF.
+// The plane of a face of the octahedron. Its points have the dot product HALF with `normal`.
 typedef struct {
     const Triangles *triangles;
     Vec3 normal;

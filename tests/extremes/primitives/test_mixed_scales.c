@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A mesh between a triangle about a million times as large and one about a million times smaller.
+// Traces rays at a mesh, a triangle about a million times larger, and one about a million times
+// smaller.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"
 
 #define SMALL_Y -2.5
 
-// On the y axis, the large triangle is behind the globe and the small one in front. A triangle
-// opposite the large one centers the bounds, so that the small one's coordinates stay exact.
+// On the y axis, the large triangle is behind the globe, and the small one is in front of it. A
+// third triangle, opposite the large one, centers the bounds, so that the small one's coordinates
+// stay exact.
 static Scene three_scales(void)
 {
     const double s = 1e-6, l = 1e6, y = SMALL_Y;

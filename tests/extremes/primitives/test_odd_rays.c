@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Directions of zeros and denormals, and rays that no picture should have: without direction, NaN,
-// infinite, and from very far. They must end in time and leave the rays beside them undisturbed.
+// Traces rays with directions of zeros and denormals, and unusual rays: without direction, with NaN
+// or infinity, or from very far. They must end in time and must not disturb the rays beside them.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"
@@ -25,8 +25,9 @@ static TestRay special_ray(size_t number, const Room *room, Random *random)
     return ray;
 }
 
-// Every direction leads from inside a closed shape to the shape. The test skips directions shorter
-// than 1e-20. Pictures hardly ever need them, and reciprocals of their components can overflow.
+// A ray from inside a closed shape must hit the shape in every direction. The test skips directions
+// shorter than 1e-20. Pictures hardly ever need them, and reciprocals of their components can
+// overflow.
 EXTREME(directions_of_special_values_leave_no_closed_shape_t21)
 {
     Random random = {21};
@@ -42,8 +43,8 @@ EXTREME(directions_of_special_values_leave_no_closed_shape_t21)
     outcome_report(rig_judge(&rig, rays, judge_misses, NULL), "shape=cube");
 }
 
-// A field is one of three coordinates of the origin or three of the direction. The last field means
-// the whole direction.
+// Fields 0 to 2 are the origin's coordinates, fields 3 to 5 are the direction's, and field 6 is the
+// whole direction.
 #define FIELDS 7
 
 // Stores value in a field of every fourth ray.
@@ -58,7 +59,8 @@ static void spoil(Rays rays, float value, int field)
         }
 }
 
-// Returns the number of spoiled rays that hit anything, plus other rays whose hit has changed.
+// Returns the number of spoiled rays that hit anything, plus the number of other rays whose hits
+// differ from `expected`.
 static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size_t count)
 {
     size_t disturbed = 0;
@@ -69,7 +71,7 @@ static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size
 }
 
 // Returns the hits, and stores the least of five processor times in seconds. Processor time depends
-// less on other processes than elapsed time.
+// less than elapsed time on other processes.
 static TestHit *trace_timed(RayBatch *batch, Rays rays, double *seconds)
 {
     TestHit *hits = NULL;
@@ -97,7 +99,7 @@ static void judge_spoiled(RayBatch *batch, Rays rays, float value)
         spoil(spoiled, value, field);
         TestHit *hits = trace_timed(batch, spoiled, &seconds);
         slowest = fmax(slowest, seconds / usual);
-        // A single zero is valid. Only a direction of zeros is not.
+        // A single zero is valid. Only a direction of three zeros is invalid.
         if (value != 0 || field == FIELDS - 1)
             disturbed += count_disturbed(hits, expected, rays.count);
         free(hits);
@@ -122,8 +124,8 @@ EXTREME(rays_without_direction_or_with_nan_hit_nothing_and_end_t23)
         judge_spoiled(*state, rays, values[i]);
 }
 
-// The hit must be exact, and its distance above 0, which excludes NaN. clrt does not follow rays
-// from beyond 2^46, so these may hit nothing.
+// judge_exactly must accept the hit, and its distance must be above 0, which excludes NaN. clrt
+// does not follow rays from beyond 2^46, so they may hit nothing.
 static bool judge_far(void *triangles, const Traced *traced)
 {
     const float *origin = traced->ray->origin;

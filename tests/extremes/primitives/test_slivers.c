@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Triangles a thousand to ten million times as long as they are high. 99 % of the distances must be
-// exact to ULPS_LIMIT units in the last place, and hits must be right except at the outline.
+// Traces rays at triangles that are a thousand to ten million times as long as high. 99 % of the
+// distances must be exact to ULPS_LIMIT units in the last place, and hits must be right except at
+// the outline.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"
@@ -20,7 +21,8 @@ static double unit_in_last_place(double value)
     return scalbn(1, ilogb(value) - 23);
 }
 
-// Returns whether rounding may decide: the outline is nearer than 4 units in the last place.
+// Returns whether the outline is nearer than 4 units in the last place, so that rounding may
+// decide.
 static bool is_on_outline(const ExactMeeting *exact)
 {
     return exact->distance < 4 * unit_in_last_place(exact->size);

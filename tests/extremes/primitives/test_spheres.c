@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Compares hits with results in quadruple precision. The spheres are far away, huge, tiny, around
-// the eye, or touched by rays, in normalized coordinates.
+// Compares hits on spheres with results in quadruple precision. The spheres are far away, huge,
+// tiny, around the eye, or touched by tangent rays. All coordinates are normalized.
 #include "oracle/quad.h"
 #include "support/outcome.h"
 #include "support/rays.h"
 #include "support/shapes.h"
 
-#define ERROR_LIMIT 3e-7 // of distances, relative
+#define ERROR_LIMIT 3e-7 // the largest relative error of a distance
 
 static SphereData sphere_of(Vec3 center, double radius)
 {
@@ -17,7 +17,7 @@ static SphereData sphere_of(Vec3 center, double radius)
     return data;
 }
 
-// Returns the distance to the sphere, INFINITY if the ray misses it.
+// Returns the distance to the sphere, or INFINITY if the ray misses it.
 static double exact_distance(const SphereData *sphere, const TestRay *ray)
 {
     Quad dd = 0, fd = 0, ff = 0;
@@ -43,7 +43,7 @@ static double exact_distance(const SphereData *sphere, const TestRay *ray)
 
 // Counts of rays with wrong hits, and the largest relative error of a distance.
 typedef struct {
-    size_t sides;   // hits for misses or misses for hits
+    size_t sides;   // rays that wrongly hit or wrongly miss
     size_t inexact; // distances with an error above ERROR_LIMIT
     size_t invalid; // no distance for a hit, or a distance for a miss
     double largest_error;
@@ -98,7 +98,7 @@ EXTREME(a_sphere_smaller_than_the_rounding_of_its_center_gives_no_invalid_hit_t3
     outcome_report(outcome_of("T-31", rays.count, found.invalid), "false_hits=%zu", found.sides);
 }
 
-// Returns how many rays may be wrong at a distance. Beyond 1e5, the rays' directions are too
+// Returns how many rays may be wrong at a distance. From 1e5 on, the rays' directions are too
 // coarse.
 static size_t limit_at(double distance, size_t count)
 {
@@ -129,7 +129,7 @@ static void judge_radius(const char *test, RayBatch *batch, const SphereData *sp
                    "radius=%g largest_error=%.2g", (double)sphere->radius, found.largest_error);
 }
 
-// Rays go downward from a height of 1 above the top of the sphere.
+// Rays start 1 above the top of the sphere and go down.
 EXTREME(the_ground_may_be_a_sphere_of_any_radius_t33)
 {
     Random random = {33};
@@ -171,7 +171,7 @@ EXTREME(an_eye_inside_a_sphere_sees_its_far_wall_t34)
 static const int triples[][3] = {{3, 4, 5},    {5, 12, 13},  {8, 15, 17},     {7, 24, 25},
                                  {20, 21, 29}, {9, 40, 41},  {12, 35, 37},    {28, 45, 53},
                                  {16, 63, 65}, {33, 56, 65}, {119, 120, 169}, {696, 697, 985}};
-#define TANGENTS 64 // rays of a triple
+#define TANGENTS 64 // rays per triple
 
 // Returns a ray along the tangent at (a, b), moved outward by apart * 2^-20 radii. If apart is 0,
 // the ray is level and touches the sphere. Other rays may slope.

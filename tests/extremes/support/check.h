@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared by all tests of the extremes: cmocka, requirements, and the size of a run.
+// All tests of the extremes share these helpers: cmocka, requirements, and the size of a run.
 #pragma once
 
 #include "base/array.h"

@@ -6,12 +6,12 @@
 
 #include <math.h>
 
-// A bound on how far rounding of corners, shear and edge functions moves an outline, relative to
+// Rounding of corners, shear and edge functions moves an outline by at most this, relative to
 // Sheared::reach.
 #define DOUBT (34 * 0x1p-24L)
 
-// The bound for the error of depth, also relative to Sheared::reach. It is triangle_depth_error's
-// bound (kernels/triangle.inc.cl) with the least accurate division that OpenCL allows.
+// The largest error of depth, relative to Sheared::reach. This is triangle_depth_error's bound
+// (kernels/triangle.inc.cl) with the least accurate division that OpenCL allows.
 #define DEPTH_DOUBT (27 * 0x1p-24L)
 
 typedef struct {
@@ -70,10 +70,11 @@ static long double outline_distance(const Sheared *s)
     return fminl(edge_distance(s, 0, 1), fminl(edge_distance(s, 1, 2), edge_distance(s, 2, 0)));
 }
 
-// The result of one triangle for the ray.
+// The result of testing the ray against one triangle.
 typedef struct {
     bool met, doubtful;
-    long double t, error; // distance along the ray (its minimum for a doubtful miss) and its error
+    long double t, error; // distance along the ray (a lower bound for a doubtful miss) and its
+                          // error
 } Answer;
 
 static Answer answer_of(const Sheared *s, long double dz)
@@ -91,7 +92,7 @@ static Answer answer_of(const Sheared *s, long double dz)
     return answer;
 }
 
-// Returns whether all corners are clearly on one side of the ray on an axis, as for most triangles.
+// Returns whether the ray clearly misses, because all corners are on one side of it along an axis.
 static bool passes(const Sheared *s)
 {
     const long double margin = DOUBT * s->reach;
@@ -101,11 +102,11 @@ static bool passes(const Sheared *s)
            (s->y[0] < -margin && s->y[1] < -margin && s->y[2] < -margin);
 }
 
-// The nearest hit so far.
+// The state of a search for the nearest hit.
 typedef struct {
     Verdict best;
     long double error;  // of the best hit's t
-    long double doubt;  // least t - error of triangles with an outline too near; 0 if a t may be 0
+    long double doubt;  // least t - error of doubtful triangles; 0 if the t of a hit may be 0
     long double second; // least t - error of the other hits
 } Search;
 

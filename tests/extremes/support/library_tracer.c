@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The library gets normalized coordinates as doubles. Its own normalization then changes nothing,
-// because their box is already centered and of a size from 1 to 2.
+// because the coordinates' box is already centered and its size is from 1 to 2.
 #include "library_tracer.h"
 
 #include "check.h"
@@ -17,7 +17,8 @@ static void require_library(bool ok, const ClrtError *error)
         fail_msg("%s", error->text);
 }
 
-// Saves new kernels, so it must not run at the end of the process, when LLVM may be gone.
+// Closing the renderer saves new kernels. The end of the process is too late, because LLVM may be
+// gone.
 TEAR_DOWN(close_renderer)
 {
     clrt_renderer_free(renderer);
@@ -38,7 +39,7 @@ static void open_renderer(void)
                                    .lanes = form.lanes};
     if (renderer != NULL)
         return;
-    // shared_cache set POCL_CACHE_DIR to a folder that ends with the process, and PoCL has read it.
+    // PoCL has already read POCL_CACHE_DIR, which shared_cache set to a folder of this process.
     // Without the variable, the library stores its kernels in $XDG_CACHE_HOME.
     unsetenv("POCL_CACHE_DIR");
     renderer = clrt_renderer_create(&settings, &error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traces the same rays with clrt_trace, in the same form of the kernels.
+// Traces rays with clrt_trace, in the form of the kernels that the test uses (image/form.h).
 #pragma once
 
 #include "ray_batch.h"
@@ -9,7 +9,8 @@ typedef struct {
     struct ClrtScene *scene; // NULL if the library does not trace the stage
 } LibraryTracer;
 
-// Gives the library the stage's triangles. The library traces no spheres, and no changed kernels.
+// Gives the library the stage's triangles. Does nothing if the stage has spheres or the batch has
+// changed kernels.
 void library_tracer_open(LibraryTracer *tracer, const Stage *stage, const RayBatch *batch);
 void library_tracer_close(LibraryTracer *tracer);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prints one line for each case of a test, from which gather.py makes a table:
-// T-03 form=packet k=10 aim=vertices rays=10000 fail=0 limit=0 embree_default=3451 ...
+// Prints one line for each case of a test. gather.py makes a table of these lines: T-03 form=packet
+// k=10 aim=vertices rays=10000 fail=0 limit=0 embree_default=3451 ...
 #pragma once
 
 #include "check.h"
@@ -11,26 +11,27 @@ typedef enum { BY_CLRT, BY_LIBRARY, BY_EMBREE_DEFAULT, BY_EMBREE_ROBUST, TRACERS
 typedef struct {
     const char *test;
     size_t count;             // rays, pixels or boxes
-    size_t failures[TRACERS]; // wrong ones, by ray tracer
+    size_t failures[TRACERS]; // wrong rays, pixels or boxes, by ray tracer
     size_t limit;             // the largest number of clrt's failures with which the case passes
     bool has_library;         // libclrt has traced the rays; it must have as many failures as clrt
     bool has_peers;           // Embree has traced the rays
 } Outcome;
 
-// Returns the outcome of a case without peers whose limit is 0.
+// Returns the outcome of a case that only clrt traces and whose limit is 0.
 static inline Outcome outcome_of(const char *test, size_t count, size_t failures)
 {
     return (Outcome){.test = test, .count = count, .failures = {failures}};
 }
 
-// Adds the count and failures of another case of the same test. sum is {0} before the first.
+// Adds the count and failures of another case of the same test. sum must be {0} before the first
+// case.
 void outcome_add(Outcome *sum, Outcome more);
 
-// Prints the outcome of the case that details and its arguments describe.
+// Prints the outcome. details is a format that describes the case.
 __attribute__((format(printf, 2, 3))) void outcome_report(Outcome outcome, const char *details,
                                                           ...);
 
-// Fixtures of all tests of a program. They set the tests' *state.
+// Registers the fixtures of all tests of a program. set_up sets the tests' *state.
 #define FIXTURES(set_up, tear_down)                                                                \
     AT_START(fixtures)                                                                             \
     {                                                                                              \
@@ -38,7 +39,7 @@ __attribute__((format(printf, 2, 3))) void outcome_report(Outcome outcome, const
         test_tear_down(tear_down);                                                                 \
     }
 
-// A TEST that continues after a case has more failures than its limit, and then fails at its end.
+// A TEST that runs all its cases, and fails at the end if a case had more failures than its limit.
 #define EXTREME(name)                                                                              \
     static void name##_cases(void **);                                                             \
     TEST(name)                                                                                     \

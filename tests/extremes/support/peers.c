@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Traces the rays with Embree's call for single rays, because Embree's documentation calls it the
+// Traces the rays with Embree's call for single rays, which Embree's documentation names as the
 // reference for the other calls.
 #include "peers.h"
 

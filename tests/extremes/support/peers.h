@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces the same rays with Embree 3, if it is installed and CLRT_TEST_PEERS is set. Embree does
-// not normalize, so it gets the scene's coordinates.
+// Traces rays with Embree 3 if it is installed and CLRT_TEST_PEERS is set. Embree does not
+// normalize, so it gets the scene's coordinates.
 #pragma once
 
 #include "outcome.h"

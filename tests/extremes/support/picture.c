@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs the stages of the program from a Scene on. tests/image/comparison.h compares with the
-// oracle.
+// Draws a Scene by the stages of the program. Compares pictures with the oracle's by
+// tests/image/comparison.h.
 #include "picture.h"
 
 #include "image/comparison.h"
@@ -63,7 +63,7 @@ void picture_open(OpenPicture *picture, const Studio *studio, const Scene *scene
     require(error.text[0] == '\0', &error);
 }
 
-// The device may share the stage's memory.
+// Frees the buffers before the stage, because the device may share the stage's memory.
 void picture_close(OpenPicture *picture)
 {
     scene_buffers_free(&picture->buffers);

@@ -11,8 +11,8 @@ typedef struct {
     Device device;
 } Studio;
 
-// Fixtures of a group of tests. *state is the studio. Its device is the one that CLRT_DEVICE names,
-// or the best one.
+// Fixtures of a group of tests. *state is the studio, whose device is the one that CLRT_DEVICE
+// names, or else the best one.
 int picture_setup(void **state);
 int picture_teardown(void **state);
 
@@ -55,8 +55,8 @@ size_t picture_pixels(const Framebuffer *picture);
 // Returns how many pixels of `other` differ in any bit from `usual`. Frees `other`.
 Outcome picture_compare(const char *test, const Framebuffer *usual, Framebuffer other);
 
-// Returns how many pixels differ from the oracle's picture without an explanation by the oracle,
-// plus the picture's faults. Frees the scene.
+// Returns how many pixels differ from the oracle's in a way that the oracle does not explain, plus
+// the number of faulty values. Frees the scene.
 Outcome picture_judge(const char *test, const Studio *studio, Scene scene,
                       const PictureSettings *settings);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PoCL compiles a kernel again for each work-group size and kind of grid. It must compile under the
+// PoCL compiles a kernel again for each work-group size and kind of grid. Compiling needs the
 // cache's lock, which only ray_batch_open holds, so all launches have one size.
 #include "ray_batch.h"
 
@@ -25,7 +25,7 @@ static void require_success(cl_int status, const char *attempt)
     require(cl_succeeded(status, attempt, &error), &error);
 }
 
-// data may be NULL.
+// Returns a buffer with a copy of data, or an uninitialized buffer if data is NULL.
 static cl_mem make_buffer(const RayBatch *batch, const void *data, size_t size)
 {
     cl_int status;
@@ -104,7 +104,8 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
         .entry = &entry,
         .choice = batch->choice,
         .traits = traits_general((SceneTraits){0}),
-        .arithmetic_is_exact = kernel_folder != NULL}; // some folders change it on purpose
+        .arithmetic_is_exact = kernel_folder != NULL}; // skips its test, because some folders
+                                                       // change it on purpose
     const FirstRun first = {make_kernels, batch};
     require(program_make(&batch->program, &source, &first, &error), &error);
     file_free(&file);

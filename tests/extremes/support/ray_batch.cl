@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Kernels that trace arrays of rays with the real functions. ray_batch.c appends this file to the
-// source of the real kernels. A work-item traces PACKETS * CLRT_LANES successive rays. Grids can
-// be larger than the count of rays.
+// Kernels that trace arrays of rays with clrt's functions. ray_batch.c appends this file to the
+// source of clrt's kernels. A work-item traces PACKETS * CLRT_LANES successive rays. Grids can be
+// larger than the count of rays.
 
 typedef struct {
     float origin[3];
@@ -40,15 +40,15 @@ static inline TestRays test_rays(global const TestRay *rays, uint count, uint pa
     return all;
 }
 
-// Returns v. The lanes that are not in `lanes` copy the first lane of `lanes`.
+// Returns v with copies of the first lane of `lanes` in the lanes outside `lanes`.
 static inline Real3 filled_lanes(Real3 v, Mask lanes)
 {
     return real3_of(lanes ? v.x : first_real(v.x, lanes), lanes ? v.y : first_real(v.y, lanes),
                     lanes ? v.z : first_real(v.z, lanes));
 }
 
-// Returns the rays of these lanes, which are of one kind. The other lanes copy the first of them.
-// Reflected rays come from the tracer's own function, and leave their face perpendicularly.
+// Returns the rays of these lanes, which must be of one kind. The other lanes copy the first ray.
+// ray_reflected makes reflected rays, which leave their face perpendicularly.
 static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, RayKind kind, Mask lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
@@ -73,7 +73,7 @@ static inline void store_hits(global TestHit *hits, const TestRays *rays, Mask l
                 (TestHit){(float)((const Scalar *)&t)[lane], ((const uint *)&id)[lane]};
 }
 
-// Finds the hits of the rays of one kind.
+// Finds and stores the hits of the rays of one kind.
 static inline void trace_kind(const Tracer *tracer, const TestRays *all, RayKind kind,
                               bool are_shadows, global TestHit *hits)
 {
@@ -93,7 +93,7 @@ static inline void trace_kind(const Tracer *tracer, const TestRays *all, RayKind
             store_hits(hits, &all[i], rays[i].active, found[i].t, found[i].id);
 }
 
-// Stores the rays' hits or, for shadow rays, the id 1 if they are blocked and else 0.
+// Stores the rays' hits. For shadow rays, stores the id 1 if they are blocked, else 0.
 static inline void trace_rays(const Tracer *tracer, global const TestRay *rays, uint count,
                               bool are_shadows, global TestHit *hits)
 {
@@ -131,7 +131,7 @@ kernel void batch_blocked(BATCH_ARGUMENTS)
     trace_rays(&tracer, rays, count, true, hits);
 }
 
-// The id of a ray that hits nothing although the shadow ray along it is blocked.
+// The id stored for a ray that hits nothing while the shadow ray along it is blocked.
 #define LEAVE_SHADOWED 0xfffffffeu
 
 // Traces rays from the surfaces that these lanes' rays hit. See batch_leave.
@@ -157,8 +157,8 @@ static inline void leave_surfaces(const Tracer *tracer, const TestRays *all, con
 }
 
 // Finds the surface that each ray hits, and traces a second ray from this surface. The second ray's
-// direction is outward or its opposite, whichever leaves the face. The id can be LEAVE_SHADOWED.
-// t is 0 without a surface.
+// direction is outward or its opposite, whichever leaves the face. The id can be LEAVE_SHADOWED. t
+// is 0 if the first ray hits nothing.
 kernel void batch_leave(BATCH_ARGUMENTS)
 {
     BATCH_TRACER

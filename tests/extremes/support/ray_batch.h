@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces arrays of rays on the device with the functions of the real kernels (ray_batch.cl).
-// Any failure ends the test.
+// Traces arrays of rays on the device with the functions of clrt's kernels (ray_batch.cl). Any
+// failure ends the test.
 #pragma once
 
 #include "accel/flat.h"
@@ -12,7 +12,7 @@ typedef enum { RAY_CAMERA, RAY_REFLECTED, RAY_SHADOW } RayKind;
 // A ray in normalized coordinates.
 typedef struct {
     float origin[3];
-    uint32_t own; // id of the primitive it starts on; NOTHING for none
+    uint32_t own; // id of the primitive that the ray starts on; NOTHING for none
     float direction[3];
     uint32_t kind; // a RayKind
 } TestRay;
@@ -45,8 +45,8 @@ typedef struct {
     KernelChoice choice; // form_choice; with wide nodes, lanes is not 0
 } RayBatch;
 
-// Opens the device that CLRT_DEVICE names, or the best one. kernel_folder NULL means the folder in
-// CLRT_KERNEL_DIR, or the built-in kernels. options are for the compiler; NULL for none.
+// Opens the device that CLRT_DEVICE names, or the best one. If kernel_folder is NULL, uses the
+// kernels in CLRT_KERNEL_DIR, or else the built-in kernels. options for the compiler may be NULL.
 void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *options);
 void ray_batch_close(RayBatch *batch);
 
@@ -61,13 +61,14 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat);
 void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 
 // Returns the hits in the order of `rays`; the caller frees them. task is BATCH_NEAREST or
-// BATCH_BLOCKED. Sorts a copy of the rays by kind, signs of the direction, and origin for packets.
+// BATCH_BLOCKED. Traces the rays sorted by kind, signs of the direction, and origin, so that
+// packets hold similar rays.
 TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
 
-// The id of the hit of a ray of ray_batch_leave that hits nothing although its shadow ray is
-// blocked.
+// The id that ray_batch_leave returns for a ray that hits nothing while its shadow ray is blocked.
 #define LEAVE_SHADOWED 0xfffffffeu
 
 // Returns the hits of rays that leave the surfaces hit by `rays`. Ray i leaves along outward[i] or
-// the opposite direction, on the side that rays.data[i] came from. t is 0 without a surface.
+// the opposite direction, on the side that rays.data[i] came from. t is 0 if rays.data[i] hits
+// nothing.
 TestHit *ray_batch_leave(const RayBatch *batch, Rays rays, const float (*outward)[3]);

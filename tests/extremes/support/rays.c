@@ -48,8 +48,8 @@ Vec3 rays_target(Aim aim, const Triangles *triangles, Random *random)
     return vec3_add(a, vec3_scale(vec3_sub(b, a), along));
 }
 
-// Returns a float between zero and coordinate whose distance from coordinate is a float, too. Both
-// are multiples of one unit, and need no more bits than coordinate.
+// Returns about part * coordinate, rounded to a float whose difference from coordinate is a float,
+// too. Both are multiples of coordinate's unit in the last place.
 static double exact_part(double coordinate, double part)
 {
     if (coordinate == 0)
@@ -58,7 +58,8 @@ static double exact_part(double coordinate, double part)
     return trunc(coordinate * part / unit) * unit;
 }
 
-// Chooses a vertex as target, and returns a point of the room whose difference from it is exact.
+// Chooses a vertex as target, and returns a point of the room whose difference from the target is
+// exact.
 static Vec3 exact_origin(Vec3 *target, const Room *room, const Triangles *triangles, Random *random)
 {
     for (;;) {

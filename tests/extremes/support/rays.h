@@ -9,11 +9,11 @@
 Rays rays_make(size_t count);
 void rays_free(const Rays *rays);
 
-// Packets are tested with rays that share an origin. Returns whether ray i is the first of `bundle`
-// such rays; always true unless the kernels trace packets.
+// Returns whether ray i needs a new origin. With packets, `bundle` rays share an origin. With other
+// kernels, every ray has its own.
 bool rays_move_origin(size_t i, size_t bundle);
 
-// The number of rays from one point, which fills packets in every octant of directions.
+// The rays per origin, enough to fill packets in every octant of directions.
 #define RAY_BUNDLE 512
 
 // Returns a camera ray between two points. Rounds `from` to float, and then the direction.
@@ -27,7 +27,7 @@ typedef enum {
     AIM_RANDOM,
     AIM_EDGES,            // random points of random edges
     AIM_VERTICES,         // random vertices
-    AIM_VERTICES_EXACTLY, // vertices, to which origin + direction is exactly equal
+    AIM_VERTICES_EXACTLY, // vertices that are exactly origin + direction
     AIM_KINDS
 } Aim;
 

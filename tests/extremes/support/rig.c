@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All ray tracers trace the same rays, and one judge examines them.
+// All ray tracers trace the same rays, and one judge examines their hits.
 #include "rig.h"
 
 #include "exact.h"

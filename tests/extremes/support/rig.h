@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene on the device, in libclrt and perhaps in Embree (peers.h). A judge examines the hits of
-// rays.
+// Traces rays in a scene on the device, with libclrt, and perhaps with Embree (peers.h). A judge
+// examines the hits.
 #pragma once
 
 #include "library_tracer.h"
@@ -31,12 +31,13 @@ typedef struct {
 // Returns whether the hit is wrong. context is the judge's own.
 typedef bool Judge(void *context, const Traced *traced);
 
-// Returns how many rays each tracer gets wrong.
+// Traces the rays, and returns how many hits of each tracer are wrong.
 Outcome rig_judge(const Rig *rig, Rays rays, Judge *is_wrong, void *context);
 
-// A judge for rays that must hit: a ray is wrong if it hits nothing, or at no finite distance.
+// A judge for rays that must hit: a ray is wrong if it hits nothing, or if its distance is not
+// finite.
 bool judge_misses(void *unused, const Traced *traced);
 
-// A judge whose context is the stage's Triangles. A hit is wrong if exact_nearest is clear and
-// finds another id.
+// A judge whose context is the stage's Triangles. A hit is wrong if the verdict of exact_nearest is
+// clear and has another id.
 bool judge_exactly(void *triangles, const Traced *traced);

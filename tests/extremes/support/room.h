@@ -5,17 +5,18 @@
 #include "random_points.h"
 #include "stage.h"
 
-// The points that a cube and a ball around one center share, in normalized coordinates.
+// The intersection of a cube and a ball around one center, in normalized coordinates.
 typedef struct {
     Vec3 center;
     double half_side; // of the cube
     double radius;    // of the ball; a little less than the distance to the nearest triangle
     Normalization normalization;
-    bool has_floats; // the room has many points with float coordinates in the scene
+    bool has_floats; // many points of the room have float coordinates in the scene
 } Room;
 
-// Returns the part of a cube that is proven to be inside. center and half_side are the cube's, in
-// scene coordinates. Ends the test if the shape does not wind once around center.
+// Returns the part of a cube that is proven to be inside the stage's shape. center and half_side
+// are the cube's, in scene coordinates. Ends the test if the shape does not wind once around
+// center.
 Room room_inside(const Stage *stage, Vec3 center, double half_side);
 
 // Returns a point of the room. If the room has_floats, programs that do not normalize can represent

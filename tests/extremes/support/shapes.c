@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes the meshes of shapes. The sines are clrt's own, which are equal on every machine.
+// Makes the meshes of shapes. They use clrt's own sines, which are equal on every machine.
 #include "shapes.h"
 
 #include "base/vec.h"
@@ -96,7 +96,8 @@ static Vec3 globe_direction(uint32_t vertex, uint32_t rings, uint32_t segments)
                 cosine_of_degrees(polar));
 }
 
-// Vertices are at radius from center or, with random, at a random distance from 1 to radius.
+// The vertices' distance from center is radius or, if random is not NULL, a random number from 1 to
+// radius.
 static Mesh make_globe(uint32_t rings, uint32_t segments, Vec3 center, double radius,
                        Random *random)
 {
@@ -135,7 +136,7 @@ Mesh shape_fan(uint32_t count)
     return mesh;
 }
 
-// Writes the place-th grid of cells * cells quads. spans are its corner and its two sides.
+// Writes the place-th grid of cells * cells quads. spans are the grid's corner and two sides.
 static void put_plane(Mesh *mesh, size_t place, const Vec3 spans[3], uint32_t cells)
 {
     const uint32_t first = (uint32_t)place * (cells + 1) * (cells + 1);
@@ -237,7 +238,7 @@ Mesh shape_apart(const Mesh *mesh)
     Weld weld;
     const uint32_t count = find_fans(&fans, mesh, &weld);
     Mesh apart = shape_unfilled(count, mesh->triangle_count);
-    uint32_t *first = require_memory(mesh->vertex_count, sizeof *first); // fan at each point
+    uint32_t *first = require_memory(mesh->vertex_count, sizeof *first); // first fan at each point
     memset(first, 0xff, mesh->vertex_count * sizeof *first);
     for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
         const uint32_t vertex = mesh->triangles[i / 3][i % 3];

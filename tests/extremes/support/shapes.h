@@ -57,14 +57,15 @@ Mesh shape_plane(Vec3 corner, Vec3 across, Vec3 down, uint32_t cells);
 // The surface of the cube [-half_side, half_side]^3, each face of cells * cells quads.
 Mesh shape_cube(double half_side, uint32_t cells);
 
-// count triangles at random places of [-1, 1]^3. Per axis, corners are within size of the place.
+// count triangles at random places of [-1, 1]^3. On each axis, a triangle's corners are within
+// `size` of its place.
 Mesh shape_soup(Random *random, uint32_t count, double size);
 
 Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c);
 
-// Returns a closed mesh without points in which it touches itself. All but one of the parts that
-// meet in such a point are moved toward their middles by a twentieth of their size. The result has
-// no normals.
+// Returns a closed mesh without points in which it touches itself. If several fans of triangles
+// meet in a point, all but one move their vertex there a twentieth of the way to the fan's middle.
+// The result has no normals.
 Mesh shape_apart(const Mesh *mesh);
 
 // Adds mesh as a two-sided object. The scene then owns the mesh.

@@ -44,7 +44,7 @@ static Box make_leaf(Making *making, const Part *part)
     return box;
 }
 
-// Returns the subtree's box. The recursion is as deep as the tree.
+// Makes the subtree, and returns its box. The recursion is as deep as the tree.
 static Box make_node(Making *making, Part part)
 {
     Bvh *bvh = making->bvh;

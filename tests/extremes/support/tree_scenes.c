@@ -73,7 +73,7 @@ Scene tree_scene_make(size_t number)
 {
     Random random = {2500 + number};
     Scene scene = shape_scene(first_mesh(number, &random));
-    // The same cube three times: every hit is a tie.
+    // Two copies of the cube make every hit a tie.
     for (uint32_t material = 2; number == COINCIDENT && material < 4; material++)
         shape_add(&scene, shape_cube(1, 4), material);
     for (int i = 1; number == NESTED && i < 300; i++) {

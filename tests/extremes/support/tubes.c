@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A tube is a grid of quads that closes along the ring and around the tube. Its cross-sections are
-// polygons that are seen whole from their middles.
+// A tube is a grid of quads that closes along the ring and around the tube. The middle of each
+// cross-section sees its whole outline.
 #include "tubes.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@
 
 const char *const tube_names[TUBE_KINDS] = {"ridges", "bumps", "saddles", "walls"};
 
-// The walls of a fin are at the corners 2 to 5 of FIN. Its edge is thinner than its foot.
+// A fin has FIN corners. Its walls are corners 2 to 5. Its edge is thinner than its foot.
 static double corner_angle(TubeKind kind, uint32_t corner)
 {
     static const double wall_angles[FIN] = {0, 12, 23.9, 23.95, 24, 24.05, 36, 48};

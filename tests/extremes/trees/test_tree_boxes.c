@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The boxes of the device's nodes contain all triangles below, with the margin that culling needs.
+// Tests that the boxes of the device's nodes contain all triangles below them, with the margin that
+// culling needs.
 #include "support/outcome.h"
 #include "support/shapes.h"
 #include "support/stage.h"

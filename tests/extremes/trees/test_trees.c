@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The trees of both builders give the same hits as a test of all primitives, to the bit.
+// The trees of both builders must give the same hits, to the bit, as testing all primitives.
 #include "support/rig.h"
 #include "support/shapes.h"
 #include "support/tree_scenes.h"
@@ -23,8 +23,8 @@ static TestRay along_an_axis(Vec3 through, Random *random)
     return ray;
 }
 
-// Makes rays from all places in all directions: random ones, at vertices and edges, from afar, from
-// vertices, and along the axes.
+// Makes random rays, rays at vertices and edges, rays from afar and from vertices, and rays along
+// the axes.
 static void make_free_rays(Rays rays, const Triangles *triangles, Random *random)
 {
     Vec3 near = {0}, far = {0};
@@ -76,7 +76,8 @@ static void make_rays(Rays rays, size_t number, BatchTask task, bool from_surfac
     stage_free(&stage);
     for (size_t i = 0; i < rays.count && task == BATCH_BLOCKED; i++) {
         rays.data[i].kind = RAY_SHADOW;
-        // At twice the length, rays meet their target halfway, but rays along an axis end at it.
+        // Doubled rays meet their target halfway. Only doubled rays along an axis end at their
+        // target.
         for (int axis = 0; axis < 3 && !from_surfaces && i % 16 < 8; axis++)
             rays.data[i].direction[axis] *= 2;
     }
