@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws the plain picture with the kernels that clrt chooses.
+// Draws the plain picture with the kernels that clrt chooses, and certifies a copy.
 #include "certainty/certified.h"
 
 #include "extremes/support/check.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene -> its picture and the certainty of each pixel, by the same stages as in clrt.
+// Draws a scene's picture and certifies its pixels, by the stages of clrt.
 #pragma once
 
 #include "extremes/support/picture.h"
@@ -15,7 +15,7 @@ typedef struct {
     Stage stage; // with pair nodes
     CameraData camera;
     RenderSettings settings;
-    Framebuffer plain, picture; // drawn without --aov certainty; its repaired copy
+    Framebuffer plain, picture; // without --aov certainty, and its repaired copy
     Layers seen; // the plain picture's first hits: primitive, material, share of lights
     CertaintyMap map;
 } Certified;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Traces a ray tree without recursion and returns its decisions. real_64.c and real_113.c include
 // this file with two number types. The sign of a sum is settled if the sum's magnitude exceeds the
-// ray's tolerance times a bound on the sum's terms. The tolerance of camera rays is TOLERANCE, over
-// 1000 roundings. Reflections multiply it by GROWTH; at ordinary shapes, errors grow far less.
+// ray's tolerance times a bound on the sum's terms. Camera rays have the tolerance TOLERANCE, which
+// is over 1000 roundings. Each reflection multiplies the tolerance by GROWTH. At ordinary shapes,
+// errors grow far less.
 #include "certainty/real.h"
 
 #include <math.h>
@@ -333,7 +334,7 @@ static int clear_sign(NUMBER value, NUMBER error)
     return value > error ? 1 : value < -error ? -1 : 0;
 }
 
-// Returns 1 if the shading normal faces the light, -1 if not, and 0 if that is unsettled.
+// Returns 1 if the shading normal faces the light, -1 if not, and 0 if the side is not settled.
 static int side_of_normal(const Path *path, const Surface *surface, Vector apart)
 {
     const NUMBER error = path->tolerance * extent(surface->normal) *
@@ -342,8 +343,9 @@ static int side_of_normal(const Path *path, const Surface *surface, Vector apart
 }
 
 // Returns 1 if the light is on the path's side of the face, -1 if it is on the other side, and 0 if
-// the side is not settled. For a sphere seen from outside, the normal alone decides, so the result
-// is 1. From inside it is -1: the normal points outward, so no light is in front of both.
+// the side is not settled. For a sphere seen from outside, the result is 1, because the normal
+// alone decides. From inside it is -1, because no light is in front of both the face and the
+// normal.
 static int side_of_face(const Surface *surface, Vector light)
 {
     if (surface->is_sphere)
@@ -395,11 +397,12 @@ static bool see_lights(const Path *path, const Surface *surface, RealDecisions *
 // A surface's place among the cubes of a checker, along one axis.
 typedef struct {
     NUMBER rate, shift;
-    NUMBER coordinate, face; // face: of the unit normal, which points away from the cube
+    NUMBER coordinate, face; // face: component of the unit normal that points away from the cube
     NUMBER tolerance;
 } CheckAxis;
 
-// Adds the number of the cube to *sum. Returns whether rounding certainly does not change it.
+// Adds the number of the cube to *sum. Returns whether rounding certainly leaves the number
+// unchanged.
 static bool add_cube(const CheckAxis *axis, long long *sum)
 {
     const NUMBER move = (axis->rate + 1) / 524288, parallel = (NUMBER)1 / 1024;
@@ -418,7 +421,7 @@ static NUMBER component_of(Vector v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// Returns the corners' common coordinate or, if they differ, that of the point.
+// Returns the coordinate that all corners share, or else the point's coordinate.
 static NUMBER level_coordinate(const Surface *surface, int axis)
 {
     const TriangleData *t = surface->triangle;
@@ -426,7 +429,7 @@ static NUMBER level_coordinate(const Surface *surface, int axis)
     return is_level ? t->a[axis] : component_of(surface->point, axis);
 }
 
-// Notes whether the surface shows an odd cube, unless it has no checker.
+// Notes whether a surface with a checker shows an odd cube. Returns whether the cube is settled.
 static bool see_check(const Path *path, const Surface *surface, RealDecisions *decisions)
 {
     const Material *material = &path->view->flat->materials[surface->material];
@@ -445,7 +448,7 @@ static bool see_check(const Path *path, const Surface *surface, RealDecisions *d
     return settled;
 }
 
-// The length of the direction is near 1, but not exactly 1.
+// The length of the returned direction is near 1, but not exactly 1.
 static Path reflected(const Path *path, const Surface *surface)
 {
     const Vector v = minus(vector(0, 0, 0), unit(path->direction)), n = unit(surface->normal);

@@ -17,8 +17,8 @@ static void include(RealNode *node, const float point[3])
     }
 }
 
-// Computes a node's box. A node of more than LEAF_MOST triangles gets two children with half of
-// them.
+// Computes a node's box. A node of more than LEAF_MOST triangles gets two children with half of the
+// triangles each.
 static void divide(RealTree *tree, uint32_t number, const FlatScene *flat)
 {
     RealNode *node = &tree->nodes[number];

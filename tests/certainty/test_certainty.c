@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Tests --aov certainty: certified and repaired pixels have real arithmetic's decisions, most
-// pixels of ordinary scenes are certified, and only repaired pixels change. Tier 0 compares some
-// pixels of small pictures, and tier 1 all certified and repaired pixels, more than ten million.
+// Tests --aov certainty. Certified and repaired pixels must have real arithmetic's decisions. Most
+// pixels of ordinary scenes must be certified, and only repaired pixels may change. Tier 0 compares
+// some pixels of small pictures. Tier 1 compares all certified and repaired pixels, over ten
+// million.
 #include "base/processors.h"
 #include "base/thread_pool.h"
 #include "certainty/certified.h"
@@ -132,7 +133,7 @@ static uint64_t count_unlike_plain(const Certified *certified)
     return unlike;
 }
 
-// floor: the number of pixels in 1000 that must be certified.
+// At least `floor` of 1000 pixels must be certified.
 static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t view,
                        uint32_t floor)
 {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A seed and a number -> a scene file and its meshes, for tests of --error on unseen scenes. A
-scene depends only on the seed and its number, so any scene can be regenerated alone."""
+"""Writes a scene file and its meshes, for tests of --error on unseen scenes. A scene depends only
+on a seed and its number, so any scene can be regenerated alone."""
 
 import array
 import math

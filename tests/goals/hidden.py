@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A seed, a number and a size of pictures -> a scene file of small parts that no center of a pixel
-sees, for tests of --error. In every third scene, the parts are behind the eye, and only a mirror
-shows them."""
+"""Writes scene files of small parts that no pixel's center shows, for tests of --error. A scene
+depends only on a seed, its number and the size of the pictures. In every third scene, the parts are
+behind the eye, and only a mirror shows them."""
 
 import math
 import random
@@ -75,7 +75,7 @@ def off_center(rng, width):
 
 
 def draw_dots(scene, rng, view, place):
-    """Spheres around corners of pixels."""
+    """Adds spheres around corners of pixels."""
     least, most = sorted(rng.uniform(0.1, 0.9) for _ in range(2))
     for _ in range(round(10 ** rng.uniform(0.7, 2.6))):
         width, depth = rng.uniform(least, most), 10 ** rng.uniform(0.5, 1.5)
@@ -84,7 +84,7 @@ def draw_dots(scene, rng, view, place):
 
 
 def draw_lines(scene, rng, view, place):
-    """Thin quadrilaterals and triangles between two rows or two columns of pixels."""
+    """Adds thin quadrilaterals and triangles between two rows or two columns of pixels."""
     vertices, triangles = [], []
     longest = 10 ** rng.uniform(0, 2)
     for _ in range(round(10 ** rng.uniform(0.7, 2) * 10 / (3 + longest))):

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Draws generated scenes with --error and measures the true error of every picture.
 
-Each scene is one line of SEED-WIDTHxHEIGHT.jsonl, in a folder named after the program's hash. A
-scene file can take the place of a seed. The references of all programs are beside this folder.
-Scenes with a line are skipped, so that an interrupted run resumes. Prints a summary. The exit
-status is 1 if the results break the promise of --error."""
+Writes a line for each scene to SEED-WIDTHxHEIGHT.jsonl, in a folder named after the program's hash.
+A scene file can take the place of a seed. References, which all programs share, are beside this
+folder. Skips scenes that have a line, so that an interrupted run resumes. Prints a summary. The
+exit status is 1 if the results break the promise of --error."""
 
 import argparse
 import hashlib
@@ -24,8 +24,8 @@ import summary
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 GOALS = "0.02,0.01,0.005,0.002"
 
-# The error of a reference may be this fraction of the smallest goal, unless it takes too many
-# samples.
+# The error of a reference is at most this fraction of the smallest goal, unless that takes more
+# than REFERENCE_SAMPLES samples per pixel.
 REFERENCE_PART = 0.2
 REFERENCE_SAMPLES = 65536
 
@@ -36,8 +36,8 @@ THRESHOLDS = [0.3, 0.2, 0.1, 0.05, 0.04, 0.02, 0.01, 0.005, 0.002]
 # The fixed settings for comparison follow rays at least as far as the smallest goal's picture.
 LEVELS = ["--max-level", "auto", "--encode", "raw"]
 
-# The number of pictures that a timed process draws. The fastest picture counts. To measure processor
-# time, it draws pictures for about PROCESS_SECONDS.
+# The number of pictures that a timed process draws. The fastest picture counts. To measure
+# processor time, a process draws pictures for about PROCESS_SECONDS.
 FRAMES = 3
 PROCESS_SECONDS = 0.5
 
@@ -82,8 +82,8 @@ class Clrt:
         return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
     def add_processor_seconds(self, rivals):
-        """Adds the processor time per picture to the figures of settings, which alternate. The time
-        of a process with one picture is subtracted, and the fastest run counts."""
+        """Adds the processor time per picture to the figures of each rival. The rivals alternate.
+        The time of a process with one picture is subtracted, and the fastest run counts."""
         for figures in rivals * FRAMES:
             frames = 1 + max(1, round(PROCESS_SECONDS / figures["seconds"]))
             seconds = (self.processor_seconds(frames, *figures["words"]) -
@@ -131,7 +131,7 @@ def is_file(seed):
 
 
 def name_of(options, seed):
-    """Returns the name of the results of a seed."""
+    """Returns the name of the file and folder of a seed's results."""
     stem = pathlib.Path(seed).stem if is_file(seed) else seed
     return f"{'hidden-' * options.hidden}{stem}-{options.size}"
 

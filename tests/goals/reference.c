@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// SCENE WIDTH HEIGHT ERROR MOST FILE.pfm -> a reference picture with an own error of about ERROR,
-// or with MOST samples per pixel. Prints the samples and the own error as JSON.
+// Draws a reference picture with an own error of at most ERROR, or with up to MOST samples per
+// pixel. Prints the samples and the own error as JSON. Arguments: SCENE WIDTH HEIGHT ERROR MOST
+// FILE.pfm
 //
 // Every pixel has two independent sequences, and the picture is the mean of both. A sequence is
 // Sobol's in two dimensions after Owen's nested scrambling ("Randomly permuted (t,m,s)-nets and

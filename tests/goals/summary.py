@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Files of hold.py -> tables, and whether the results keep the promise of --error."""
+"""Prints tables of the files of hold.py, and judges whether the results keep the promise of
+--error."""
 
 import json
 import math
@@ -13,9 +14,9 @@ MARGIN = 1.1
 ABOVE_MOST = 0.05
 CHANCE = 0.01
 
-# The promise: the least share of pictures that meet their goal, and the largest share with status
-# 1. No bound is 0. For pictures with status 0: the largest share with errors above WIDE times the goal, and the
-# largest error as a multiple of the goal.
+# The promise. At least HELD_LEAST of the pictures meet their goal, at most MISSED_MOST have status
+# 1, and no bound is 0. At most WIDE_MOST of the pictures with status 0 have an error above WIDE
+# times the goal, and none has an error above WIDEST times the goal.
 HELD_LEAST = 0.95
 MISSED_MOST = 0.05
 WIDE, WIDE_MOST = 1.3, 0.01

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compares a picture with the expected picture: how many pixels differ, and whether the oracle
-// explains why.
+// Counts the pixels that differ from the expected picture, by the oracle's explanations.
 #pragma once
 
 #include "oracle/oracle.h"

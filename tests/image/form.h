@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The environment variable CLRT_TEST_KERNEL selects the form of the kernels that tests run: "pair",
-// "wide", "packet", "packet8", "packet4" or "fp64". The default is clrt's choice for the device in
-// CLRT_DEVICE. All forms but "fp64" draw the same picture.
+// "wide", "packet", "packet16", "packet8", "packet4" or "fp64". The default is clrt's choice for
+// the device in CLRT_DEVICE. All forms but "fp64" draw the same picture.
 #pragma once
 
 #include "device/kernel_choice.h"
@@ -11,13 +11,13 @@
 #define FORMS_FP32 (FORMS - 1)
 extern const KernelChoice form_all[FORMS];
 
-// Only the device's own number of lanes, for kernels whose own code is the same for every number:
-// channels and explanations. Other tests compile these kernels too. fp64 is last.
+// The forms with only the device's own number of lanes. They suffice for channels and explanations,
+// whose own code is the same for every number of lanes. fp64 is last.
 #define FORMS_FEW 4
 extern const KernelChoice form_few[FORMS_FEW];
 
-// Returns the form, but single rays instead of packets on GPUs. Packets are for CPUs: NVIDIA's
-// compiler takes minutes for them, and several processes at once lack the memory.
+// Returns the form, or single rays for packets on a GPU. NVIDIA's compiler takes minutes for
+// packets, and several processes at once run out of memory.
 KernelChoice form_on_device(const KernelChoice *form, const Device *device);
 
 // Returns the selected form. Ends the process if CLRT_TEST_KERNEL names no form.

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Runs a command on one of PoCL's devices or targets, or on another implementation of OpenCL. Prints
-# a message and exits with status 77 if this machine lacks KIND. Each kind has its own kernel cache, because
-# PoCL's cache ignores the target. Usage: on_device.sh KIND CACHE_FOLDER COMMAND...
+# a message and exits with status 77 if this machine lacks KIND. Each kind has its own kernel cache,
+# because PoCL's cache ignores the target. Usage: on_device.sh KIND CACHE_FOLDER COMMAND...
 set -eu
 kind=$1
 cache=$2/$1
@@ -44,7 +44,8 @@ avx2)
   export POCL_KERNELLIB_NAME=avx2
   ;;
 unoptimized)
-  # PoCL visits every path through the calls of a kernel. Without inlining, it takes many minutes.
+  # Without inlining, PoCL takes many minutes, because it visits every path through a kernel's
+  # calls.
   export CLRT_TEST_OPTIONS="-cl-opt-disable -Dinline=__attribute__((always_inline))"
   ;;
 oclgrind)

@@ -131,7 +131,7 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 
 static Session session;
 
-// Replaces facts about the device. clrt then treats it as a GPU with memory of its own.
+// Makes clrt treat the device as a GPU with memory of its own.
 static void pretend_gpu(Device *device, uint32_t units)
 {
     device->is_cpu = device->shares_memory = false;
@@ -139,9 +139,9 @@ static void pretend_gpu(Device *device, uint32_t units)
 }
 
 // Opens the session at the first request, and whenever the compiler's options or the GPU change.
-// Programs with options and special ones are not saved, because saving takes longer than their
-// pictures. The session stays open, because some implementations of OpenCL cannot be called at
-// exit.
+// Specialized programs and programs with options are not saved, because saving takes longer than
+// their pictures. The session stays open, because some implementations of OpenCL cannot be called
+// at exit.
 static bool open_session(const PictureRequest *request, Error *error)
 {
     static uint32_t units;

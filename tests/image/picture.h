@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene file -> its picture, by the same stages as in clrt.
+// Draws the picture of a scene file by the stages of clrt.
 #pragma once
 
 #include "refine/ladder.h"
@@ -43,9 +43,8 @@ typedef struct {
     void *draw_context;
 } PictureRequest;
 
-// Returns clrt's defaults, with the kernels of form_choice, and with the GPU's compute units that
-// the environment variable CLRT_TEST_GPU contains. The kernels are general, because the
-// choice of "auto" would depend on the cache.
+// Returns clrt's defaults, with the kernels of form_choice and with gpu_units from the environment
+// variable CLRT_TEST_GPU. The kernels are general, because "auto" would depend on the cache.
 PictureRequest picture_request(const char *scene_path, uint32_t view);
 
 // Draws on the device named by the environment variable CLRT_DEVICE, or on the best device. The

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures for tests, and files for their scenes. A picture that cannot be drawn and a file that
-// cannot be written fail the test.
+// Draws pictures for tests, and writes files for their scenes. Any failure ends the test.
 #pragma once
 
 #include "image/picture.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel cache of a test program. cache_open may be called only once in a process, because the
-// second call would make an empty cache in PoCL's private folder of the first.
+// The kernel cache of a test program. cache_open may be called only once in a process, because a
+// second call would open an empty cache in the first call's private folder for PoCL.
 #pragma once
 
 #include "device/cache.h"

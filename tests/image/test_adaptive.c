@@ -39,7 +39,7 @@ TEST(every_form_threads_and_tree_refine_the_same)
 #define SIDE 240
 
 // With this contrast, the error must be at most 1.1 times the error of `side` x `side` samples per
-// pixel. The number of samples must be at most 1 / `times` of `side` x `side` per pixel.
+// pixel. The picture must take at most 1 / `times` as many samples.
 typedef struct {
     float contrast;
     uint32_t side, times;
@@ -87,7 +87,7 @@ TEST(a_picture_of_one_color_takes_a_sample_a_pixel)
 
 #define SPHERES 60 // spheres along a side of the wall
 
-// Bright spheres on black. Neighbors are about three pixels apart.
+// Draws bright spheres on black. Neighbors are about three pixels apart.
 TEST(thousands_of_spheres_smaller_than_pixels_are_all_seen)
 {
     static const double radii[] = {0.4, 0.2, 0.1, 0.05, 0.02, 0.01};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests that flat floors with a checker show one layer of cubes, in every form of the kernels. The
-// picture of a floor is worked out here: orthographic rays hit it at known points.
+// expected picture is computed from the known points that orthographic rays hit.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
@@ -9,13 +9,13 @@
 #include <stdint.h>
 #include <string.h>
 
-// The center of the middle column and row is exactly on lines between checks.
+// The centers of the middle column and row are exactly on lines between checks.
 #define SIDE 65
 #define VIEW 4.0
 
 // A square floor perpendicular to an axis. Its triangles face different sides. Two of its corners
 // are higher by `bend`, and two are lower. A triangle outside the picture keeps the floor away from
-// the frame's center, where rounding would not show.
+// the center of normalized coordinates, where rounding would not show.
 typedef struct {
     double size; // of a cube
     int axis;
@@ -54,14 +54,15 @@ static void write_scene(const Floor *floor, const char *mesh, char path[TEMPORAR
     temporary_close(scene);
 }
 
-// Returns the number of a cube in the row of cubes. Lines belong to the greater cube.
+// Returns the number of the cube at a coordinate. A line between cubes belongs to the higher
+// number.
 static long cube_of(double coordinate, double size)
 {
     return lround(floor(coordinate / (double)(float)size + 1e-6));
 }
 
-// Returns whether the floor's square at a pixel is odd. Seen from above, the columns of the picture
-// are along the next axis, and the rows lead down along the axis after it.
+// Returns whether the floor's square at a pixel is odd. Seen from above, columns go right along the
+// axis after the floor's, and rows go down along the third axis.
 static bool square_is_odd(const Floor *floor, int column, int row)
 {
     const double across = (column - SIDE / 2) * VIEW / SIDE, down = (row - SIDE / 2) * VIEW / SIDE;
@@ -93,8 +94,8 @@ static bool layer_is_odd(const Floor *floor, const KernelChoice *form)
     return odd != 0;
 }
 
-// A floor between two layers shows the layer behind it, although rounding of the host or of a
-// rotation may have put some of its corners into the other layer.
+// A floor between two layers shows the layer behind it, even if rounding puts some of the floor's
+// corners into the other layer.
 TEST(a_floor_between_layers_shows_the_layer_behind_it)
 {
     static const double sizes[] = {0.5, 0.3}, bends[] = {0, 1e-9, -1e-13};
@@ -110,8 +111,8 @@ TEST(a_floor_between_layers_shows_the_layer_behind_it)
 // At these heights, the moved coordinate is in the plane between two layers (B19 of numerics.md).
 TEST(no_floor_flickers_at_any_height)
 {
-    const double rate = 8, move = 0x1p-19 * (rate + 1); // the frame divides by 4
-    // A step is about a unit in the last place of the floor's coordinate in the frame.
+    const double rate = 8, move = 0x1p-19 * (rate + 1); // normalization divides by 4
+    // A step is about a unit in the last place of the floor's normalized coordinate.
     for (int i = -8; i <= 8; i++) {
         const Floor floor = {0.5, 2, 0.5 * (2 + move * (1 + i * 0x1p-7)), 0, false};
         layer_is_odd(&floor, &form_all[(i + 8) % FORMS]);

@@ -34,8 +34,8 @@ static int order_of(int pair, bool second)
     return second ? pair % ORDERS : pair / ORDERS;
 }
 
-// Writes a triangle for each pair, in the cells of a grid. Fronts face up unless the order
-// is_reversed.
+// Writes the first or second triangle of each pair. Each pair has a cell of a grid. A triangle's
+// front faces up unless its order is_reversed.
 static void write_pairs(char path[TEMPORARY_PATH], bool second)
 {
     static const double corners[3][2] = {{-0.4, -0.4}, {0.4, -0.35}, {-0.1, 0.4}};
@@ -61,7 +61,7 @@ static void write_pairs(char path[TEMPORARY_PATH], bool second)
                                  .triangle_count = PAIRS});
 }
 
-// Whether the first and the second mesh are two-sided.
+// The meshes that are two-sided.
 typedef struct {
     bool first, second;
 } Sides;
@@ -78,7 +78,7 @@ static void write_scene(char path[TEMPORARY_PATH], const char *first, const char
     temporary_close(stream);
 }
 
-// Stores the id that each pixel hits.
+// Stores the id of the triangle at each pixel.
 static void see(const char *scene, const KernelChoice *form, uint32_t ids[SIDE * SIDE])
 {
     FREED_BY(layers_free) Layers layers;
@@ -141,7 +141,7 @@ TEST(the_lowest_id_that_may_be_met_is_seen_at_every_pixel)
 #define BALL   CLRT_SOURCE_FOLDER "/tests/image/ball.ply"
 #define COPIES "material 1\nply_file " CONE "\nply_file " BALL "\n"
 
-// extremes/one_picture also reorders the copies' corners.
+// tests/extremes/one_picture also reorders the copies' corners.
 TEST(copies_of_meshes_change_no_bit_in_any_form)
 {
     for (size_t form = 0; form < 2 * FORMS; form++) {

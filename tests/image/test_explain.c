@@ -169,7 +169,7 @@ static void judge_distance(Bounds *bounds, const Explainer *explainer, const Exp
     const Vec3 eye = normalize_point(explainer->normalization, origin);
     const Vec3 apart = vec3_sub(path->surface.point, eye);
     const double distance = sqrt(vec3_dot(apart, apart));
-    // The oracle and this test round, too.
+    // Allows for the rounding of the oracle and of this test.
     const double rounding = 0x1p-48 * (distance + vec3_extent(eye));
     bounds->compared++;
     bounds->largest = fmax(bounds->largest, fabs(found->distance * scale - distance) /

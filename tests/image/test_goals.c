@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests pictures with error goals. Every form of the kernels must draw the same picture. Also tests
-// the largest goal, a picture of one color, and parts that no center of a pixel sees. tests/goals
+// the largest goal, a picture of one color, and parts that no pixel's center shows. tests/goals
 // measures whether clrt meets the goals.
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
@@ -31,8 +31,8 @@ TEST(every_form_threads_and_tree_refine_the_same)
     }
 }
 
-// clrt refines at least 24 random pixels of each stratum of unrefined pixels (ladder_strata.h), or
-// all pixels of a smaller stratum, to check that centers are representative.
+// Controls are at least 24 random pixels of each stratum of unrefined pixels (ladder_strata.h), or
+// all pixels of a smaller stratum. clrt refines them to check that centers are representative.
 TEST(with_a_goal_of_any_error_only_controls_are_refined)
 {
     uint64_t samples;
@@ -64,8 +64,8 @@ TEST(a_picture_of_one_color_keeps_it)
     unlink(path);
 }
 
-// White spheres at corners of the pixels of request_for()'s picture. No center of a pixel sees one.
-// If is_mirrored, the spheres are behind the eye, and a mirror fills the picture.
+// White spheres at corners of the pixels of request_for()'s picture. No pixel's center shows a
+// sphere. If is_mirrored, the spheres are behind the eye, and a mirror fills the picture.
 typedef struct {
     int count;
     double radius; // in pixels
@@ -117,8 +117,9 @@ TEST(parts_that_no_center_sees_are_found)
         assert_true(dots_error(seed, &dots) < 1.1);
 }
 
-// Random controls find these parts, so the test limits the rate of failures. With a prior that does
-// not depend on the reflectivity, 27 of 200 such pictures exceed 1.1 times the goal, instead of 10.
+// Only random controls find these parts, so the test limits the rate of failures. With a prior that
+// does not depend on the reflectivity, 27 of 200 such pictures exceed 1.1 times the goal, instead
+// of 10.
 #define MIRRORED 40
 
 TEST(parts_that_only_a_mirror_shows_are_missed_in_at_most_1_of_20_pictures)

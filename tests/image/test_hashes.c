@@ -41,7 +41,8 @@ static bool is_course(const char *scene)
     return strncmp(scene, "course/", 7) == 0;
 }
 
-// "course/cow" is in the course's folder, "cow" in scenes/, and other paths start at the sources.
+// The scene "course/cow" is in the course's folder, "cow" is in scenes/, and other paths start at
+// the source folder.
 static void scene_path(char path[COURSE_PATH_SIZE], const char *scene)
 {
     char file[128];
@@ -55,7 +56,7 @@ static void scene_path(char path[COURSE_PATH_SIZE], const char *scene)
 
 static Scene scene; // of the last picture
 
-// Sets the request's scene, which all views of a scene share.
+// Sets the request's scene. All views of a scene share one Scene and one tree.
 static void set_scene(PictureRequest *request, const Record *record)
 {
     static char name[sizeof record->scene];

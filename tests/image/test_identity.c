@@ -53,8 +53,8 @@ TEST(every_form_and_tree_draws_the_same)
         expect_same_in_every_form_and_tree(small_request(scene));
 }
 
-// Writes a floor from -1 to 1 and, in a second mesh, triangles that are at most 2e-7 off the floor.
-// The coordinates of all their corners are at most 1e-4.
+// Writes a floor from -1 to 1, and a mesh of scraps: triangles within 1e-4 of the center and 2e-7
+// of the floor.
 #define SCRAPS 100
 static void write_floor_and_scraps(char floor[TEMPORARY_PATH], char scraps[TEMPORARY_PATH])
 {
@@ -82,8 +82,8 @@ static void write_floor_and_scraps(char floor[TEMPORARY_PATH], char scraps[TEMPO
                                    .triangle_count = SCRAPS});
 }
 
-// The floor's distances have larger errors than the slack of the boxes of its scraps. A search must
-// find scraps beyond the floor's distance, because their nearness may still precede the floor's.
+// The errors of the floor's distances exceed the slack of the scraps' boxes. A search must also
+// visit boxes that seem to be behind the floor, because their scraps may be nearer.
 TEST(boxes_smaller_than_the_errors_of_a_large_triangle_are_not_culled)
 {
     char floor[TEMPORARY_PATH], scraps[TEMPORARY_PATH], scene[TEMPORARY_PATH];
@@ -196,7 +196,7 @@ TEST(no_primitive_is_mistaken_for_sky)
     }
 }
 
-// Rays that leave a floor skip its triangles, but not the other ones of their block.
+// Rays that leave a floor skip its triangles, but no other triangles of the same block.
 TEST(a_floor_and_a_ceiling_reflect_each_other)
 {
     static double corners[][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -319,9 +319,9 @@ static void expect_extreme_specials_same(const KernelChoice *choice)
     expect_special_same(63, choice);
 }
 
-// The families share the code of most switches. Only rays, whose kernels compile sooner, test
-// all four combinations of every two switches (Kleitman and Spencer, "Families of k-independent
-// sets", 1973).
+// Rays and packets share the code of most switches. Only the kernels of rays, which compile sooner,
+// are tested with all four combinations of every two switches (Kleitman and Spencer, "Families of
+// k-independent sets", 1973).
 TEST(specialized_rays_draw_the_general_rays_picture)
 {
     static const unsigned masks[] = {39, 11, 21, 58, 60};

@@ -15,7 +15,7 @@
 // The number of pixels of a 512 x 512 picture that may differ.
 #define LIMIT 30
 
-// All pixels would take minutes.
+// Comparing all pixels would take minutes.
 #define STEP             2
 #define COURSE_MESH_STEP 4
 

@@ -11,7 +11,8 @@
 
 #include <string.h>
 
-// Two float steps below 1 and two of 2^-32, to which clrt rounds colors before storing floats.
+// The largest difference by rounding: two float steps below 1 and two steps of 2^-32, to which clrt
+// rounds colors before it stores floats.
 #define ROUNDED 0x1.01p-23f
 
 #define FP64 (&form_all[FORMS_FP32])

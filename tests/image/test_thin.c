@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Refined pictures show thin parts of meshes, narrower than a pixel, at any contrast.
+// Refined pictures must show parts of meshes that are narrower than a pixel, at any contrast.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
@@ -11,13 +11,13 @@
 #define SIDE 181
 #define PI   3.14159265358979
 
-// A corner's position in a picture of SIDE x SIDE pixels: pixels to the right of and above the
-// center.
+// A corner's position, in pixels to the right of and above the center of a picture of SIDE x SIDE
+// pixels.
 typedef struct {
     double x, y;
 } Corner;
 
-// Triangles that share no vertex, each added with corners counter-clockwise for the camera.
+// Triangles that share no vertex. For the camera, their corners are counter-clockwise.
 typedef struct {
     char scene[TEMPORARY_PATH], mesh[TEMPORARY_PATH];
     Mesh triangles;
@@ -82,8 +82,8 @@ static Corner middle_of(int column, int row)
     return (Corner){3.013 * (column - GRID / 2) + 0.5, 2.971 * (row - GRID / 2) + 1.5};
 }
 
-// Adds triangles at distances of about three pixels. Half are slivers, whose incircle's diameter is
-// about a third of their circumcircle's radius. Returns the total area.
+// Adds triangles at distances of about three pixels. Half of them are slivers: the diameter of the
+// incircle is about a third of the circumcircle's radius. Returns the total area.
 static double add_grid(Drawing *drawing)
 {
     static const double radii[] = {0.6, 0.4, 0.2, 0.1, 0.07, 0.05};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests that no light reaches points whose face is turned away from the light, in colors and
 // channels and in the forms of form_few. The oracle and the pixels worked out by hand
-// (cli/test_explain.py) test this for spheres and for solids seen from outside.
+// (tests/cli/test_explain.py) test this for spheres and for solids seen from outside.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
@@ -58,7 +58,7 @@ typedef struct {
     bool lit; // in the color and in the channel
 } Seen;
 
-// Renders a picture of SIDE x SIDE pixels.
+// Stores the contents of the picture's SIDE x SIDE pixels.
 static void see(const Stage *stage, const KernelChoice *form, Seen *seen)
 {
     char scene[TEMPORARY_PATH];

@@ -8,8 +8,8 @@ typedef struct {
     float origin[3], direction[3];
 } Line;
 
-// Makes a random ray and triangle. Some rays hit the triangle, are near (1, 1, 1), or have
-// coordinates so small that products underflow.
+// Makes a random ray and triangle. Some rays hit the triangle, some have directions near (1, 1, 1),
+// and some have coordinates so small that products underflow.
 void bound_case_make(Line *line, TriangleData *triangle);
 
 // Changes one to four numbers of a case.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Returns the numbers whose bounds docs/numerics.md derives, as the kernels compute them.
 
-// The parts of height_over before it rejects uncertain heights: the height and its threshold.
+// Returns the height and the threshold that height_over computes before it rejects uncertain
+// heights.
 static inline Real2 height_and_doubt(const Corners *corners, Real3 point, float blur)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -21,8 +22,8 @@ static inline void store3(global Scalar *values, Real3 v)
     values[2] = v.z;
 }
 
-// Stores the discriminant of a sphere in sums of two floats, and the negative one of
-// sphere_is_passed in plain floats. The triangle's corners give the center and the radius.
+// Stores a sphere's discriminant, computed with sums of two floats, and its negative, computed with
+// plain floats as in sphere_is_passed. The triangle's corners give the center and the radius.
 static inline void probe_sphere(const Ray *ray, const Corners *corners, global Scalar *values)
 {
     const Real3 a = corners->a, b = scaled3(0x1p-25f, corners->b), o = ray->origin;
@@ -82,7 +83,8 @@ kernel void probe_bounds(global const float *rays, global const TriangleData *tr
 }
 
 #ifdef CLRT_CERTIFY_CONE_CL
-// The certificate's bounds for an exact ray: margin, behind, blur, size, and the depths of a hit.
+// Stores the certificate's bounds for an exact ray: margin, behind, blur, size, and the depths of a
+// hit.
 kernel void probe_margins(global const float *rays, global const TriangleData *triangles,
                           global Scalar *results)
 {

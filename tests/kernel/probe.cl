@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels that return results of device functions to the tests. They are appended to the real
+// Kernels that return results of device functions to the tests. probe.c appends this file to clrt's
 // kernels, whose source already includes all headers.
 
 kernel void probe_layout(global uint *sizes)
@@ -46,8 +46,8 @@ kernel void probe_highlights(global const float *cases, global float *results)
     results[item] = highlight(&material, load3(values), load3(values + 3));
 }
 
-// values holds pairs {base, exponent}. results receives pairs of the power, computed by squaring
-// and by exponential().
+// values holds pairs {base, exponent}. results receives each power twice, computed by squaring and
+// by exponential().
 kernel void probe_powers(global const Scalar *values, global Scalar *results)
 {
     const uint item = get_global_id(0);

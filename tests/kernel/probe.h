@@ -15,8 +15,8 @@ typedef struct {
     size_t size;
 } ProbeInput;
 
-// The setup of a group of tests: compiles the file for one ray per work-item. Returns 0, or prints
-// the error and returns 1.
+// Sets up a group of tests: compiles the file for one ray per work-item. Returns 0, or prints the
+// error and returns 1.
 int probe_begin(Probe *probe, const char *path, Precision precision);
 void probe_close(Probe *probe);
 

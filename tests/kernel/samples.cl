@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Returns the positions of ladder.cl's samples to test_samples.c. It is appended to ladder.cl.
+// Returns the positions of ladder.cl's samples to test_samples.c. probe.c appends this file to
+// ladder.cl.
 
-// The first request has the same number of samples as all others. places receives pairs {x, y}.
+// All requests have the same number of samples. places receives pairs {x, y}.
 kernel void probe_places(global const PixelRequest *requests, global uint *places)
 {
     const uint item = get_global_id(0), count = get_global_size(0);

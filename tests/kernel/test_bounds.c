@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Recomputes each error bound of docs/numerics.md with numbers of 113 bits, whose own errors are
-// below 2^-80 of any bound. Prints the largest share of each bound that rays reach, which must not
-// exceed 1. After random rays, changes of the worst rays search for still worse ones. With
+// Measures the errors that docs/numerics.md bounds, with numbers of 113 bits, whose own errors are
+// below 2^-60 of any bound. Prints the largest share of each bound that an error reaches, which
+// must not exceed 1. The search starts with random rays, and then changes the worst ones. With
 // CLRT_TEST_TIER, the search is longer.
 #include "kernel/bound_cases.h"
 #include "kernel/probe.h"
@@ -122,7 +122,7 @@ static void make_cases(bool first)
     }
 }
 
-// The bounds hold for errors of rounding. Underflow adds up to some 2^-149.
+// Skips tiny bounds, because underflow adds errors of up to some 2^-149.
 static void note(int i, Bound bound, Quad error, Quad most)
 {
     if (most < 0x1p-100)
@@ -188,7 +188,7 @@ static void check_corners(int i, const Exact *exact)
 }
 
 // Stores the edge functions of the rounded corners in `edges`. Returns false if the error of a
-// product may underflow. Signs are then still not opposite.
+// product may underflow. Even then, the signs must not be opposite.
 static bool check_edges(int i, Quad edges[3])
 {
     float(*s)[3] = traced[i].sheared;

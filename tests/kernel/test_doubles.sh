@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Devices without fp64 can compile the kernels: clang without double arithmetic accepts them in every
-# form, and rejects the kernels of --precision fp64.
+# Tests that devices without fp64 can compile the kernels. clang without double arithmetic must
+# accept them in every form, and must reject the kernels of --precision fp64.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/../../kernels"
 command -v clang >/dev/null || { echo "skipped: clang is not installed"; exit 77; }

@@ -97,8 +97,8 @@ static Vec3 random_direction(uint64_t *random)
     return vec3_normalize(vec3(x, y, 2 * random_unit(random) - 1));
 }
 
-// Returns a case whose half vector equals the normal, is near it, is perpendicular to it, or is at
-// any angle to it.
+// Returns a case whose half vector equals the normal, is near the normal, is perpendicular to it,
+// or is at any angle to it.
 static Highlight highlight_case(int number, double shininess, uint64_t *random)
 {
     Material material = {0};
@@ -161,7 +161,7 @@ TEST(highlights_of_any_shininess_are_exact_to_a_thousandth)
 }
 
 // In fp64, distant and huge spheres and narrow highlights must be correct to the last bits of
-// double, so float arithmetic would be detected. The exact values are closed forms in long double.
+// double, so that float arithmetic is detected. The exact values are closed forms in long double.
 // The limit is four roundings of double.
 #define ROUNDINGS 0x1p-51
 

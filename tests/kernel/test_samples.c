@@ -28,7 +28,8 @@ static void place_all(uint32_t x, uint32_t y, uint32_t samples, uint32_t places[
     trace(requests, LADDER_GRID / samples, places);
 }
 
-// Divides the pixel into columns x rows rectangles, and expects one of the first samples in each.
+// Divides the pixel into columns x rows rectangles, and expects one of the first columns * rows
+// samples in each.
 static void expect_one_in_each(uint32_t places[][2], uint32_t columns, uint32_t rows)
 {
     bool is_taken[LADDER_GRID] = {false};

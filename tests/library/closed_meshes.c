@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Globes and tubes are grids of vertices, which a function of two numbers places. Other meshes are
-// the surfaces of voxels.
+// Globes and tubes are grids of vertices. Other meshes are the surfaces of voxels.
 #include "library/closed_meshes.h"
 
 #include "unit/cmocka_all.h"
@@ -59,7 +58,7 @@ static void add_quad(ClosedMesh *mesh, uint32_t a, uint32_t b, uint32_t c, uint3
 
 enum { ROWS = 12, COLUMNS = 24, GLOBE_VERTICES = ROWS * COLUMNS + 2 };
 
-// Adds a globe: rows of vertices between two poles.
+// Adds the faces of a globe, which has rows of vertices between two poles.
 static void add_globe(ClosedMesh *mesh, uint32_t first)
 {
     const uint32_t poles = first + ROWS * COLUMNS;
@@ -74,7 +73,7 @@ static void add_globe(ClosedMesh *mesh, uint32_t first)
     }
 }
 
-// The directions of a globe's vertices; the last two are poles.
+// Returns the direction of a globe's vertex. The last two vertices are the poles.
 static Point globe_direction(uint32_t vertex)
 {
     const double up = (vertex / COLUMNS + 0.5) * TURN / 2 / ROWS;
@@ -119,7 +118,7 @@ static ClosedMesh globe(const char *name, Radius *radius, Point size)
     return mesh;
 }
 
-// A globe with a smaller one inside: a hollow ball.
+// Returns a hollow ball: a globe with a smaller globe inside.
 static ClosedMesh shells(void)
 {
     ClosedMesh mesh = mesh_of("shells", (size_t)2 * GLOBE_VERTICES, (size_t)4 * ROWS * COLUMNS);
@@ -214,7 +213,8 @@ static uint32_t voxel_corner(const int at[3])
     return (uint32_t)((at[2] * POINTS + at[1]) * POINTS + at[0]);
 }
 
-// Adds the side of a full voxel toward an empty one. A voxel at the end has the side at + 1.
+// Adds one of the two sides of the voxel `at` that are perpendicular to the axis. If end is 1, this
+// is the side with the larger coordinate.
 static void add_side(ClosedMesh *mesh, const int at[3], int axis, int end)
 {
     int corners[4][3];

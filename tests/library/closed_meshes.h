@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Ten closed meshes of different shapes. Their coordinates are multiples of 2^-20 in [-1, 1], so
-// that float holds them and products of integers hold their determinants.
+// that floats hold them exactly and 128-bit integers hold their determinants.
 #pragma once
 
 #include <stddef.h>
@@ -8,7 +8,7 @@
 
 #define CLOSED_MESHES 10
 
-// Units of coordinates in a length of 1.
+// The number of coordinate units in a length of 1.
 #define GRID 1048576
 
 typedef struct {
@@ -18,6 +18,6 @@ typedef struct {
     size_t vertex_count, face_count;
 } ClosedMesh;
 
-// Makes a mesh, from 0. Any failure ends the test.
+// Makes mesh `number`, counted from 0. Any failure ends the test.
 ClosedMesh closed_mesh_make(int number);
 void closed_mesh_free(ClosedMesh *mesh);

@@ -38,7 +38,7 @@ static ClrtScene *make_scene(ClrtError *error)
     return NULL;
 }
 
-// Draws with an error of at most 1 %, and the depth of each pixel.
+// Draws the picture with an error of at most 1 %, and stores the depth of each pixel.
 static bool draw(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error)
 {
     const ClrtChannel channel = {"depth", depth};

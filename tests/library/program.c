@@ -23,7 +23,7 @@ ClrtRenderer *program_renderer(uint32_t threads)
     return clrt_renderer_create(&settings, NULL);
 }
 
-// The file's rows start at the bottom.
+// The file starts with the bottom row.
 float *program_read(const char *path, uint32_t width, uint32_t height)
 {
     uint32_t size[2];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens a renderer with default settings, which the tests of a file share, on the device that
-// CLRT_DEVICE names.
+// Opens a renderer on the device that CLRT_DEVICE names, otherwise with default settings. All tests
+// of a program share it.
 #pragma once
 
 #include "library/program.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// libclrt renders the same bits as the program, and fulfills clrt.h.
+// Tests that libclrt renders the same bits as the program and fulfills clrt.h.
 #include "library/filled.h"
 #include "library/renderer.h"
 
@@ -146,7 +146,7 @@ static bool stop_at_once(void *user, uint64_t tiles_done, uint64_t tiles)
     return false;
 }
 
-// Returns whether the tile equals the tile of whole. Otherwise all its floats must be -1.
+// Returns whether a tile of rgb equals the tile of `whole`. If not, all its floats must be -1.
 static bool tile_is_whole(const float *rgb, const float *whole, const uint32_t tile[2],
                           const ClrtPicture *picture)
 {

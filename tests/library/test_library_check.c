@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Checks meshes made of arrays. test_python compares checks of files with the program's.
+// Tests clrt_check with meshes made of arrays. test_python compares checks of files with the
+// program's.
 #include "library/faults.h"
 #include "library/renderer.h"
 
 #include <string.h>
 
-// A tetrahedron, two more triangles with equal corners or a missing side, and an unused vertex.
+// A tetrahedron, a triangle with two equal corners, and an unused vertex.
 static const double corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 2}};
 static const uint32_t sides[5][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {1, 2, 2}};
 

@@ -64,7 +64,7 @@ TEST(an_explained_pixel_has_the_pictures_color)
     }
 }
 
-// Expects that the first ray of each pixel has the values of the channels.
+// Expects the first ray of the pixel to have these values of the channels.
 static void expect_channels(const ClrtExplanation *explanation, uint32_t primitive,
                             const float position[3], float shadow)
 {

@@ -27,7 +27,7 @@ static Stage stage;
 
 extern char **environ;
 
-// Returns all variables as one string. The caller frees it.
+// Returns all environment variables as one string. The caller frees it.
 static char *copy_environment(void)
 {
     size_t size = 1;

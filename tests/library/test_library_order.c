@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shuffles the triangles of closed meshes. Every triangle is there twice, so that every hit is an
-// exact tie. A third of the rays go to vertices, and another third along axes to vertices, where
-// neighbors tie exactly, too.
+// Shuffles the triangles of closed meshes. Every triangle occurs twice, so every hit is an exact
+// tie. A third of the rays go to vertices, and another third go along axes to vertices. There,
+// neighboring triangles tie exactly, too.
 #include "library/closed_meshes.h"
 #include "library/renderer.h"
 #include "unit/random.h"
@@ -61,7 +61,7 @@ static void aim(void)
     }
 }
 
-// Returns the faces in their order, all copies one after another, or shuffled.
+// Returns the faces COPIES times, one copy after another, or all shuffled.
 static Order order_faces(bool is_shuffled)
 {
     const uint32_t count = COPIES * (uint32_t)mesh.face_count;
@@ -123,7 +123,7 @@ static bool is_lowest(Order order, uint32_t primitive, uint32_t face)
     return true;
 }
 
-// Returns the number of hits on different faces at one distance, which the order decides.
+// Returns the number of rays that hit different faces, at equal distances, in the two orders.
 static size_t compare(Order order, Order shuffled)
 {
     size_t ties = 0;

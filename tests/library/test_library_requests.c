@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Requests beyond a plain picture: goals, crops, turns, levels, statistics, channels, certainty and
-// references. Their pixels equal the program's, bit for bit.
+// Tests requests beyond a plain picture: goals, crops, turns, levels, statistics, channels,
+// certainty and references. Their pixels must equal the program's, bit for bit.
 #include "base/error.h"
 #include "image/image_read.h"
 #include "library/faults.h"
@@ -241,7 +241,7 @@ static StoredImage program_channels(const char *options)
     return image;
 }
 
-// Expects the program's values of a channel. layers are its names in the file.
+// Expects the program's values of a channel. layers are the names of its components in the file.
 static void expect_channel(const StoredImage *image, const void *values, bool is_integer,
                            const char *const layers[3], uint32_t components)
 {
@@ -252,7 +252,7 @@ static void expect_channel(const StoredImage *image, const void *values, bool is
             const uint32_t at = pixel * components + component;
             const float *expected =
                 &image->values[(size_t)pixel * image->channel_count + (uint32_t)place];
-            // Ids are stored as integers, which have the same bits.
+            // Ids are integers, which the image stores as floats with the same bits.
             assert_memory_equal(is_integer ? (const void *)&((const uint32_t *)values)[at]
                                            : (const void *)&((const float *)values)[at],
                                 expected, sizeof *expected);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Devices, the settings of renderers, and the ways to load and fill scenes equal the program's.
+// Tests devices, the settings of renderers, and ways to load and fill scenes. Pictures must equal
+// the program's.
 #include "library/faults.h"
 #include "library/filled.h"
 #include "library/renderer.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Two triangles share a vertex, and each crosses the plane of the other. Rays start on one
-// triangle, so close to the vertex that rounding puts the start on both planes. Neither plane then
-// decides whether a ray hits the other triangle: only their order along the ray does
-// (docs/numerics.md, "Closed mirrors", step 5).
+// triangle, so close to the vertex that rounding puts the start on both planes. Then only the order
+// of the triangles along the ray decides whether the ray hits the other triangle (docs/numerics.md,
+// "Closed mirrors", step 5).
 //
 // fp64 is not tested. Rays would have to start closer to the vertex than the error with which the
 // library moves starts onto their triangle.
@@ -18,14 +18,14 @@ enum { PAIRS = 50, RAYS = 40, VERTICES = 12 };
 
 // Heights over the plane z = 0 are slopes[triangle][0] * x + slopes[triangle][1] * y.
 typedef struct {
-    double slopes[2][2]; // of the own and the other triangle
-    double bearing;      // from the vertex to where the triangles cross
+    double slopes[2][2]; // of the triangle that rays start on, and of the other
+    double bearing;      // of the line from the vertex in which the triangles cross
     double positions[VERTICES][3];
 } Pair;
 
 typedef struct {
     double origins[RAYS][3], directions[RAYS][3];
-    double ahead[RAYS]; // of the other triangle, along the ray
+    double ahead[RAYS]; // distance to the other triangle along the ray
 } Aimed;
 
 static uint64_t numbers = 45;

@@ -54,8 +54,7 @@ static void close_mesh(void)
     clrt_scene_free(scene);
 }
 
-// Fills the point with a random one, and the direction with the coordinates of a random place of a
-// random triangle: a vertex, a place on an edge or any place.
+// Stores a random point, and the direction of a ray from it.
 typedef void Aim(double point[3], double direction[3]);
 
 static const int32_t *corner(const uint32_t *face, uint32_t number)
@@ -149,7 +148,7 @@ static void judge_aims(const char *what, Aim *aim, size_t count)
     report(what, tally);
 }
 
-// Points of the grid, half of them near vertices, compared with exact arithmetic.
+// Compares random points of the grid, half of them near vertices, with exact arithmetic.
 static void judge_exactly(size_t count)
 {
     Tally tally = {0};
@@ -195,8 +194,8 @@ TEST(rays_through_vertices_and_edges_and_along_faces_cross_once)
     }
 }
 
-// Directions along axes and diagonals, from points of a grid, pass exactly through the cube's edges
-// and corners and along its faces.
+// Rays from points of a grid, along axes and diagonals, pass exactly through the cube's edges and
+// corners and along its faces.
 TEST(rays_through_edges_cross_a_cube_once)
 {
     static const double cube[8][3] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1},
@@ -226,7 +225,7 @@ TEST(rays_through_edges_cross_a_cube_once)
         for (int i = 0; i < POINTS; i++) {
             const double *at = points[i];
             const double most = fmax(fmax(fabs(at[0]), fabs(at[1])), fabs(at[2]));
-            if (most != 1) // on the surface, the result is either
+            if (most != 1) // on the surface, both results are right
                 assert_int_equal(inside[i], most < 1);
         }
     }

@@ -11,11 +11,11 @@
 
 #define BLOCK   256
 #define NEAR    0x1p-21
-#define NEAREST 0.01 // solid angles below this are of triangles that are not near
+#define NEAREST 0.01 // triangles with smaller solid angles are not near
 
 typedef struct {
     double at[3][3];     // corners
-    double inverse_area; // of twice the area
+    double inverse_area; // 1 / (2 * area)
 } Facet;
 
 // A block of points. Each point has a sum of solid angles and a number of near triangles.
@@ -23,7 +23,8 @@ typedef struct {
     double points[3][BLOCK], sums[BLOCK], nears[BLOCK];
 } Block;
 
-// Returns atan2(y, x), off by at most 1e-4. The polynomial is Abramowitz and Stegun's 4.4.49.
+// Returns atan2(y, x) with an error of at most 1e-4. The polynomial is Abramowitz and Stegun's
+// 4.4.47.
 static inline double angle_of(double y, double x)
 {
     const double a = fabs(x), b = fabs(y);
@@ -109,7 +110,7 @@ void winding_places(const ClosedMesh *mesh, const double (*points)[3], size_t co
     free(facets);
 }
 
-// Directions of rays that are tried, until one touches no outline.
+// The number of ray directions to try until one touches no outline.
 #define TRIALS 8
 
 __extension__ typedef __int128 Integer;
@@ -127,7 +128,8 @@ static int sign(Integer a)
 
 typedef enum { PASSES, CROSSES, TOUCHES, CONTAINS_POINT } Crossing;
 
-// Returns how a ray from the origin meets a triangle. TOUCHES: through the outline or in the plane.
+// Returns how a ray from the origin meets a triangle. TOUCHES means through the outline or in the
+// plane.
 static Crossing cross(const Integer at[3][3], const Integer direction[3])
 {
     const int sides[3] = {sign(determinant(direction, at[1], at[2])),

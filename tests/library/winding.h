@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether points are inside of closed meshes, by winding numbers and by exact integers.
+// Finds whether points are inside closed meshes, by winding numbers and by exact integers.
 #pragma once
 
 #include "library/closed_meshes.h"

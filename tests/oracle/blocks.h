@@ -42,7 +42,7 @@ typedef struct {
 bool blocks_make(OracleBlocks *blocks, const Scene *scene, Error *error);
 void blocks_free(OracleBlocks *blocks);
 
-// Replaces hit by the nearest triangle before it, or by the lowest id at the same distance.
+// Replaces hit if a triangle is nearer, or is at the same distance with a lower id.
 void blocks_meet(const OracleBlocks *blocks, const OracleRay *ray, OracleHit *hit);
 
 // Returns whether the ray hits any triangle other than its own.

@@ -5,9 +5,9 @@
 // far wall. A reflected ray that would enter the surface is mirrored out of the surface.
 #include "oracle/oracle.h"
 
-// A light grazes a true surface if the sine of its height is below this limit. A float tracer moves
-// a point off its face by up to 2^-20 of the scene. A grazing light may then reach the point across
-// the edge of a neighbor at a distance of 2^-12 of the scene.
+// A light grazes a face if the sine of the light's height over the face is below this limit. A
+// float tracer moves a point off its face by up to 2^-20 of the scene. A grazing light may then
+// reach the point across the edge of a neighbor at a distance of 2^-12 of the scene.
 #define HORIZON 0x1p-8
 
 bool oracle_make(Oracle *oracle, const Scene *scene, Error *error)

@@ -67,7 +67,7 @@ bool oracle_draw(const OracleView *view, uint32_t samples, uint32_t step, Frameb
 typedef enum {
     EXPLAINED_NOT,
     EXPLAINED_BY_EDGE,   // decisions differ within a distance of one pixel
-    EXPLAINED_BY_CREASE, // decisions are equal, but the range of nearby colors contains the color
+    EXPLAINED_BY_CREASE, // decisions are equal, and the range of nearby colors contains the color
     EXPLAINED_BY_HORIZON // neither applies, but a light grazes the surface
 } Explanation;
 

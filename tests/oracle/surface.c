@@ -15,20 +15,20 @@ static Vec3 diffuse_of(const Scene *scene, uint32_t material)
     return vec3((double)diffuse[0], (double)diffuse[1], (double)diffuse[2]);
 }
 
-// A surface whose normal leans at most this much toward an axis runs along the axis.
+// A surface is parallel to an axis if its unit normal's component on the axis is at most this.
 #define LEAN 0x1p-10
 
 // The layers of cubes perpendicular to an axis. A coordinate's place is rate * coordinate + shift.
 typedef struct {
     double rate, shift;
-    double step; // the sum of 2^-19 of a cube and 2^-19 of the unit of clrt's frame, in cubes
+    double step; // 2^-19 of a cube plus 2^-19 of clrt's unit of normalized length, in cubes
 } Layers;
 
 static Layers layers_of(const Scene *scene, const Material *material, int axis)
 {
     const double size = (double)material->check_size, rate = (double)material->check_rate;
     const double unit = 1 / (size * normalization_of(scene).scale);
-    if (rate > 0) // in the frame (stored.h)
+    if (rate > 0) // the scene is normalized (stored.h)
         return (Layers){rate, (double)material->check_shift[axis], 0x1p-19 * (1 + rate)};
     return (Layers){1 / size, 0, 0x1p-19 * (1 + unit)};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A hit of the oracle -> the surface at the hit: its point, orientation and object.
+// Computes the surface at a hit of the oracle: its point, orientation and object.
 #pragma once
 
 #include "oracle/blocks.h"
