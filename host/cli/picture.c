@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// clrt SCENE -o FILE: renders picture files. For each picture, clrt resumes an earlier run, draws
-// the colors, certifies them, draws the channels, measures the error, and writes the file.
+// clrt SCENE -o FILE: renders picture files. On request, clrt also resumes an earlier run,
+// certifies the colors, draws channels and measures the error.
 #include "cli/commands.h"
 
 #include "base/clock.h"
