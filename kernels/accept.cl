@@ -116,8 +116,8 @@ static inline Real stop_distances(const Search *search, const TriangleName *name
     return met.near ? near : met.clear;
 }
 
-// Tests a triangle against the rays in `lanes`. `relative` contains its corners relative to the
-// rays' origins. Returns the lanes whose hits changed.
+// Tests a triangle against the rays in `lanes`. `relative` has the triangle's corners relative to
+// the rays' origins. Returns the lanes whose hits changed.
 static ALWAYS_INLINE Mask intersect_triangle(const Search *search, const TriangleName *name,
                                              const Corners *relative, Mask lanes, Hit *best)
 {

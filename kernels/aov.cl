@@ -99,8 +99,7 @@ kernel void trace_paths(TRACER_ARGUMENTS, global PathData *paths)
 }
 
 // Fills `tallies` with TALLY_KINDS counts per pixel of the tile, summed over the pixel's samples.
-// Each pixel is traced alone. The rays of a packet would share tests, which belong to no single
-// pixel.
+// Each pixel is traced alone, because the rays of a packet would share tests.
 kernel void count_tests(TRACER_ARGUMENTS, global uint *tallies)
 {
     const uint left = BLOCK * (uint)get_global_id(0), top = BLOCK * (uint)get_global_id(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Computes each operation on which all pictures depend. host/device/arithmetic.c compares the
+// Computes the operations on which all pictures depend. host/device/arithmetic.c compares the
 // results with the host's, bit by bit. The kernel is compiled after render.cl, which forbids
 // contraction.
 

@@ -13,12 +13,11 @@
 
 #if CLRT_WIDE_NODES
 
-// The number of rays in a full beam.
 #define BEAM_LANES (PACKETS * CLRT_LANES)
 
-// If at most this many lanes of a beam enter a subtree, it is searched ray by ray. The limit is
-// higher for DENSE or more triangles, because rays then separate more. With the two limits
-// exchanged, scenes of 6 thousand triangles take 9 % longer. Scenes of a million take 10 % longer.
+// A subtree is searched ray by ray if at most this many lanes of a beam enter it. The limit is
+// higher for DENSE or more triangles, because rays then separate more. Exchanging the two limits
+// makes scenes of 6 thousand triangles 9 % slower, and scenes of a million 10 % slower.
 #define MOST_LANES_LEAVING       (3 * BEAM_LANES / 16)
 #define MOST_LANES_LEAVING_DENSE (5 * BEAM_LANES / 8)
 #define DENSE                    300000
@@ -42,8 +41,8 @@ typedef struct {
     uint inside[WIDE_STACK_SIZE]; // for each child on the stack: the packets inside its parent
 } Beam;
 
-// Returns bounds over the packets whose bits are set. At least one bit must be set. If several are
-// set, returns the whole beam's bounds.
+// Returns bounds over the packets whose bits are set. At least one bit must be set. The bounds of
+// several packets are the whole beam's.
 static inline const BeamBounds *bounds_of(Beam *beam, uint packets)
 {
     if ((packets & (packets - 1)) != 0 || beam->count == 1)
@@ -237,7 +236,7 @@ static inline uint shared_own(const Beam *beam, const Ray *rays)
     return any_lane(other) ? NOTHING : own;
 }
 
-// Returns which triangles of the block have the coordinate `level` on the axis at all corners.
+// Returns the triangles of the block whose corners all have the coordinate `level` on the axis.
 static inline int8 lie_level(global const TriangleBlock *block, uint axis, float level)
 {
     return block_row(block, 0, axis) == level && block_row(block, 1, axis) == level &&
@@ -257,8 +256,8 @@ static inline bool start_level(const Ray *rays, uint count, uint axis, float lev
 }
 
 // Returns the bits of the triangles that the rays may hit in the block of their own triangle. Rays
-// do not hit their own triangle. If it is perpendicular to an axis and start_level returns true,
-// they do not hit the block's coplanar triangles either.
+// do not hit their own triangle. If this triangle is perpendicular to an axis and start_level
+// returns true, the rays do not hit the block's coplanar triangles either.
 static inline uint triangles_beside(const Beam *beam, const Ray *rays, uint own)
 {
     global const TriangleBlock *block = beam->tracer->triangles + own / WIDE;
@@ -272,8 +271,8 @@ static inline uint triangles_beside(const Beam *beam, const Ray *rays, uint own)
     return others;
 }
 
-// Stores which triangles the rays skip. Returns false only if they skip all triangles of the scene,
-// for example if they leave the floor of a scene of spheres.
+// Stores which triangles the rays skip. Returns false only if the rays skip all triangles of the
+// scene, for example when they leave a floor under spheres.
 static inline bool beam_start(Beam *beam, const Tracer *tracer, const Ray *rays)
 {
     beam->tracer = tracer;
@@ -303,9 +302,9 @@ static inline void beam_prepare(Beam *beam, const Ray *rays)
     beam->sheared = false;
 }
 
-// Finds the hits of rays whose directions share their signs: any hits if ends_at_any_hit, else the
-// nearest hits. The beam's count and hits must be set, and at least one lane must search. If the
-// scene has a tree and `alone` is set, searches ray by ray.
+// Finds the hits of rays whose directions share their signs: any hits if ends_at_any_hit returns
+// true, else the nearest hits. The beam's count and hits must be set, and at least one lane must
+// search. If the scene has a tree and `alone` is set, searches ray by ray.
 static NOT_INLINE void search_beam(Beam *beam, const Tracer *tracer, const Ray *rays, bool alone)
 {
     if (!beam_start(beam, tracer, rays))

@@ -57,8 +57,8 @@ static inline float8 folded(Real v)
 }
 #endif
 
-// Folds two vectors. The lower half of the result has the minima of a, and the upper half has the
-// minima of b.
+// Returns four minima of a, then four minima of b. Each is the smaller of two elements, one from
+// each half of the vector.
 static inline float8 lowest_of_two(float8 a, float8 b)
 {
     const float8 low = (float8)(a.s0, a.s1, a.s2, a.s3, b.s0, b.s1, b.s2, b.s3);
@@ -83,7 +83,7 @@ static inline Real3 lower3(Real3 a, Real3 b)
 }
 
 // The extremes over a beam's packets, separately for each lane. Maxima are stored as minima of the
-// negated numbers. Each origin moves by its own slack. It also moves by the growth of a node's box,
+// negated numbers. Each origin moves by its own slack, and also by the growth of a node's box,
 // because the boxes of single triangles have not grown.
 typedef struct {
     Real3 inverse, minus_inverse, behind, minus_ahead;
@@ -120,8 +120,8 @@ static NOT_INLINE float bounds_over(const Packet *packets, const Hit *hits, uint
     const float4 high = -lowest_of_four(j.x, j.y, j.z, j.z);
     const float4 behind = lowest_of_four(b.x, b.y, b.z, b.z);
     const float4 ahead = -lowest_of_four(a.x, a.y, a.z, a.z);
-    // The origin farthest forward gives the earliest entry. The one farthest back gives the latest
-    // exit.
+    // The origin farthest forward gives the earliest entry. The origin farthest back gives the
+    // latest exit.
     const int4 negative = high < 0.0f;
     const float4 near = negative ? behind : ahead, far = negative ? ahead : behind;
     vstore4(as_uint4(negative) & 1, 0, bounds->negative);

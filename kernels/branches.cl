@@ -49,8 +49,8 @@ static inline void push_branches(Branches *branches, UInt levels, Mask lanes, co
     }
 }
 
-// Takes the waiting ray of the highest level, in those of the given lanes that have one. Returns
-// these lanes, and stores the levels in *levels.
+// Takes each given lane's waiting ray of the highest level. Returns the lanes that have such a ray,
+// and stores the rays and their levels.
 static inline Mask pop_branches(Branches *branches, Mask lanes, UInt *levels, Branch *branch)
 {
     const Mask popped = lanes && branches->waiting != 0;
@@ -74,8 +74,8 @@ typedef struct {
     Mask splits;   // lanes that have the other ray
 } Successors;
 
-// Splits the next ray, which must be the reflected ray, in the given lanes, whose surfaces are
-// glass.
+// Splits the next ray in the given lanes, whose surfaces are glass. The next ray must be the
+// reflected ray.
 static inline void split_branch(const Tracer *tracer, const Path *path, Mask lanes,
                                 Successors *after)
 {
@@ -108,7 +108,7 @@ static inline Successors successors_of(const Tracer *tracer, const Path *path, c
     return after;
 }
 
-// Returns the lanes whose next rays would exceed max_level.
+// Returns the lanes whose next rays max_level cuts off.
 static inline Mask is_cut(const Tracer *tracer, const Path *path)
 {
     return path->reflects && path->level + 1 >= tracer->frame->max_level;
@@ -122,15 +122,16 @@ static inline void end_branch(const Tracer *tracer, Path *path, Mask lanes, cons
     path->color = choose3(lanes, sum3(path->color, seen), path->color);
 }
 
-// Ends branches that max_level cuts off. Their color would have been at most 1.
+// Ends branches that max_level cuts off. Each causes an error of at most its weight, because colors
+// are at most 1.
 static inline void cut_branch(const Tracer *tracer, Path *path, Mask lanes, const Branch *branch)
 {
     end_branch(tracer, path, lanes, branch);
     path->cut += lanes ? branch->weight * largest_component(branch->tint) : 0.0f;
 }
 
-// Adds the squares of the samples' errors by cut branches, in steps of 2^-32. The factor covers the
-// rounding of the weights and of their sum.
+// Adds the squares of the errors that cut branches cause in samples, in steps of 2^-32. The factor
+// covers the rounding of the weights and of their sum.
 static inline void count_cut(Tally *tally, Real cut)
 {
     const Real error = clamp_to_one((1.0f + 0x1p-8f) * cut);
@@ -139,7 +140,7 @@ static inline void count_cut(Tally *tally, Real cut)
         tally->cut += (ulong)((const Scalar *)&steps)[lane];
 }
 
-// Sets the next rays of a packet, and their weights. Returns whether any lane has one.
+// Sets the next rays of a packet, and their weights. Returns whether any lane has a next ray.
 static NOT_INLINE bool follow_branches(const Tracer *tracer, Path *path, Branches *branches,
                                        Ray *ray)
 {

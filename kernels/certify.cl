@@ -23,13 +23,14 @@ static inline void hash_decision(Decisions *decisions, uint word)
     decisions->signature = mixed ^ mixed >> 15;
 }
 
-// A surface along one axis, with the doubts that an UncertainSurface has.
+// A surface's coordinate and normal on one axis, with bounds on their errors.
 typedef struct {
     Real coordinate, doubt;
-    Real face, face_doubt; // of the unit normal on the side opposite to the cube
+    Real face, face_doubt; // component of the unit normal that points away from the cube
 } AxisPlace;
 
-// Returns the place of the surface's check (checker.cl). A level triangle has an exact coordinate.
+// Returns the surface's place on an axis. Its coordinate is exact if all corners of the triangle
+// share it, as in checker.cl.
 static inline AxisPlace axis_place(const UncertainSurface *surface, uint axis)
 {
     const Corners *corners = &surface->corners;
@@ -40,7 +41,7 @@ static inline AxisPlace axis_place(const UncertainSurface *surface, uint axis)
                        surface->is_sphere ? surface->normal_doubt : surface->face_doubt};
 }
 
-// Returns whether the cube is certain (B19), and changes *odd if it is odd.
+// Returns whether the cube's index on the axis is certain (B19). Toggles *odd if the index is odd.
 static inline bool decide_axis(const Cubes *cubes, Real shift, const AxisPlace *at, Real u,
                                uint *odd)
 {
@@ -106,8 +107,8 @@ static inline bool decide_lights(const Tracer *tracer, const UncertainSurface *s
     return true;
 }
 
-// Makes the decisions at the end of the path's ray, and sets the next ray. Clears *leads if the
-// surface has none. Returns false if a decision is not certain.
+// Makes the decisions at the end of the path's ray, and sets the next ray. Stores whether there is
+// one in *leads. Returns false if a decision is not certain.
 static inline bool decide_ray(const Tracer *tracer, ConePath *path, Decisions *decisions,
                               bool *leads)
 {

@@ -35,7 +35,7 @@ typedef struct {
     Real3 origin, along, right, up; // along, right and up are perpendicular unit vectors
     Real around;         // bound on the distance between the origin and the starts of the rays
     Real spread;         // bound on the tangent of the angle between a ray and `along`
-    Real tilt;           // bound on the sine of the angle between a ray and the longest axis
+    Real tilt;           // bound on the sine of a ray's angle to the nearest coordinate axis
     Real length;         // of a shadow ray, up to the light; else INFINITY
     Real u;              // unit roundoff of the tracer being checked
     UInt own, own_index; // as in Ray
@@ -59,7 +59,8 @@ static inline Real sum_of_sizes(Real3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-// Returns a bound on the tangent of the angle between two unit vectors at the distance `chord`.
+// Returns a bound on the tangent of the angle between two unit vectors whose tips are `chord`
+// apart.
 static inline Real spread_of(Real chord)
 {
     return chord < 0.25f ? chord / (1.0f - chord) : INFINITY;
@@ -105,8 +106,8 @@ static inline Real cone_at(const RayCone *ray, Real z)
            radius_of(&ray->goal) * (depth / ray->length);
 }
 
-// Bounds the distance between a point's positions as seen along the axis and along any ray of the
-// cone. Includes the tracer's rounding (B10).
+// Bounds the distance between two projections of a point: along the cone's axis, and along any ray
+// of the cone. Includes the tracer's rounding (B10).
 static inline Real blur_at(const RayCone *ray, Real3 seen)
 {
     const Real depth = fabs(seen.z) + ray->around;
@@ -133,7 +134,7 @@ static inline Real camera_rounding(const CameraData *camera, Real3 moved, float 
 }
 
 // Returns the cone of a camera ray. `sample` contains the arguments sample_x and sample_y of
-// camera_ray. The factor 2 in `own` covers the rounding of fp64.
+// camera_ray. `own` is twice the bound on the rounding of fp64.
 static inline RayCone camera_cone(const FrameData *frame, uint2 sample, Real u)
 {
     const Ray ray = camera_ray(frame, sample.x, sample.y, true);

@@ -6,7 +6,8 @@
 #include "certify_surface.cl"
 
 // Below this cosine on either side, rounding may decide whether there is a refracted ray. If the
-// indices differ by less than LEAST_RATIO, rounding may decide whether any light is reflected.
+// ratio of the indices differs from 1 by less than LEAST_RATIO, rounding may decide whether any
+// light is reflected.
 #define LEAST_COSINE 0x1p-10f
 #define LEAST_RATIO  0x1p-10f
 
@@ -21,8 +22,8 @@ typedef struct {
 
 // A refraction with bounds on its errors.
 typedef struct {
-    bool is_certain;         // which rays there are; otherwise, the members below are invalid
-    bool refracts, reflects; // total reflection only reflects; an index of 1 only refracts
+    bool is_certain;         // if false, rounding may decide which rays leave
+    bool refracts, reflects; // total reflection only reflects; a ratio of 1 only refracts
     Real3 direction;         // of the refracted ray
     Real doubt;              // of the direction
 } UncertainRefraction;
@@ -91,8 +92,8 @@ static inline bool pop_cone(ConePath *path)
     return true;
 }
 
-// Sets the next ray at a surface of glass. A second ray waits, unless max_level cuts it. Returns
-// false if it is uncertain which rays there are.
+// Sets the next ray at a surface of glass. If the path splits, the reflected ray waits, unless
+// max_level cuts it off. Returns false if it is uncertain which rays leave.
 static inline bool decide_refraction(const Tracer *tracer, const UncertainSurface *surface,
                                      ConePath *path)
 {

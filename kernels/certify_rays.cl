@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds the rays whose hits cannot have been changed by rounding. A ray cone (certify_cone.cl)
-// contains the caller's ray and the rounded ray that rays.cl traces. The kernel is compiled after
-// render.cl with CLRT_FP64, and only if requested.
+// Finds the rays whose hits do not depend on rounding. A ray cone (certify_cone.cl) contains the
+// caller's ray and the rounded ray that rays.cl traces. The kernel is compiled after render.cl with
+// CLRT_FP64, and only if requested.
 #include "certify_search.cl"
 
 // Returns the distance between a ray's start and its own sphere, or 0 if it has no own sphere.
@@ -13,7 +13,8 @@ static inline Real sphere_offset(const Tracer *tracer, Real3 origin, uint own)
     return fabs(length_of(difference(origin, sphere.center)) - sphere.radius);
 }
 
-// The host has rounded each component of the direction, with a relative error of at most 2^-24.
+// Returns the cone of a caller's ray. The host has rounded each component of its direction, with a
+// relative error of at most 2^-24.
 static inline RayCone given_cone(const Tracer *tracer, global const RayData *data, uint kind)
 {
     const Real3 origin = load3(data->origin), along = unit_vector(load3(data->direction));
@@ -31,8 +32,9 @@ static inline RayCone given_cone(const Tracer *tracer, global const RayData *dat
     return cone;
 }
 
-// Returns whether rounding cannot change the ray's hit, and stores the hit's id. A ray is uncertain
-// if it ends within rounding of a hit, or if its kind is RAY_CAMERA and data->own is a sphere.
+// Returns whether the ray's hit is certain, which means that rounding cannot change it. Stores the
+// hit's id. The hit is uncertain if the ray ends within rounding of it, or if `kind` is RAY_CAMERA
+// and data->own is a sphere.
 static inline bool certify_ray(const Tracer *tracer, global const RayData *data, uint kind,
                                uint *id)
 {
@@ -52,8 +54,8 @@ static inline bool certify_ray(const Tracer *tracer, global const RayData *data,
            (nearest.id == NOTHING || end == INFINITY || nearest.high < end - doubt);
 }
 
-// Stores the result for ray i in hits[i]. If it is certain, t is 0, and id is the primitive that
-// the ray hits, or NOTHING. If it is uncertain, t is INFINITY. The arguments are as for trace_rays.
+// Stores the result for ray i in hits[i]. For a certain hit, t is 0, and id is the primitive that
+// the ray hits, or NOTHING. For an uncertain hit, t is INFINITY. trace_rays has the same arguments.
 kernel void certify_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
                          global HitData *hits)
 {

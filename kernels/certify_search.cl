@@ -3,10 +3,11 @@
 // answers can be uncertain. The search follows only the cone's axis, through boxes that have grown
 // to cover the cone.
 //
-// A box grows by the cone's radius at its farthest corner, and by 140u of this corner's distance.
-// The 140u cover the rest of the blur, 18u, and errors of the distance, 70u + 25u (B12). For rays
-// that leave a surface, boxes also grow by behind_of, because rounding may put a hit behind the
-// origin. The axis then enters a box before any possible hit of a triangle in it.
+// A box grows by the cone's radius at the box's farthest corner, and by 140u of this corner's
+// distance. The 140u cover the rest of the blur, 18u, and the errors of the distance, 70u + 25u
+// (B12). For rays that leave a surface, boxes also grow by behind_of, because rounding may put a
+// hit behind the origin. With this growth, the axis enters a box before any possible hit of a
+// triangle in the box.
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL
 #include "certify_sphere.cl"
@@ -113,7 +114,7 @@ static inline Real child_entry(const ConeSearch *search, global const BvhPair *n
 }
 
 // Returns box_entry for the triangle's own box, which is tested before the triangle. The search's
-// result therefore does not depend on the boxes of the tree, and every tree gives the same result.
+// result therefore does not depend on the tree.
 static inline Real triangle_entry(const ConeSearch *search, global const TriangleData *triangle,
                                   Real reach)
 {

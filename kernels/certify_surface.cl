@@ -20,8 +20,8 @@ typedef struct {
     Real area;        // lower bound of twice the triangle's area
 } UncertainSurface;
 
-// Bounds the error of a unit vector. The vector that it is computed from has this length, and an
-// error of at most `doubt`.
+// Bounds the error of a unit vector that is computed from a vector of this length, whose error is
+// at most `doubt`.
 static inline Real turn_of(Real doubt, Real length)
 {
     return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
@@ -152,11 +152,11 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 }
 
 // Returns the start of a ray that leaves in a direction known within `doubt`. Near an edge, the
-// ray's line may miss its own triangle. The edge is then nearer than the errors of the point (11u
-// per axis) and of the corners (14u of their distance), divided by the sine of the ray's angle to
-// the face. The tracer ignores edges if room / edge, a lower bound of their distance from the
-// point, exceeds 64u / sine. Otherwise, it may move the start by up to 256u / sine along the
-// surface, on each axis (B14).
+// ray's line may miss the triangle that the ray leaves. The point's distance from the edge is then
+// at most the sum of two errors, divided by the sine of the ray's angle to the face: 11u per axis
+// for the point, and 14u of the distance for the corners. The tracer ignores edges if room / edge,
+// a lower bound of their distance from the point, exceeds 64u / sine. Otherwise, it may move the
+// start by up to 256u / sine along the surface, on each axis (B14).
 //
 // A reflected ray is lifted only if its line misses the triangle from the last start. This start is
 // 256u / sine from the point toward the triangle's middle, or the middle if that is nearer. As a
@@ -233,10 +233,10 @@ static inline Answer certify_facing(const UncertainSurface *surface, const RayCo
 }
 
 // Returns the cone of a ray that leaves the surface in a direction known within `doubt`. As in
-// ray_leaving, a ray that would enter the face is mirrored out at the face. The mirrored and the
-// unmirrored direction are equal if the ray lies in the face's plane. Near this plane, either may
-// apply, and their difference is added to the doubt. A sphere's face is parallel to its normal, so
-// its rays are never mirrored out.
+// ray_leaving, a ray that would enter the face is mirrored at the face. The mirrored and the
+// unmirrored direction are equal if the ray lies in the face's plane. Near this plane, the tracer
+// may use either, so their difference is added to the doubt. A sphere's face is parallel to its
+// normal, so its rays are never mirrored.
 static inline RayCone leaving_cone(const UncertainSurface *surface, Real3 direction, Real doubt,
                                    Real tracer_u)
 {

@@ -3,10 +3,10 @@
 // hit has bounds on its depth.
 //
 // The triangle is projected into the frame of the cone's axis. The blur of a corner bounds the
-// distance between its positions as seen along the axis and along any ray of the cone, including
-// the tracer's rounding. If the axis passes all edges by more than the blur, all rays of the cone
-// pass each edge on the same side. A hit near the ray's start also depends on the side of the
-// triangle's plane on which the start lies (side_of).
+// distance between its projections along the axis and along any ray of the cone, including the
+// tracer's rounding. If the axis passes all edges by more than the blur, all rays of the cone pass
+// each edge on the same side. A hit near the ray's start also depends on the side of the triangle's
+// plane on which the start lies (side_of).
 #ifndef CLRT_CERTIFY_TRIANGLE_CL
 #define CLRT_CERTIFY_TRIANGLE_CL
 #include "certify_cone.cl"
@@ -19,7 +19,7 @@ typedef struct {
     Real low, high;
 } Candidate;
 
-// The triangle in the ray's frame.
+// A triangle in the ray's frame.
 typedef struct {
     Corners corners;
     Edges edges; // across the ray; the determinant is twice the area, positive if the front is seen
@@ -39,8 +39,8 @@ static inline bool corners_pass(const Corners *c, Real blur)
            min(min(c->a.y, c->b.y), c->c.y) > blur || max(max(c->a.y, c->b.y), c->c.y) < -blur;
 }
 
-// Returns whether the axis passes the edge from p to q by more than the blur. `edge` is the edge
-// function.
+// Returns whether the axis passes the edge from p to q by more than the blur. `edge` is the value
+// of the edge function.
 static inline bool edge_is_clear(Real3 p, Real3 q, Real edge, Real blur)
 {
     const Real x = q.x - p.x, y = q.y - p.y;
@@ -98,8 +98,8 @@ static inline Real slope_of(const ProjectedTriangle *projected)
 // depth is between the depths of the corners. For a broad triangle, the plane's slope also limits
 // the difference between this depth and the depth at which the axis crosses the plane. A broad
 // triangle is more than 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the
-// plane by less than half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this. 26 u of
-// the size cover the rounding of the distance (B11).
+// plane by less than half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this. The term
+// of 26 u times the size covers the rounding of the distance (B11).
 static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 {
     const Corners *c = &projected->corners;
@@ -124,9 +124,9 @@ static inline Real margin_of(const ProjectedTriangle *projected, Real u)
 // Returns the side of a triangle's plane on which a point certainly is: 1 in front, -1 behind, or 0
 // if unknown. A nonzero result agrees with real arithmetic and with height_over. With the n and E
 // of B6, the error of height_over is below 12u (n.|apart| + E |apart|). The threshold of
-// height_over is at most 16u n.|point| + 8u (n.|apart| + E |apart|). Both are below u * rounding,
-// so this bound is doubled. It then also covers is_before_face (shade.cl), whose unit vector adds
-// an error of 4u n.|apart|.
+// height_over is at most 16u n.|point| + 8u (n.|apart| + E |apart|). Each is below u * rounding, so
+// twice this bound covers both. It also covers is_before_face (shade.cl), whose unit vector adds an
+// error of 4u n.|apart|.
 static inline int side_of(const Corners *corners, const UncertainPoint *uncertain, Real u)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -148,7 +148,7 @@ static inline int side_of(const Corners *corners, const UncertainPoint *uncertai
 }
 
 // Bounds search_behind: rounding may put a ray's start this far beyond a triangle that stops the
-// ray. A direction is at most sqrt(3) times as long as its longest component (B12).
+// ray. A direction is at most sqrt(3) times as long as its largest component (B12).
 static inline Real behind_of(const RayCone *ray)
 {
     if (ray->kind == RAY_CAMERA)
@@ -168,7 +168,7 @@ static inline Candidate reflected_candidate(const RayCone *ray, const ProjectedT
     Candidate candidate = depth_of(projected, ray->u);
     const Real margin = margin_of(projected, ray->u);
     const bool front = projected->edges.determinant > 0.0f;
-    const bool before = front ? side > 0 : side < 0; // the ray approaches the plane
+    const bool before = front ? side > 0 : side < 0; // the start is before the plane
     const bool behind = front ? side < 0 : side > 0;
     if (candidate.high < -margin - behind_of(ray) || (projected->faces && behind))
         return candidate_none();
@@ -199,8 +199,8 @@ static inline Candidate camera_candidate(const RayCone *ray, const ProjectedTria
     return candidate;
 }
 
-// Returns the triangle as a candidate that blocks a shadow ray. A triangle does not block the ray
-// if both ends of the ray are on one side of its plane.
+// Returns the triangle as a candidate that blocks a shadow ray. It does not block the ray if both
+// ends of the ray are on one side of the triangle's plane.
 static inline Candidate shadow_candidate(const RayCone *ray, const ProjectedTriangle *projected,
                                          int side, int light_side)
 {
@@ -237,8 +237,8 @@ static inline Candidate triangle_candidate(const RayCone *ray, global const Tria
 }
 
 // The following functions handle coincident triangles, which have the same stored corners
-// (shared.h). A ray hits both at the same distance, bit for bit, and the lower id wins. A ray that
-// leaves one of them starts in the plane of the other, and does not hit it.
+// (shared.h). A ray hits coincident triangles at the same distance, bit for bit, and the lower id
+// wins. A ray that leaves one of them starts in the plane of the other, and does not hit it.
 static inline bool is_same_corner(global const float *a, global const float *b)
 {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Computes the color of a checkered surface. Cubes fill the scene, and a cube is odd if the sum of
-// its three indices is odd. A triangle shows the cube behind it, seen from the ray, and a sphere
+// its three indices is odd. A triangle shows the cube on the side away from the ray, and a sphere
 // shows the cube inside it. A solid then looks as if it were cut out of a block of cubes.
 //
 // Floors often lie in a plane between cubes, where rounding would choose the cube of each pixel.
 // Two rules prevent this (docs/numerics.md, B19):
-//  - Each coordinate moves by CHECK_MOVE behind the surface. On axes that are parallel to the
-//    surface, it moves to the greater coordinate. The edge between two checks of a floor therefore
+//  - Each coordinate of the point moves a little behind the surface. On axes that are parallel to
+//    the surface, the coordinate increases. The edge between two checks of a floor therefore
 //    belongs to one of them.
 //  - If all corners of a triangle have the same coordinate, all its points have this coordinate.
 #ifndef CLRT_CHECKER_CL
 #define CLRT_CHECKER_CL
 #include "surface.cl"
 
-// The move, as a fraction of 1 plus the number of cubes in a normalized unit.
+// The move in cubes, divided by 1 plus the number of cubes in a normalized unit.
 #define CHECK_MOVE 0x1p-19f
 
-// A surface is parallel to an axis if its unit normal has at most this component.
+// A surface counts as parallel to an axis if its unit normal has at most this component on the
+// axis.
 #define CHECK_PARALLEL 0x1p-10f
 
 // The cubes of a material. Cube i of an axis contains the places from i to i + 1, and the place of
@@ -42,15 +43,15 @@ static inline Real place_move(const Cubes *cubes)
     return CHECK_MOVE * (cubes->rate + 1.0f);
 }
 
-// Returns whether the place is in an odd cube. Only a place in cube -1 is rounded, and it stays
-// odd.
+// Returns whether the cube at the place has an odd index. The subtraction rounds only in cube -1,
+// where the result is still right.
 static inline Mask place_is_odd(Real place)
 {
     const Real pairs = 0.5f * place;
     return pairs - floor(pairs) >= 0.5f;
 }
 
-// `face` is a component of the unit normal on the side opposite to the cube.
+// `face` is a component of the unit normal that points away from the cube.
 static inline Mask axis_is_odd(const Cubes *cubes, Real shift, Real coordinate, Real face)
 {
     const Real move = place_move(cubes);
@@ -86,7 +87,7 @@ static inline Real3 checked_color(const Tracer *tracer, const Surface *surface, 
     return choose3(has_checks, choose3(check_is_odd(&cubes, surface), odd, even), plain);
 }
 
-// Returns the surface's material. The colors of vertices replace those of checks.
+// Returns the surface's material. Vertex colors replace the colors of checks.
 static inline MaterialLanes material_at(const Tracer *tracer, const Surface *surface)
 {
     MaterialLanes material = fetch_material(tracer, surface->material);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The switches that specialize a program. The kernels test most of them with a plain `if`, and the
 // optimizer removes unused features. The defaults make the general program, which renders every
-// scene. The first group describes the scene and enables counting (host/accel/flat.c).
+// scene without glass. If a scene has checkers or glass, its general program has both. The first
+// group describes the scene and enables counting (host/accel/flat.c).
 #ifndef CLRT_CONFIG_H
 #define CLRT_CONFIG_H
 
@@ -24,10 +25,10 @@
 #define CLRT_COLORS 1 // some mesh has vertex colors
 #endif
 #ifndef CLRT_CHECKERS
-#define CLRT_CHECKERS 1 // some material has a checker; general programs have it only then
+#define CLRT_CHECKERS 1 // some material has a checker
 #endif
 #ifndef CLRT_GLASS
-#define CLRT_GLASS 0 // some material is glass; general programs have it only then
+#define CLRT_GLASS 0 // some material is glass
 #endif
 #ifndef CLRT_STATISTICS
 #define CLRT_STATISTICS 0 // rays and tests are counted

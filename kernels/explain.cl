@@ -9,13 +9,13 @@ typedef struct {
     global uint *words;
 } Notes;
 
-// The records of a sample. Rays beyond the room share a spare record after the others.
+// The records of a sample. Rays beyond `room` share a spare record after the others.
 typedef struct {
     Notes head;
     uint room;     // number of records
     uint count;    // rays so far
     UInt level;    // of the last ray
-    Mask refracts; // the ray after it is refracted
+    Mask refracts; // the next ray is refracted
 } Explanation;
 
 // Returns the record of the next ray.
@@ -74,10 +74,10 @@ static inline Real size_of3(Real3 v)
 }
 
 // Returns a bound on the error of t at a sphere. The residual is |origin + t * direction -
-// center|^2 - radius^2, and equals |direction|^2 * (t - first root) * (t - second root). The nearer
-// root is therefore within the square root of |residual| / |direction|^2. The root is also within
-// twice a Newton step, which is less unless the ray grazes the sphere. The bound adds 64 units of
-// two-float rounding to the residual.
+// center|^2 - radius^2, and equals |direction|^2 * (t - first root) * (t - second root). The
+// distance of t from the nearer root is therefore at most the square root of |residual| /
+// |direction|^2. This distance is also at most twice a Newton step, which is smaller unless the ray
+// grazes the sphere. The bound adds 64 units of two-float rounding to the residual.
 static inline Real sphere_error(const Tracer *tracer, const Ray *ray, UInt index, Real t)
 {
     const Sphere sphere = fetch_sphere(tracer, index);
@@ -116,7 +116,7 @@ static inline void note_light(const Notes *notes, const Tracer *tracer, uint ind
     const Real whole = dot_product(ray.direction, ray.direction);
     light_blockers(tracer, &ray, 1, light.position, &path);
     const Hit blocker = path.blockers[0];
-    const Real rest = dot_product(ray.direction, ray.direction); // of the way after the last glass
+    const Real rest = dot_product(ray.direction, ray.direction); // after the last glass
     const Real beyond = (1.0f - blocker.t) * sqrt(rest / whole);
     const Received received = receive_light(&light, lighting, light.faces && blocker.id == NOTHING);
     note_count(notes, LIGHT_STATE,
@@ -128,8 +128,7 @@ static inline void note_light(const Notes *notes, const Tracer *tracer, uint ind
     note3(notes, LIGHT_TINT, tinted(&path, 0, real3_of(1.0f, 1.0f, 1.0f)));
 }
 
-// Records a ray of a level. Until its hit is recorded, it adds the background. Without glass, the
-// background is added last.
+// Records a ray of a level. The ray's color is the background until a hit is recorded.
 static inline Notes note_ray(Explanation *explanation, const Tracer *tracer, const Ray *ray,
                              UInt level)
 {

@@ -147,7 +147,6 @@ static inline Look fetch_look(const Tracer *tracer, const Hit *hit)
 #endif
 }
 
-// Returns the vertex normals as Corners.
 static inline Corners fetch_normals(const Tracer *tracer, UInt normals)
 {
     const Record record = record_at(tracer->normals, normals * WORDS(CornerNormals));
@@ -155,7 +154,6 @@ static inline Corners fetch_normals(const Tracer *tracer, UInt normals)
                      record_real3(&record, 8, 1)};
 }
 
-// Returns the vertex colors as Corners.
 static inline Corners fetch_colors(const Tracer *tracer, UInt colors)
 {
     const Record record = record_at(tracer->colors, colors * WORDS(CornerColors));

@@ -8,8 +8,8 @@
 #define CLRT_GLASS_CL
 #include "checker.cl"
 
-// A light behind more crossings is blocked. The limit ends loops between surfaces that rounding
-// cannot separate.
+// A light behind more surfaces of glass than this is blocked. The limit ends loops between surfaces
+// that rounding cannot separate.
 #define GLASS_CROSSINGS 64
 
 static inline Mask is_glass(const MaterialLanes *material)
@@ -30,14 +30,14 @@ static inline Real3 product3(Real3 a, Real3 b)
 
 // A ray's refraction at a surface.
 typedef struct {
-    Real ratio;       // the index of refraction on the ray's side over the other side
+    Real ratio;       // the index of refraction on the ray's side, divided by the other
     Real cosine;      // between the normal and the ray, from 0 to 1
-    Real beyond;      // between the normal and the refracted ray; 0 for total reflection
+    Real beyond;      // the cosine of the refracted ray; 0 for total reflection
     Real reflectance; // the part of the light that is reflected
 } Refraction;
 
-// Returns Fresnel's reflectance, the mean of both polarizations. Media of equal index reflect
-// nothing. Their denominators can be zero.
+// Returns Fresnel's reflectance, the mean of both polarizations. Equal indices reflect nothing, and
+// need this rule because denominators can then be zero.
 static inline Real reflectance_of(const Refraction *at)
 {
     const Real near = at->ratio * at->cosine, far = at->ratio * at->beyond;
@@ -95,7 +95,7 @@ static inline Refraction refraction_of(const Tracer *tracer, const Surface *surf
     return refraction_at(ratio, dot_product(normal_before(surface), surface->toward_viewer));
 }
 
-// Returns the surface as rays see it that leave to its other side.
+// Returns the surface as seen by rays that leave to the other side.
 static inline Surface other_side(const Surface *surface)
 {
     Surface other = *surface;
@@ -112,9 +112,9 @@ static inline Ray ray_refracted(const Tracer *tracer, const Surface *surface, co
     return ray_leaving(tracer, &beyond, direction, active);
 }
 
-// The light that reaches surfaces along shadow rays.
+// The results of following shadow rays to a light.
 typedef struct {
-    Hit blockers[PACKETS]; // what blocks the light; without glass, any of several blockers
+    Hit blockers[PACKETS]; // primitives that block the light; without glass, any of several
 #if CLRT_GLASS
     Real3 place;          // of the light
     Real3 tints[PACKETS]; // products of the colors of the glass
@@ -134,8 +134,8 @@ static inline Ray ray_onward(const Tracer *tracer, const Surface *surface, Real3
                  active};
 }
 
-// Takes the color of the glass that blocks the rays of a packet, and continues these rays. Returns
-// whether any ray continues.
+// Multiplies the tints of a packet's rays by the color of the glass that blocks them, and continues
+// these rays. Returns whether any ray continues.
 static inline bool cross_glass(const Tracer *tracer, Ray *ray, LightPath *light, uint number)
 {
     const Mask met = ray->active && light->blockers[number].id != NOTHING;
@@ -189,7 +189,7 @@ static inline void light_blockers(const Tracer *tracer, Ray *rays, uint count, R
     follow_light(tracer, rays, count, light);
 }
 
-// Returns a light's color behind the glass.
+// Returns a light's color after the glass has tinted it.
 static inline Real3 tinted(const LightPath *light, uint number, Real3 color)
 {
     return product3(light->tints[number], color);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds the nearest hit of a ray, or any primitive that blocks a shadow ray. All spheres are tested
-// first. Triangles are then searched as the program's nodes require (pair.cl or regroup.cl).
+// first. The program's kind of nodes then selects the search for triangles (pair.cl or regroup.cl).
 //
 // Invariant: the primitive with the smallest pair (distance, id) is hit. order.cl compares the
 // distances of triangles. The hit does not depend on the tree or on the other rays.
@@ -10,9 +10,9 @@
 #include "regroup.cl"
 #include "sphere.cl"
 
-// Returns the distance to the sphere on which the ray starts. Only a reflected or refracted ray can
-// hit this sphere again, and only from inside. With glass, a shadow ray can, too. Its direction
-// must first be scaled to length 1, as sphere_chord requires.
+// Returns the distance to the sphere on which the ray starts. A reflected or refracted ray can hit
+// this sphere again from inside. With glass, a shadow ray can, too. The shadow ray's direction is
+// first scaled to length 1, as sphere_chord requires.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
 {
     const bool is_path = plain_kind(ray->kind) == RAY_REFLECTED;
@@ -79,8 +79,9 @@ static inline Mask meet_spheres(const Tracer *tracer, const Ray *ray, Hit *hit)
     return is_searchable(ray);
 }
 
-// Finds the hits of `count` packets, at most PACKETS. blocking_hits repeats the loop: with a shared
-// one, PoCL 6.0 aborts when it compiles some fp64 kernels (LLVM 19: "did not reach a fixpoint").
+// Finds the nearest hits of `count` packets, at most PACKETS. blocking_hits repeats the loop: with
+// a shared loop, PoCL 6.0 aborts when it compiles some fp64 kernels (LLVM 19: "did not reach a
+// fixpoint").
 static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
     Mask searching[PACKETS];

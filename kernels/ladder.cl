@@ -5,7 +5,7 @@
 // A pixel's samples are points of Sobol's two-dimensional sequence ("On the distribution of points
 // in a cube and the approximate evaluation of integrals", 1967). If a pixel is divided into 2^k
 // equal rectangles whose sides are powers of two, each rectangle holds one of the first 2^k points.
-// The new samples of a higher rung therefore lie in the gaps between the earlier samples.
+// Further samples therefore lie in the gaps between earlier ones.
 //
 // Owen's scrambling keeps this property ("Randomly permuted (t,m,s)-nets and (t,s)-sequences",
 // 1995). Its random numbers are hashes of the pixel. If one random number per pixel were XORed with
@@ -20,7 +20,7 @@
 // LADDER_GRID samples fits into 64 bits.
 #define SQUARED_BITS 24
 
-// The samples of a packet: pixels, and positions within them in halves of a sub-pixel.
+// The samples of a packet: their pixels, and positions within these pixels in half sub-pixels.
 typedef struct {
     UInt pixel_x, pixel_y, x, y;
     Mask active;
@@ -62,7 +62,8 @@ static inline UInt reversed(UInt bits)
 }
 
 // Returns the bits of a point's y in reverse order; the reversed bits of x are `point` itself. Bit
-// i is the sum modulo 2 of the bits k of `point` whose binomial coefficient, k over i, is odd.
+// i is the sum modulo 2 of the bits k of `point` for which the binomial coefficient "k choose i" is
+// odd.
 static inline UInt sobol_y(UInt point)
 {
     point ^= point >> 1 & 0x5555;
@@ -154,7 +155,8 @@ static inline void store_sums(global PixelSums *sums, Real3 color, uint samples,
     }
 }
 
-// `start` is a packet's first of the work-item's `count` samples. A request has `samples` samples.
+// A packet's place: its first sample is number `start` of the work-item's `count` samples. A
+// request has `samples` samples.
 typedef struct {
     uint samples, start, count;
 } Span;
@@ -179,8 +181,8 @@ static inline void add_packet(global PixelSums *sums, PixelSums *sum, Real3 colo
 
 // Stores the sums of the requests `first` to `end` - 1 at the same indices of `sums`. All requests
 // have the same number of samples. A work-item serves requests for ITEM_SAMPLES samples in total,
-// or one larger request. If statistics are compiled in, the work-item stores its tally at the
-// index of its first request.
+// or one larger request. With CLRT_TALLIES, the work-item stores its tally at the index of its
+// first request.
 kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
                          uint end, global PixelSums *sums, global uint *tallies)
 {

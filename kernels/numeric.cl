@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The arithmetic of the tracer: vectors, powers, logarithms and exponentials. OpenCL's own
-// functions for these may differ in their last bits between devices.
+// The arithmetic of the tracer: vectors, powers, logarithms and exponentials. OpenCL's own powers,
+// logarithms and exponentials may differ in their last bits between devices.
 //
 // Invariant: contraction is off, and every fma is explicit. A picture depends only on + - * / sqrt
 // fma rint, conversions, comparisons and integers. Every device that rounds these correctly
@@ -9,8 +9,8 @@
 #define CLRT_NUMERIC_CL
 #include "lanes.cl"
 
-// This inclusion defines the triangle test for Real. The one below defines it for one ray against
-// the eight triangles of a block. Both compile the same files, so their results are equal.
+// This inclusion defines the triangle test for Real. The second inclusion defines it for one ray
+// against the eight triangles of a block. Both compile the same files, so their results are equal.
 #include "triangle.inc.cl"
 
 // The types named Wide... have a lane for each of the WIDE triangles of a block.

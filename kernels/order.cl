@@ -2,11 +2,11 @@
 // Orders triangles that a ray hits at almost equal distances. t has an error, so t alone could
 // order two triangles wrongly. A ray could then hit the farther one and leave a closed surface.
 //
-// The edge tests decide exactly about the sheared corners (triangle.inc.cl), and neighbors share
-// these corners. For a ray, all triangles therefore form one surface: the stored surface, with each
-// corner moved by the rounding of the shear. A Nearness is the distance to this surface with twice
-// the bits of t. docs/numerics.md proves that rays then stay inside closed surfaces, except for one
-// step that is only measured.
+// The edge tests are exact for the sheared corners (triangle.inc.cl), which neighbors share. For a
+// ray, all triangles therefore form one surface: the stored surface, with each corner moved by the
+// rounding of the shear. A Nearness is the distance to this surface with twice the bits of t.
+// docs/numerics.md proves that rays then stay inside closed surfaces, except for one step that is
+// only measured.
 //
 // Invariant: a Nearness depends only on the ray and on the triangle's corners, and not on the order
 // of the tests.
@@ -158,7 +158,7 @@ static inline Mask is_nearer(const Nearness *a, const Nearness *b, Mask else_nea
     return a->t.high < b->t.high || (same_high && a->t.low < b->t.low) || (same_t && by_lowest);
 }
 
-// Returns whether the ray hits the triangle beyond its own triangle, by their nearnesses.
+// Returns whether the triangle is beyond the ray's own triangle, by nearness.
 static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index)
 {
     const Mask known = ray->own_index != NOTHING;
@@ -170,7 +170,8 @@ static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index
 // Returns whether a triangle precedes the best hit, in the given lanes. In these lanes, the best
 // hit must also be a triangle. If the nearnesses are equal, both triangles get the lesser t,
 // because their own t differ by rounding. The id then decides only which triangle is hit. On GPUs,
-// storing the common nearness as t would take 15 more registers, and a separate equality test 9.
+// storing the common nearness as t would take 15 more registers, and a separate test for equality
+// would take 9.
 static NOT_INLINE Mask triangle_is_nearer(const Search *search, Hit *triangle, Hit *best,
                                           Mask lanes)
 {

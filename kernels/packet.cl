@@ -70,8 +70,8 @@ static ALWAYS_INLINE Corners corners_from(const BlockPlace *at, const BlockRows 
                      corner_from(at, 2, packet)};
 }
 
-// Returns the bits of `near` for triangles through which the line of a ray in `lanes` passes. All
-// rays must have the same axes. The loop has no branches.
+// Returns the bits of the triangles in `near` that the line of any ray in `lanes` passes through.
+// All rays must have the same axes. The loop has no branches.
 static ALWAYS_INLINE uint triangles_entered(const BlockPlace *start, const BlockRows *rows,
                                             const Packet *packet, Mask lanes, uint near)
 {

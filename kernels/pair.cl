@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The simplest search, for GPUs and for fp64. One ray traverses the binary tree depth first, and
-// enters the nearer child first. A stack holds the children that are still to be entered, with
-// their distances.
+// The simplest search, for GPUs, for fp64 and for small pictures. One ray traverses the binary tree
+// depth first, and enters the nearer child first. A stack holds the pending children with their
+// distances.
 //
 // Invariant: a child is skipped only if the ray misses its box, or enters it beyond search_reach.
 // Both tests are conservative (search.cl), so the hit is the same as without a tree.
@@ -54,7 +54,8 @@ static inline Real3 corner_relative(global const float *corner, const Search *se
                     corner[search->axes.z] + search->backward.z);
 }
 
-// Tests range.y triangles from range.x on. Stops at the first hit if any hit ends the ray.
+// Tests range.y triangles, starting at index range.x. Stops at the first hit if any hit ends the
+// ray.
 static inline void intersect_range(const Search *search, uint2 range, Hit *best)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {
@@ -150,7 +151,8 @@ static inline bool pop_place(global const Node *nodes, Real reach, const PairSta
     return false;
 }
 
-// Enters those children of the node whose boxes the ray enters before `reach`.
+// Enters the children whose boxes the ray enters before `reach`. Returns the same as
+// enter_children.
 static inline bool descend(const Search *search, Real reach, PairStack *stack, PairPlace *place)
 {
     const Tracer *tracer = search->tracer;

@@ -42,7 +42,7 @@ typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
     uint triangle_tests, box_tests, sphere_tests;
 #if CLRT_GLASS
-    ulong cut; // the sum of TALLY_CUT
+    ulong cut; // stored as TALLY_CUT and TALLY_CUT_HIGH
 #endif
 #if CLRT_SIGNATURES
     UInt signatures[PACKETS]; // hashes of the surfaces hit and the lights that reach them

@@ -66,7 +66,7 @@ enum {
     RAY_WORDS
 };
 
-// Rays in consecutive lanes.
+// Rays, stored word by word in consecutive lanes.
 typedef struct {
     uint words[RAY_WORDS][(PACKETS + 1) * CLRT_LANES];
     uint count;
@@ -197,7 +197,6 @@ typedef struct {
     bool alone;
 } RayGroup;
 
-// Finds the hits of a group's rays.
 static NOT_INLINE void search_group(const Tracer *tracer, const Ray *rays, const RayGroup *group,
                                     Hit *hits)
 {

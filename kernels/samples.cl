@@ -16,7 +16,7 @@ static inline void store_sample(global SampleData *sample, const Real3 *color, U
 // Samples per work-item.
 #define ITEM_SAMPLES (BLOCK * BLOCK)
 
-// Returns the places of a packet, from index `start` of the list on.
+// Returns a packet's places, which start at index `start` of the list.
 static inline Places places_listed(global const uint *places, uint start, uint end)
 {
     const UInt number = start + LANE_Y * PACKET_WIDTH + LANE_X;
@@ -27,8 +27,8 @@ static inline Places places_listed(global const uint *places, uint start, uint e
 
 // Traces rays through the places `first` to `end` - 1, and stores the results at the same indices
 // of `samples`. A place consists of the coordinates x and y in sub-pixels. If x is NOTHING, the
-// place has no ray. A work-item takes ITEM_SAMPLES consecutive places. If statistics are compiled
-// in, a tally is stored at the first place of each beam.
+// place has no ray. A work-item takes ITEM_SAMPLES consecutive places. With CLRT_TALLIES, a tally
+// is stored at the first place of each beam.
 kernel void trace_samples(TRACER_ARGUMENTS, global const uint *places, uint first, uint end,
                           global SampleData *samples, global uint *tallies)
 {

@@ -34,27 +34,29 @@ typedef uint64_t ulong;
 // docs/numerics.md), and the slab arithmetic adds 4 (B9). If division is only accurate to 2.5 ulp,
 // these become 34 and 8.
 //
-// The error of a hit's distance puts it up to 54 units behind the ray's start, and search_behind
-// allows 256 units of the origin. A box there has the origin's coordinates. Both move, so each
-// needs only 128 of the 256 units. The sum is at most 34 + 8 + 54 + 128 = 224. search_reach
-// (search.cl) covers hits beyond the best one. In measurements, doubling the slack costs no time.
+// The error of a hit's distance can put the hit up to 54 units behind the ray's start, and
+// search_behind allows 256 more. A box at the start has the origin's coordinates. The box and the
+// origin both move, so each needs only 128 of the 256 units. The sum is at most 34 + 8 + 54 + 128 =
+// 224. search_reach (search.cl) covers hits beyond the best one. In measurements, doubling the
+// slack costs no time.
 #define BVH_SLACK 0x1p-16f
 
 // The margin of the box around all primitives, as a fraction of its largest coordinate. Kernels add
-// the same fraction of the box's largest coordinate relative to the eye. Rays outside hit nothing
-// (docs/numerics.md, B17).
+// the same fraction of the box's largest coordinate relative to the eye. Rays that miss the
+// enlarged box hit nothing (docs/numerics.md, B17).
 #define SKY_SLACK 0x1p-12f
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG, SHADER_GLASS } Shader;
 
-// The most rays in a path of a scene with glass. A path's stack has a slot for each (branches.cl).
+// The most levels of a path in a scene with glass. A path's stack has a slot for each level
+// (branches.cl).
 #define GLASS_LEVELS 16
 
 // Color seen = (1 - reflectivity) * clamp(shaded) + reflectivity * reflected. With a checker, cubes
 // fill the scene, and checks[0] or checks[1] replaces the diffuse color in even or odd cubes. The
 // cube of a normalized point p is floor(check_rate * p + check_shift) on each axis. The host sets
-// check_rate and check_shift for the device (host/scene/normalize.c). Glass has the reflectivity 1,
-// and uses only the diffuse color, which refracted light takes, and the index of refraction.
+// check_rate and check_shift for the device (host/scene/normalize.c). Glass has the reflectivity 1.
+// It uses only the index of refraction and the diffuse color, which tints refracted light.
 typedef struct {
     float diffuse[3];
     float kd;
@@ -198,7 +200,7 @@ typedef struct {
     float ambient;
     uint width, height; // of the whole picture, in pixels
     uint samples;       // per pixel and axis
-    uint max_level;     // the most rays in a path; further rays return the background
+    uint max_level;     // the most levels of a path; further rays return the background
     uint tile_x, tile_y, tile_width, tile_height;
     uint light_count, sphere_count, triangle_count;
     uint uses_bvh;         // 0: every triangle is tested
@@ -281,7 +283,7 @@ typedef struct {
     uint primitive;  // id
     uint material;   // index
     uint lights;     // number of lights that reach the point
-    uint bounces;    // number of reflected rays after the hit
+    uint bounces;    // levels of reflected or refracted rays after the hit
     uint padding;
 } PathData;
 CLRT_SAME_SIZE(PathData, 48)
@@ -308,8 +310,8 @@ CLRT_SAME_SIZE(HitData, 8)
 
 // clrt explain has a record for each ray of a path, in the order in which the kernels add the rays'
 // colors. It holds LEVEL_VALUES numbers of the kernel's precision and LEVEL_WORDS words. For each
-// light, LIGHT_VALUES numbers and LIGHT_WORDS words follow. Vectors take three entries. Before the
-// records are HEAD_VALUES numbers and HEAD_WORDS words.
+// light, LIGHT_VALUES numbers and LIGHT_WORDS words follow. Vectors take three entries. HEAD_VALUES
+// numbers and HEAD_WORDS words precede the records.
 typedef enum {
     HEAD_COLOR = 0,      // of the sample, in steps of 2^-32
     HEAD_BACKGROUND = 3, // weight of the background that is added last

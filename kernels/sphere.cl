@@ -207,9 +207,9 @@ static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Re
                     two_add(on.z, sphere->center.z).high);
 }
 
-// Returns the distance to the far wall for a ray that starts on this sphere, or INFINITY. The
-// direction's length must be about 1. The near root is zero. The chord must be longer than the
-// origin's error, and than 128u times the radius.
+// Returns the distance to the far wall for a ray that starts on this sphere. The direction's length
+// must be about 1. The near root is zero. The result is INFINITY unless the chord is longer than
+// the origin's error and than 128u times the radius.
 static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;

@@ -6,8 +6,8 @@
 //
 // New rays start at the point. The side of a triangle's plane on which the point lies decides
 // whether a new ray may stop on the triangle (triangle.inc.cl). No offset is necessary, so contacts
-// and shadows stay in place. The start moves only if, seen along the new ray, the point is a
-// corner of its own triangle, or rounding has put it outside.
+// and shadows stay in place. The start moves only if the new ray's line passes through a corner of
+// its own triangle or, because of rounding, misses the triangle.
 //
 // The shading normal and the face's normal can point to opposite sides of the surface. Two rules
 // then decide which light reaches the surface and which rays leave it. The face's normal always
@@ -110,7 +110,8 @@ static inline View view_along(const Corners *corners, Real3 origin, Real3 direct
     return view;
 }
 
-// Returns the same for rays with the same axes. If z is a constant, no components are selected.
+// Returns view_along for rays that all have the axis z. If z is constant, the compiler removes the
+// selection of components.
 static inline View view_along_one(const Corners *corners, Real3 origin, Real3 direction, uint z)
 {
     const ShearAxes axes = {(UInt)((z + 1) % 3), (UInt)((z + 2) % 3), (UInt)(z)};
@@ -335,9 +336,9 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
 }
 
 // Returns the start of a ray that leaves the surface, and may lift the ray's direction. The ray's
-// line should pass through the surface's triangle. Rounding can prevent this only near edges: a
-// point with coordinates up to 1 is off by some units of rounding, and along the plane the line is
-// off by this error divided by the sine of its angle to the plane (docs/numerics.md, B14).
+// line should pass through the surface's triangle. Rounding can prevent this only near edges: the
+// point is off by some units of rounding. Along the plane, the line is off by this error divided by
+// the sine of the line's angle to the plane (docs/numerics.md, B14).
 static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Heading *heading,
                                Real sine, Mask active)
 {
@@ -349,8 +350,8 @@ static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Hea
 }
 
 // Returns the ray that leaves the surface in a direction. An interpolated normal can send a ray
-// into the surface that it leaves. This ray is mirrored at the face and leads outward again. Its
-// direction then still changes continuously with the normal.
+// into the surface that the ray leaves. Such a ray is mirrored at the face and leads outward again.
+// Its direction still changes continuously with the normal.
 static inline Ray ray_leaving(const Tracer *tracer, const Surface *surface, Real3 direction,
                               Mask active)
 {

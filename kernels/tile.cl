@@ -22,7 +22,7 @@ static inline void store_row(global float *pixels, float4 red, float4 green, flo
     vstore4((float4)(blue.z, red.w, green.w, blue.w), 2, pixels);
 }
 
-// Stores the packet and returns true if it is entirely inside the tile.
+// If the packet is entirely inside the tile, stores it and returns true.
 static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 *color,
                               global float *pixels)
 {
@@ -71,7 +71,6 @@ static inline uint2 packet_corner(uint2 beam, uint packet)
                    beam.y + packet / BEAM_COLUMNS * PACKET_HEIGHT);
 }
 
-// Renders a beam of sky.
 static NOT_INLINE void render_sky(const FrameData *frame, uint2 beam, const Output *output)
 {
     const Tally none = {0};
@@ -95,8 +94,8 @@ static NOT_INLINE void render_beam(const Tracer *tracer, uint2 beam, const Outpu
 }
 
 // Renders a tile. `pixels` receives tile_width * tile_height colors of three floats, top row first.
-// `tallies` receives TALLY_KINDS counts per pixel, if statistics are compiled in. The range of
-// work-items is padded to whole work-groups.
+// With CLRT_TALLIES, `tallies` receives TALLY_KINDS counts per pixel. The range of work-items is
+// padded to whole work-groups.
 kernel void render_tile(TRACER_ARGUMENTS, global float *pixels, global uint *tallies)
 {
     const Output output = {pixels, tallies};

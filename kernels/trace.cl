@@ -133,9 +133,9 @@ static inline bool aim_rays(const Tracer *tracer, Paths *paths)
     return any;
 }
 
-// Sets the next rays after paths_step. Returns false if all paths have ended. A loop that calls
-// this function last takes 11 fewer VGPRs on gfx1100 than a loop that calls it first, mostly
-// because shading then keeps no old rays.
+// Sets the next rays after paths_step. Returns false if all paths have ended. On gfx1100, a loop
+// that calls this function last takes 11 fewer vector registers than a loop that calls it first,
+// mostly because shading then keeps no old rays.
 static inline bool paths_continue(const Tracer *tracer, Paths *paths)
 {
     return paths->level < tracer->frame->max_level && aim_rays(tracer, paths);
@@ -199,7 +199,8 @@ static inline void path_add(Path *path, Real3 shaded)
     path->weight = path->met ? reflected : path->weight;
 }
 
-// Adds the surfaces' own colors to the paths. `shaded` receives them in lanes whose ray has hit.
+// Adds the surfaces' own colors to the paths. `shaded` receives these colors in lanes whose ray has
+// hit a surface.
 static inline void paths_shade(const Tracer *tracer, Paths *paths, Real3 shaded[PACKETS])
 {
     Lighting lighting[PACKETS];

@@ -104,8 +104,8 @@ static inline Real OVERLOAD triangle_depth_error(const Corners *s)
     return 18.0f * UNIT_ROUNDOFF * (depth + across);
 }
 
-// Returns whether rounding could decide if the hit is in front of the origin or behind it.
-// Coordinates are at most 1, so the error of the depth is at most 2^-17 (B4).
+// Returns whether rounding could decide on which side of the origin the hit is. Coordinates are at
+// most 1, so the error of the depth is at most 2^-17 (B4).
 static inline Mask OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
 {
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
@@ -130,7 +130,7 @@ static inline TriangleTest OVERLOAD triangle_test(const Corners *relative, const
     return test;
 }
 
-// The distances of rays that pass inside triangles.
+// The result of the test for rays that pass inside the edges.
 typedef struct {
     Real t;
     Mask front; // the ray comes from the triangle's stored front
@@ -141,8 +141,8 @@ typedef struct {
 
 // Returns the distances, and whether surface_ray_distance must decide. `marks` contains the
 // triangles' flags. One-sided triangles do not stop rays on their inner side. For rays that leave a
-// surface, all triangles count as near. For rays from the eye, triangles are near only if they are
-// within rounding of the eye.
+// surface, all triangles up to `reach` count as near. For rays from the eye, triangles are near
+// only if they are within rounding of the eye.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {
@@ -202,8 +202,8 @@ typedef struct {
 // wrongly stop shadow and reflected rays. The ray therefore stops only if its surface point is
 // certainly on the side of the triangle from which the ray comes. On the inner side of two-sided
 // triangles, convex neighbors also meet this condition. There, t must also be certainly positive,
-// except for rays from the eye, which is on no surface. A triangle that is closer to the light than
-// the error of t does not block the ray.
+// except for rays from the eye, which is on no surface. A triangle does not block the ray if its t
+// is within `error` of the light's.
 //
 // `in_doubt` receives the lanes whose rays may pass by mistake, because of rounding. In a valley,
 // rounding can also put the start beyond the neighbor that stops the ray.

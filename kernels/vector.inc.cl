@@ -56,7 +56,7 @@ static inline Real OVERLOAD leaving_distance(Real3 far, Real reach)
     return min(min(far.x, far.y), min(far.z, reach));
 }
 
-// Returns the component on an axis, which can differ between lanes.
+// Returns the component on an axis. Each lane has its own axis.
 static inline Real OVERLOAD component(Real3 v, UInt axis)
 {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;

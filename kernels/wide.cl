@@ -251,7 +251,7 @@ static inline void visit_nodes(LaneSearches *searches)
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
         global const BvhWide *node = &tracer->nodes[searches->child[lane]];
-        // Read early, while the other cache lines of the node are loading.
+        // The children are read while the node's other cache lines are loading.
         const uint8 children = vload8(0, node->child);
         const float reach = lane_reach(searches->search, searches->hits, lane);
         float8 entry;

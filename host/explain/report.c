@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Describes each sample as JSON. The text has a paragraph for each ray, with a line for each light.
-// It is made of templates that name fields of the JSON. Primitive ids equal the values of the --aov
-// channel "primitive", which count from 0.
+// Templates of the text name fields of the JSON. Primitive ids count from 0, as in the --aov
+// channel "primitive".
 #include "explain/report.h"
 
 #include "image/json_file.h"
@@ -69,7 +69,7 @@ static bool is_white(const double color[3])
     return color[0] == 1 && color[1] == 1 && color[2] == 1;
 }
 
-// Adds the color of the glass on the way, if it changes anything.
+// Adds the color of the glass on the way, unless it is white.
 static json_t *with_tint(json_t *json, const double tint[3])
 {
     if (!is_white(tint))

@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 #include "scene/tokens.h"
 
-// Blinn-Phong's properties have no effect on other materials, but glass does not accept them.
+// All shaders except glass accept Blinn-Phong's properties, but only Blinn-Phong uses them.
 typedef enum { USED_BY_ALL_BUT_GLASS, USED_BY_BLINN_PHONG, USED_BY_GLASS } PropertyUse;
 
 // A property of materials: `count` floats. The first is in [least, most], and all others in [0, 1].
@@ -19,7 +19,7 @@ typedef struct {
 
 #define MATERIAL_PROPERTIES 9
 
-// In the order in which scn_write writes them.
+// The properties, in the order in which scn_write writes them.
 extern const MaterialProperty material_properties[MATERIAL_PROPERTIES];
 
 // Returns whether a definition of the material may have the property.

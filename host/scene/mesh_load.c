@@ -62,7 +62,8 @@ static bool add_files(Scene *scene, const ForeignModel *model, const char *path,
     return true;
 }
 
-// Drops the mesh's colors or, if they are shown, chooses the material that shows them.
+// Drops the mesh's colors if the file's materials are ignored. If colors remain, chooses the
+// material that shows them.
 static void choose_colors(MeshObject *object, const MeshLoadOptions *options)
 {
     if (!options->takes_own_materials)
@@ -140,8 +141,8 @@ static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
 
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error)
 {
-    // This limit exceeds clrt-foreign's own limit of time, so clrt-foreign normally ends by itself
-    // and reports the reason.
+    // The time limit in clrt-foreign is shorter, so clrt-foreign normally ends by itself and
+    // reports the reason.
     static const ForeignReader assimp = {.library = "Assimp",
                                          .limits = {.seconds = 125, .bytes = (size_t)8 << 30}};
     const char *const words[FOREIGN_WORDS] = {path};

@@ -53,9 +53,9 @@ static bool stands(const Scene *scene, const BoundingBox *body, int up, int leas
     return true;
 }
 
-// Returns UP_Y or UP_Z. Returns the usual axis, unless the meshes stand only with the other axis
-// up. If z is usual, the result is y only for meshes with a flat base. Meshes with z up may by
-// chance also stand on a few points with y up.
+// Returns the usual axis, UP_Y or UP_Z, unless the meshes stand only with the other axis up. If z
+// is usual, standing with y up requires a flat base, because meshes may by chance stand on a few
+// points.
 static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 {
     const BoundingBox body = box_below(scene, 0, INFINITY, 0);
@@ -176,8 +176,8 @@ static Viewpoint view_from(const Framing *framing, Vec3 back, Vec3 up)
 }
 
 // Adds the viewpoints three-quarter, front, right, back, left and top. In each, the meshes span 80
-// % of the picture's width or height, and at most 80 % of the other side. The sphere with this
-// center and radius must contain all meshes.
+// % of the picture's width or height, and at most 80 % of the other. The sphere with this center
+// and radius must contain all meshes.
 static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},

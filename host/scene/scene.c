@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Creates scenes with the constants of the UvA course "Graphics and Game Technology", and frees
-// them. Computes a scene's hash, its first missing part and the error of a maximum level.
+// them. Combines hashes of a scene's files, finds missing objects or lights, and bounds the error
+// that max_level causes.
 #include "scene/scene.h"
 
 #include <inttypes.h>
@@ -75,8 +76,9 @@ bool scene_complete(Scene *scene, Error *error)
     return true;
 }
 
-// The points' projections onto each side are evenly spaced, so that soft shadows show no steps of
-// whole rows (Chiu, Shirley and Wang, "Multi-jittered sampling", 1994).
+// The points' projections onto each side are evenly spaced. An edge parallel to a side therefore
+// hides the points one by one, not row by row (Chiu, Shirley and Wang, "Multi-jittered sampling",
+// 1994).
 bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error)
 {
     const double cells = area->cells;
@@ -218,7 +220,7 @@ static const Material *next_used(const Scene *scene, size_t *place)
     return NULL;
 }
 
-// Returns whether a surface needs light. Silhouettes, glass and perfect mirrors need none.
+// Returns whether any surface needs light. Silhouettes, glass and perfect mirrors need none.
 static bool has_shaded(const Scene *scene)
 {
     size_t place = 0;

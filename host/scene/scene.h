@@ -93,8 +93,8 @@ bool scene_init(Scene *scene, Error *error);
 // Adds the course's six viewpoints if the scene has no viewpoint.
 bool scene_complete(Scene *scene, Error *error);
 
-// Replaces the light by point lights in the cells of the area, one in each, and adds these to the
-// scene. Together they have the light's intensity.
+// Adds a point light in each cell of the area to the scene. Together, the point lights have the
+// intensity of `light`, which is not added itself.
 bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error);
 
 // Combine a hash of the bytes with scene->hash. scene_hash_mesh also combines it with
@@ -140,14 +140,16 @@ typedef struct {
 // Returns the first missing part: objects to render, or lights for surfaces that need them.
 MissingPart scene_missing(const Scene *scene);
 
-// A ray's weight is the product of the reflectivities on its path. Colors are at
-// most 1, so a maximum level causes an error of at most the weight of a ray of that level.
+// A ray's weight is the product of the reflectivities on its path. Colors are at most 1, so the
+// error that max_level causes is at most the weight of a ray of this level.
 
 // Returns an upper bound on the error of every color if rays of max_level return the background.
 double truncation_bound(const Scene *scene, uint32_t max_level);
 
-// Returns the largest max_level that pictures of the scene can have. Higher numbers count as this.
+// Returns the largest max_level that pictures of the scene can have. Higher values are reduced to
+// it.
 uint32_t scene_level_limit(const Scene *scene);
 
-// Returns the smallest max_level, up to the limit, whose truncation_bound is at most bound.
+// Returns the smallest max_level whose truncation_bound is at most bound, or the limit if it is
+// less.
 uint32_t truncation_level(const Scene *scene, double bound);

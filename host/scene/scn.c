@@ -45,7 +45,7 @@ static bool read_color(Tokens *tokens, Vec3 *color)
            tokens_number_within(tokens, &color->z, 0, 1);
 }
 
-// Reads a light up to its color. The position of a sun is a vector toward it.
+// Reads a light or sun up to its color. A sun's position is a vector toward the sun.
 static bool read_light_or_sun(Tokens *tokens, Light *light)
 {
     double position[3];
@@ -283,8 +283,8 @@ static bool read_statements(Parser *parser)
            tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
 }
 
-// Parses the text of a scene file. The caller has set the parser's scene, mesh.parse and error.
-// Frees the scene on failure.
+// Parses the text of a scene file. The parser's scene, mesh.parse and error must be set. Frees the
+// scene on failure.
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
@@ -308,7 +308,7 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
     return parse(&parser, text, size, name);
 }
 
-// Frees a parsed scene if a later step has failed. Returns ok.
+// Frees the parsed scene unless ok is true. Returns ok.
 static bool keep(Scene *scene, bool ok)
 {
     if (!ok)

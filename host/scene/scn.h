@@ -6,7 +6,7 @@
 #include "scene/mesh_scene.h"
 
 // Parses the `size` bytes of a scene file. Mesh paths are relative to the folder of the file
-// `name`. Returns false at the first error, with "name:line:column: ..." if the text is wrong.
+// `name`. Returns false at the first error. Messages about the text begin with name:line:column.
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error);
 
 // Loads a scene file or a lone mesh file (mesh_scene.h).

@@ -109,8 +109,9 @@ static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
     return vec3_add(vec3_add(vec3_scale(v, cosine), across), along);
 }
 
-// Returns a factor for all normals of a mesh. It prevents overflow, because a rotation can make a
-// component sqrt(3) times as large. One common factor keeps the ratios of the normals' lengths.
+// Returns a factor for all normals of a mesh. The factor prevents overflow, because a rotation can
+// make a component sqrt(3) times as large. One common factor keeps the ratios of the normals'
+// lengths.
 static double normal_scale(const Mesh *mesh)
 {
     for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; i++)

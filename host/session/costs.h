@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Measured costs. A session uses them to choose kernels, and the window uses them to choose its
-// first resolution. Costs of other machines would change a picture's time, but never the picture.
+// first resolution. Wrong costs would change a picture's time, but never the picture.
 //
 // Each comment ends with the command that measures the cost again. "Trace" is the member
 // seconds.trace of --json. Commands that compile need an empty cache, for example
@@ -19,8 +19,8 @@
 #define COMPILE_SECONDS 1.5
 
 // The fraction of tracing time that specialization saves (0 to 7 % with packets).
-// Measure: trace of `clrt SCENE --tune specialize=always --repeat 9 --json`, divided by the trace
-// with specialize=never.
+// Measure: 1 - trace of `clrt SCENE --tune specialize=always --repeat 9 --json` / trace with
+// specialize=never.
 #define SPECIALIZED_SAVES 0.03
 
 // The rays that one core traces per second in a medium scene, and the rays of one sample.
@@ -41,8 +41,8 @@
 #define QUICK_TRIANGLES  20000
 #define SAVED_PER_SAMPLE 0.3e-6
 
-// The fraction of a time limit that the quick kernels lose, because they take at most half as many
-// samples in that time.
+// The fraction of a time limit that is lost with quick kernels, which trace at most half as many
+// samples in this time.
 // Measure: 1 - samples.total of `clrt SCENE --time 1 --tune kernel=pair --json` / samples.total
 // with kernel=packet.
 #define LOST_OF_LIMIT 0.5

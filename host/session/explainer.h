@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One sample of a picture -> its rays in scene coordinates, with their hits and the state of each
-// light.
-// A separate kernel traces the sample again with the functions that drew the picture (trace.cl).
+// light. A separate kernel traces the sample again with the functions that drew the picture
+// (trace.cl).
 #pragma once
 
 #include "session/session.h"
@@ -13,7 +13,7 @@ typedef struct {
 } ExplainedRay;
 
 // If the last ray hits a reflective surface, the surface reflects the background, because the next
-// ray would have the level max_level. Scenes with glass have records of these rays, too.
+// ray would have the level max_level. In scenes with glass, rays of this level also have records.
 typedef struct {
     ClrtExplainedSample found;  // found.size is unset
     ExplainedRay *rays;         // found.ray_count, in the order of clrt.h; owned

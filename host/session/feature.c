@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A pixel's samples are treated as a square lattice. A disk at a random place contains a point of
-// the lattice if the center is in a disk of the same size around the point. The probability is
-// therefore the part of a lattice cell that such a disk covers. Bisection finds the diameter for
-// which the mean over all pixels is PROBABILITY.
+// the lattice if the disk's center lies within a disk of the same size around the point. The
+// probability is therefore the part of a lattice cell that a disk around the cell's point covers.
+// Bisection finds the diameter for which the mean over all pixels is PROBABILITY.
 #include "session/feature.h"
 
 #include <math.h>

@@ -84,7 +84,7 @@ bool session_prepare(Session *session, const SessionPicture *request, PictureRes
     return open_renderer(session, request, &renderer, result, error);
 }
 
-// Replaces the bound on the error of max_level in scenes with glass by the root mean square of the
+// In scenes with glass, replaces the bound on the error of max_level by the root mean square of the
 // samples' cut weights. The samples so far must be spread evenly.
 static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
 {

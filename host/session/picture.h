@@ -9,7 +9,7 @@
 // The point at which refinement stops. At most one of contrast, error and seconds is above 0. If
 // all three are 0, the samples of a pixel form a square with RenderSettings::samples on each side.
 typedef struct {
-    double contrast;  // refine while neighboring samples differ more
+    double contrast;  // refine while neighboring samples differ by more than this
     double error;     // refine until the root mean square error is this small
     double seconds;   // refine for this time
     double truncated; // bound on the error that RenderSettings::max_level causes

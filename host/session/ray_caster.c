@@ -6,7 +6,7 @@
 #include "device/buffer.h"
 #include "render/certifier.h"
 
-// The rays of a launch. GPUs may need more.
+// The usual number of rays in a launch. Large GPUs need more.
 #define LAUNCH_RAYS 65536
 
 // The smallest vector width of wide kernels; the host may not know the actual width.

@@ -8,7 +8,7 @@
 typedef enum {
     RAYS_NEAREST, // kernels/rays.cl: the nearest hit, or whether there is one
     RAYS_CROSSED, // kernels/crossings.cl: the number of crossings, and the nearest ones in order
-    RAYS_CERTAIN, // kernels/certify_rays.cl: the hits that rounding cannot change; in pair nodes
+    RAYS_CERTAIN, // kernels/certify_rays.cl: the hits that rounding cannot change; needs pair nodes
     RAY_QUERIES
 } RayQuery;
 
@@ -32,7 +32,7 @@ typedef struct {
     const RayData *rays;
     size_t count;
     RayStart start;
-    bool any;      // for RAYS_NEAREST: stores any hit
+    bool any;      // for RAYS_NEAREST: any hit suffices
     uint32_t room; // for RAYS_CROSSED: hits stored for each ray; at most CROSSINGS_MAX
 } RayCast;
 

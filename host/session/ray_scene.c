@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Unless the caller sets one_sided, rays also hit one-sided triangles from behind. All meshes of
-// the compiled scene are then two-sided.
+// Unless the caller sets one_sided, all meshes of the compiled scene are two-sided, so rays also
+// hit one-sided triangles from behind.
 #include "session/ray_scene.h"
 
 #include <stdlib.h>

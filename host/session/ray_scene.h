@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The session's scene, prepared for rays of the caller. It exists twice: in device buffers that
-// kernels search, and as triangles on the host, which serve to compute the positions of hits. All
-// triangles are two-sided unless the caller requests one side.
+// kernels search, and as triangles on the host, from which callers compute the positions of hits.
+// All triangles are two-sided unless the caller sets one_sided.
 #pragma once
 
 #include "session/session.h"

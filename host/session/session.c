@@ -119,8 +119,8 @@ void session_close(Session *session)
     *session = (Session){.settings = session->settings, .cache = session->cache};
 }
 
-// Returns whether a special program lacks features other than vertex colors. Without vertex colors,
-// programs are not measurably faster.
+// Returns whether a specialized program would omit a feature other than vertex colors. Omitting
+// vertex colors saves no measurable time.
 static bool lacks_features(const SceneTraits *traits)
 {
     const SceneTraits general = traits_general(*traits);

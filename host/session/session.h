@@ -56,7 +56,7 @@ typedef struct {
 // session_take, session_save and session_close.
 void session_begin(Session *session);
 
-// The work of a run's pictures. The session chooses kernels by it.
+// The work of a run's pictures, by which the session chooses kernels.
 typedef struct {
     const KernelEntry *entry; // of the kernel that draws
     double samples;
@@ -99,7 +99,7 @@ SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Erro
 // Returns the builder that the settings request.
 BvhBuilder session_builder(const ClrtSettings *settings);
 
-// Returns the kernels that the settings request, which may be an impossible combination.
+// Returns the kernels that the settings request. The combination may be impossible.
 KernelRequest session_kernel_request(const ClrtSettings *settings);
 
 // Returns the scene in the layout of session->choice, or NULL.
