@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each call of thread_pool_run with several tasks is a generation. The pool's workers and the
-// caller's thread take task numbers from a common counter until none is left. The call returns when
-// no worker is busy.
+// caller's thread take tasks from a common counter until none is left. The call returns when all
+// tasks are finished. It does not wait for workers that wake too late for a task.
 //
 // Generations often follow each other closely, and waking a thread takes long. Idle workers
 // therefore first poll for the next generation, and then sleep.
@@ -16,13 +16,16 @@
 #define THREADS_MAX    256
 #define LOOKS_FOR_WORK 200 // polls before a thread sleeps, about 0.1 ms
 
+// The number of the generation in the upper 32 bits, and the number of its tasks that no thread has
+// taken yet. A single number, so that a late worker cannot take a task of a later generation.
+typedef uint64_t PoolState;
+
 struct ThreadPool {
     ThreadPoolWork *work;
     void *context;
     uint32_t count;
-    atomic_uint next_task;
-    atomic_uint generation;
-    atomic_uint busy; // workers that have not finished the generation
+    _Atomic PoolState state;
+    atomic_uint finished; // tasks of the generation
     atomic_bool closing;
     pthread_mutex_t mutex; // protects sleeping and waking
     pthread_cond_t wake;
@@ -30,51 +33,62 @@ struct ThreadPool {
     pthread_t workers[];
 };
 
-static void take_tasks(ThreadPool *pool)
+static uint32_t generation_of(PoolState state)
 {
-    for (;;) {
-        const uint32_t task = atomic_fetch_add(&pool->next_task, 1);
-        if (task >= pool->count)
-            return;
-        pool->work(pool->context, task);
+    return (uint32_t)(state >> 32);
+}
+
+// Runs tasks of the generation until none is left. A thread with a task may read the pool's work,
+// because thread_pool_run waits for the task.
+static void take_tasks(ThreadPool *pool, uint32_t generation)
+{
+    PoolState state = atomic_load(&pool->state);
+    while (generation_of(state) == generation && (uint32_t)state > 0) {
+        if (!atomic_compare_exchange_weak(&pool->state, &state, state - 1))
+            continue;
+        pool->work(pool->context, pool->count - (uint32_t)state);
+        atomic_fetch_add(&pool->finished, 1);
+        state = atomic_load(&pool->state);
     }
 }
 
 // Waits until the generation's number differs from `known`, and returns the new number.
 static uint32_t await_generation(ThreadPool *pool, uint32_t known)
 {
-    for (int look = 0; look < LOOKS_FOR_WORK; look++) {
-        if (atomic_load(&pool->generation) != known)
-            return known + 1;
+    uint32_t now = generation_of(atomic_load(&pool->state));
+    for (int look = 0; look < LOOKS_FOR_WORK && now == known; look++) {
         sched_yield();
+        now = generation_of(atomic_load(&pool->state));
     }
+    if (now != known)
+        return now;
     pthread_mutex_lock(&pool->mutex);
-    while (atomic_load(&pool->generation) == known)
+    while ((now = generation_of(atomic_load(&pool->state))) == known)
         pthread_cond_wait(&pool->wake, &pool->mutex);
     pthread_mutex_unlock(&pool->mutex);
-    return known + 1;
+    return now;
 }
 
 static void *run_worker(void *context)
 {
     ThreadPool *pool = context;
     uint32_t generation = 0;
-    for (;;) {
+    while (!atomic_load(&pool->closing)) {
+        take_tasks(pool, generation);
         generation = await_generation(pool, generation);
-        if (atomic_load(&pool->closing))
-            return NULL;
-        take_tasks(pool);
-        atomic_fetch_sub(&pool->busy, 1);
     }
+    return NULL;
 }
 
-static void begin_generation(ThreadPool *pool)
+// Begins a generation of `count` tasks, and returns its number.
+static uint32_t begin_generation(ThreadPool *pool, uint32_t count)
 {
-    atomic_store(&pool->busy, pool->worker_count);
+    const uint32_t generation = generation_of(atomic_load(&pool->state)) + 1;
     pthread_mutex_lock(&pool->mutex);
-    atomic_fetch_add(&pool->generation, 1);
+    atomic_store(&pool->state, (PoolState)generation << 32 | count);
     pthread_cond_broadcast(&pool->wake);
     pthread_mutex_unlock(&pool->mutex);
+    return generation;
 }
 
 ThreadPool *thread_pool_open(uint32_t threads)
@@ -100,7 +114,7 @@ void thread_pool_close(ThreadPool *pool)
     if (pool == NULL)
         return;
     atomic_store(&pool->closing, true);
-    begin_generation(pool);
+    begin_generation(pool, 0);
     for (uint32_t i = 0; i < pool->worker_count; i++)
         pthread_join(pool->workers[i], NULL);
     pthread_cond_destroy(&pool->wake);
@@ -118,10 +132,9 @@ void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, voi
     pool->work = work;
     pool->context = context;
     pool->count = count;
-    atomic_store(&pool->next_task, 0);
-    begin_generation(pool);
-    take_tasks(pool);
-    while (atomic_load(&pool->busy) > 0)
+    atomic_store(&pool->finished, 0);
+    take_tasks(pool, begin_generation(pool, count));
+    while (atomic_load(&pool->finished) < count)
         sched_yield();
 }
 
