@@ -19,7 +19,7 @@
 // REQUEST_SAMPLES samples.
 #define FIRST_SAMPLES 4
 
-static uint32_t rung_of(const Ladder *ladder, size_t pixel)
+static inline uint32_t rung_of(const Ladder *ladder, size_t pixel)
 {
     return strata_rung(ladder->strata[pixel]);
 }
@@ -38,11 +38,15 @@ static bool make_arrays(Ladder *ladder, Error *error)
     const size_t request_size = sizeof *requests->sums + sizeof *requests->requests;
     const size_t pixel_size =
         sizeof *ladder->places + sizeof *ladder->chosen + sizeof *ladder->strata;
-    ladder->memory =
-        memory_raw(REQUESTS_MOST * request_size + pixels * pixel_size, sizeof(char), error);
+    const size_t blocks = (size_t)range_count(ladder->picture->width, LADDER_BLOCK) *
+                          range_count(ladder->picture->height, LADDER_BLOCK);
+    ladder->memory = memory_raw(REQUESTS_MOST * request_size + blocks * sizeof *ladder->blocks +
+                                    pixels * pixel_size,
+                                sizeof(char), error);
     requests->sums = (PixelSums *)ladder->memory;
     requests->requests = (PixelRequest *)(requests->sums + REQUESTS_MOST);
-    ladder->places = (LadderPlace *)(requests->requests + REQUESTS_MOST);
+    ladder->blocks = (uint64_t *)(requests->requests + REQUESTS_MOST);
+    ladder->places = (LadderPlace *)(ladder->blocks + blocks);
     ladder->chosen = (uint32_t *)(ladder->places + pixels);
     ladder->strata = (uint8_t *)(ladder->chosen + pixels);
     return ladder->memory != NULL;
@@ -138,9 +142,11 @@ static double feature_of(const Ladder *ladder, uint32_t pixel)
                      : pixel_sums_variance(&ladder->sums.data[place->sums], samples) / samples;
 }
 
-// Advances the pixel by one rung. `answers` holds the sums of the pixel's requests.
-static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Error *error)
+// Advances the pixel by one rung. `first` is the index of the pixel's first request.
+static bool climb(Ladder *ladder, uint32_t pixel, uint32_t first, Error *error)
 {
+    const PixelSums *answers = &ladder->requests.sums[first];
+    const PixelRequest *request = &ladder->requests.requests[first];
     const uint32_t stratum = ladder->strata[pixel], rung = strata_rung(stratum);
     const uint32_t samples = ladder_samples[rung + 1];
     const double feature = feature_of(ladder, pixel);
@@ -155,8 +161,10 @@ static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Erro
     strata_advance(&ladder->statistics, stratum, feature, mean_square_change(before, color));
     const double variance = pixel_sums_variance(sums, samples);
     const bool is_bent = strata_is_bent(stratum, sqrt(feature));
-    ladder->strata[pixel] = (uint8_t)strata_of_deviation(rung + 1, sqrt(variance), is_bent);
-    strata_enter(&ladder->statistics, ladder->strata[pixel], 1, variance / samples);
+    const uint32_t next = strata_of_deviation(rung + 1, sqrt(variance), is_bent);
+    ladder->strata[pixel] = (uint8_t)next;
+    *ladder_block(ladder, request->x, request->y) |= ladder_stratum_bit(next);
+    strata_enter(&ladder->statistics, next, 1, variance / samples);
     return true;
 }
 
@@ -164,12 +172,12 @@ static bool climb(Ladder *ladder, uint32_t pixel, const PixelSums *answers, Erro
 static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Error *error)
 {
     PixelRequests *requests = &ladder->requests;
-    const PixelSums *answers = requests->sums;
+    uint32_t first = 0;
     bool ok = pixel_requests_trace(requests, error);
     for (size_t i = 0; i < count && ok && pixel_requests_are_whole(requests); i++) {
         const RungSamples next = samples_from(rung_of(ladder, pixels[i]));
-        ok = climb(ladder, pixels[i], answers, error);
-        answers += next.requests;
+        ok = climb(ladder, pixels[i], first, error);
+        first += next.requests;
         ladder->samples += next.requests * next.samples;
     }
     requests->count = 0;

@@ -111,46 +111,57 @@ static void spread_bends(const Area *area, uint32_t row, float nearby[AREA_WIDTH
                            larger(columns[x + 3], columns[x + 4]));
 }
 
-// Counts a run of pixels of one stratum.
-static void count_run(Entries *entries, uint32_t stratum, uint32_t pixels, double features)
+// Records the strata of consecutive pixels, which begin at (x, y): in the masks of their blocks,
+// and in the sums of their rows.
+static void count_pixels(const Ladder *ladder, uint32_t x, uint32_t y, uint32_t count,
+                         Entries *entries)
 {
-    entries->pixels[stratum] += pixels;
-    entries->features[stratum] += features;
+    const size_t first = (size_t)y * ladder->picture->width + x;
+    const uint8_t *strata = &ladder->strata[first];
+    for (uint32_t i = 0; i < count;) {
+        const uint32_t start = i, stratum = strata[i];
+        double features = 0;
+        for (; i < count && strata[i] == stratum; i++)
+            features += (double)ladder->places[first + i].feature;
+        entries->pixels[stratum] += i - start;
+        entries->features[stratum] += features;
+        for (uint32_t left = x + start - (x + start) % LADDER_BLOCK; left < x + i;
+             left += LADDER_BLOCK)
+            *ladder_block(ladder, left, y) |= ladder_stratum_bit(stratum);
+    }
 }
 
 static void enter_row(const Entering *entering, const Area *area, uint32_t row, Entries *entries)
 {
     const Ladder *ladder = entering->ladder;
-    const uint32_t width = ladder->picture->width;
-    const uint32_t first = (area->top + row) * width + area->left;
+    const ThinParts *parts = &entering->thin_parts;
+    const uint32_t width = ladder->picture->width, y = area->top + row;
     const uint32_t count = width - area->left < AREA_WIDTH ? width - area->left : AREA_WIDTH;
-    uint32_t latest = 0, start = 0; // the run's stratum and first pixel
-    double features = 0;
+    const float *bends = &area->bends[row + RADIUS][RADIUS];
+    uint8_t *strata = &ladder->strata[(size_t)y * width + area->left];
+    LadderPlace *places = &ladder->places[(size_t)y * width + area->left];
     float nearby[AREA_WIDTH];
     spread_bends(area, row, nearby);
     for (uint32_t x = 0; x < count; x++) {
-        const float bend = area->bends[row + RADIUS][x + RADIUS];
-        const uint32_t stratum =
-            strata_of_bend(bend, nearby[x], thin_parts_touch(&entering->thin_parts, first + x));
-        ladder->strata[first + x] = (uint8_t)stratum;
-        ladder->places[first + x].feature = bend * bend;
-        if (stratum != latest) {
-            count_run(entries, latest, x - start, features);
-            latest = stratum;
-            start = x;
-            features = 0;
-        }
-        features += (double)(bend * bend);
+        strata[x] = (uint8_t)strata_of_bend(bends[x], nearby[x], false);
+        places[x].feature = bends[x] * bends[x];
     }
-    count_run(entries, latest, count - start, features);
+    for (uint32_t x = 0; x < count && parts->count > 0; x++)
+        if (thin_parts_touch(parts, y * width + area->left + x))
+            strata[x] = (uint8_t)strata_of_bend(bends[x], nearby[x], true);
+    count_pixels(ladder, area->left, y, count, entries);
 }
 
 // Assigns the pixels of one row of areas to strata.
 static void enter_rows(void *context, uint32_t top, uint32_t end)
 {
     const Entering *entering = context;
-    const Framebuffer *picture = entering->ladder->picture;
+    const Ladder *ladder = entering->ladder;
+    const Framebuffer *picture = ladder->picture;
     Area area = {.top = top};
+    memset(ladder_block(ladder, 0, top), 0,
+           (size_t)range_count(end - top, LADDER_BLOCK) *
+               range_count(picture->width, LADDER_BLOCK) * sizeof *ladder->blocks);
     for (; area.left < picture->width; area.left += AREA_WIDTH) {
         measure_area(picture, &area);
         for (uint32_t row = 0; row < end - top; row++)

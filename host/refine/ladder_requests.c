@@ -34,13 +34,14 @@ static void list_blocks(void *context, uint32_t first, uint32_t end)
     const FrameData *frame = &blocks->requests->frame;
     const uint32_t columns = range_count(frame->width, PACKET_SIDE);
     PixelRequest *request = blocks->requests->requests + (size_t)first * BLOCK_PIXELS;
-    for (uint32_t block = blocks->first + first; block < blocks->first + end; block++)
+    for (uint32_t block = blocks->first + first; block < blocks->first + end; block++) {
+        const uint32_t left = block % columns * PACKET_SIDE, top = block / columns * PACKET_SIDE;
         for (uint32_t i = 0; i < BLOCK_PIXELS; i++) {
-            const uint32_t x = block % columns * PACKET_SIDE + i % PACKET_SIDE;
-            const uint32_t y = block / columns * PACKET_SIDE + i / PACKET_SIDE;
+            const uint32_t x = left + i % PACKET_SIDE, y = top + i / PACKET_SIDE;
             const bool is_inside = x < frame->width && y < frame->height;
             *request++ = (PixelRequest){.x = is_inside ? x : NOTHING, .y = y, .samples = 1};
         }
+    }
 }
 
 static void store_blocks(void *context, uint32_t first, uint32_t end)
@@ -49,9 +50,11 @@ static void store_blocks(void *context, uint32_t first, uint32_t end)
     Framebuffer *picture = blocks->picture;
     for (uint32_t i = first * BLOCK_PIXELS; i < end * BLOCK_PIXELS; i++) {
         const PixelRequest *request = &blocks->requests->requests[i];
-        if (request->x != NOTHING)
-            pixel_sums_mean(&blocks->requests->sums[i], 1,
-                            picture->pixels[(size_t)request->y * picture->width + request->x]);
+        if (request->x == NOTHING)
+            continue;
+        float *color = picture->pixels[(size_t)request->y * picture->width + request->x];
+        for (int channel = 0; channel < 3; channel++)
+            color[channel] = (float)(int64_t)blocks->requests->sums[i].colors[channel] * 0x1p-32f;
     }
 }
 
@@ -85,9 +88,10 @@ void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3])
 
 double pixel_sums_variance(const PixelSums *sums, uint32_t samples)
 {
-    double squares = (double)sums->squares * 0x1p-48 / samples;
+    const double part = 1.0 / samples;
+    double squares = (double)(int64_t)sums->squares * (0x1p-48 * part);
     for (int channel = 0; channel < 3; channel++) {
-        const double mean = (double)sums->colors[channel] * 0x1p-32 / samples;
+        const double mean = (double)(int64_t)sums->colors[channel] * (0x1p-32 * part);
         squares -= mean * mean;
     }
     return fmax(squares / 3, 0);

@@ -11,18 +11,35 @@ typedef union {
     uint32_t sums; // index in Ladder::sums
 } LadderPlace;
 
+// The side of a block of pixels, which a selection skips if no stratum of its pixels is concerned.
+#define LADDER_BLOCK 8
+
 typedef struct {
     PixelRequests requests;
-    Framebuffer *picture;  // borrowed; means of the pixels' samples
-    void *memory;          // of the next three arrays and of the requests' arrays
-    uint32_t *chosen;      // room for all pixels
-    LadderPlace *places;   // of each pixel
-    uint8_t *strata;       // of each pixel
+    Framebuffer *picture; // borrowed; means of the pixels' samples
+    void *memory;         // of the next three arrays and of the requests' arrays
+    uint32_t *chosen;     // room for all pixels
+    LadderPlace *places;  // of each pixel
+    uint8_t *strata;      // of each pixel
+    uint64_t *blocks; // ladder_stratum_bit of the strata of each block's pixels, past or present
     ARRAY(PixelSums) sums; // of the pixels above rung 0
     Strata statistics;
     Strata chosen_by; // the statistics at the latest selection of pixels
     uint64_t samples; // taken so far
 } Ladder;
+
+// Returns the bit of a stratum in a block's mask. Strata may share a bit.
+static inline uint64_t ladder_stratum_bit(uint32_t stratum)
+{
+    return (uint64_t)1 << stratum % 64;
+}
+
+// Returns the mask of the pixel's block.
+static inline uint64_t *ladder_block(const Ladder *ladder, uint32_t x, uint32_t y)
+{
+    const uint32_t columns = range_count(ladder->picture->width, LADDER_BLOCK);
+    return &ladder->blocks[(size_t)(y / LADDER_BLOCK) * columns + x / LADDER_BLOCK];
+}
 
 typedef struct {
     Renderer *renderer;       // with ladder_entry

@@ -90,15 +90,10 @@ typedef struct {
     double mean, variance; // of the sum of all squared errors
 } Forecast;
 
-uint32_t strata_rung(uint32_t stratum)
-{
-    return stratum < BEND_CLASSES ? 0 : 1 + (stratum - BEND_CLASSES) / (2 * DEVIATION_CLASSES);
-}
-
 uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent)
 {
     return BEND_CLASSES + (2 * (rung - 1) + is_bent) * DEVIATION_CLASSES +
-           strata_octave(deviation, DEVIATION_CLASSES);
+           strata_octave((float)deviation, DEVIATION_CLASSES);
 }
 
 bool strata_is_bent(uint32_t stratum, double bend)
