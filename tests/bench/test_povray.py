@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests tools/bench --peer povray: the translation of scenes, also with POV-Ray itself if it is
-installed, and that different pictures get no ratio. Usage: test_povray.py CLRT
+"""Tests tools/bench --peer povray: the translation of scenes, and that different pictures get no
+ratio. If POV-Ray is installed, its picture is compared with clrt's. Usage: test_povray.py CLRT
 """
 
 import json
@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 from benchmark import povray  # noqa: E402
 
 SIZE = 32, 24
-# Two cameras, of which clrt draws the first. Only this camera has the up vector 0 1 0.
+# clrt draws the picture of the first camera. Only this camera has the up vector 0 1 0.
 SCENE = f"""\
 background 0.2 0.4 0.9
 ambient 0.1
@@ -34,7 +34,7 @@ material stone
 ply_file {ROOT}/scenes/cube.ply
 sphere -0.3 0.8 0.2 0.35
 """
-# Draws a black picture.
+# Replaces POV-Ray, and writes a black picture.
 STUB = f"""\
 #!/usr/bin/env python3
 import sys
@@ -52,7 +52,7 @@ class PovRay(unittest.TestCase):
         self.scene.write_text(SCENE)
 
     def bench(self, **more):
-        """Returns the table that tools/bench prints, and its figures of the only scene."""
+        """Returns the table that tools/bench prints, and the figures of the only scene in its report."""
         report = self.work / "report.json"
         words = [self.scene, "--peer", "povray", "--runs", "1", "--variants", "mirrors", "-s", "%dx%d" % SIZE]
         done = subprocess.run([ROOT / "tools/bench", *words, "--json", report], check=True, text=True,

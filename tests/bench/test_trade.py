@@ -189,7 +189,7 @@ class Trade(unittest.TestCase):
             self.assertLessEqual(goal["fixed"]["milliseconds"], goal["uniform"]["milliseconds"])
             self.assertIn(f"E {100 * goal['goal']:g} %: RMSE {goal['ratio']:.2f} E", self.told)
         self.assertTrue(0.5 < told["times"][0]["seconds_ratio"] < 2)
-        self.assertIn("aa=3", self.rows)  # meets 1 %, and is not in the quick grid
+        self.assertIn("aa=3", self.rows)  # added because it meets 1 %
 
     def test_the_grid_runs_as_tasks_of_an_array_and_resumes(self):
         with tempfile.TemporaryDirectory() as folder:

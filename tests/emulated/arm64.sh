@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 # Tests that clrt on 64-bit ARM, emulated by qemu, renders the recorded pictures in one form of the
 # kernels. For fp64, which has no records, this machine's test_hashes renders the expected pictures.
-# The first run makes a Debian 12 for ARM and cross-builds clrt for it. Exits with 77 if this machine
-# lacks programs or rights. PICTURES are sizes, or "refined". Usage: arm64.sh FOLDER TEST_HASHES FORM
-# PICTURES...
+# The first run makes a Debian 12 for ARM and cross-builds clrt for it. The script exits with 77 if
+# this machine lacks programs or rights. PICTURES are sizes, or "refined".
+# Usage: arm64.sh FOLDER TEST_HASHES FORM PICTURES...
 set -eu
 folder=$(realpath -m "$1") native=$2
 export CLRT_TEST_KERNEL=$3
@@ -54,12 +54,12 @@ emulated() {
         XDG_CACHE_HOME="$cache" CLRT_COURSE="$course" CLRT_TEST_KERNEL="$CLRT_TEST_KERNEL" "$@"
 }
 
-# records COMMAND...: prints the records of the pictures that the test_hashes COMMAND renders.
+# records COMMAND...: runs a command of test_hashes, and prints the records of its pictures.
 records() {
     "$@" | grep -E ' [0-9a-f]{32}$'
 }
 
-# compare PICTURES: tests the pictures of this size, or the refined ones.
+# compare PICTURES: tests the pictures of one size, or the refined pictures.
 compare() {
     if [ "$CLRT_TEST_KERNEL" = fp64 ]; then
         records "$native" list "$1" >"$folder/expected"
@@ -74,7 +74,7 @@ for program in mmdebstrap aarch64-linux-gnu-gcc qemu-aarch64-static; do
     command -v $program >/dev/null || skip "$program is missing (tools/setup emulated installs it)"
 done
 [ "$(id -u)" = 0 ] || skip "only root can make the ARM system and run its programs"
-# The mounts below vanish with this namespace.
+# The mounts below end with the new namespace.
 [ -n "${is_alone-}" ] || is_alone=yes exec unshare --mount "$0" "$@"
 
 mkdir -p "$cache"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A Slurm cluster on one machine: a controller and four hosts, each in its own network, PID, mount
-and UTS namespaces. They share the file system, and a bridge connects them. Only root can create the cluster."""
+and UTS namespaces. They share the file system, and a bridge connects them. Only root can create the
+cluster."""
 
 import os
 import pathlib
@@ -45,7 +46,7 @@ NodeName=n[1-{hosts}] CPUs=1 RealMemory=1000 State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
-# The first process of a host. When it ends, all processes of the host end.
+# The script of a host's first process. When this process ends, all processes of the host end.
 BOOT = """\
 set -e
 mount -t proc proc /proc
@@ -137,7 +138,7 @@ class Cluster:
         self.boots[host].wait()
 
     def cut_off(self, host, is_cut=True):
-        """Disconnects a host's network while its processes keep running, or reconnects it."""
+        """Disconnects or reconnects a host's network. The host's processes keep running."""
         self.on_bridge(f"ip link set v{host} {'down' if is_cut else 'up'}")
 
     def states(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests tools/farm on a cluster whose hosts fail. The file must equal the file of a single machine,
+# Tests tools/farm on a cluster whose hosts fail. Its file must equal the file of a single machine,
 # byte for byte.
 # Usage: test_farm_hosts.py CLRT [TEST...]
 import json
@@ -61,7 +61,7 @@ class Farm(unittest.TestCase):
         return self.cluster.on(CONTROLLER, ROOT / "tools" / name, *words, env={**os.environ, "CLRT": CLRT})
 
     def submit(self, *words):
-        """Returns the job id of the array."""
+        """Submits an array of tasks, and returns the id of its job."""
         told = self.run_tool("farm", *words)
         self.assertRegex(told, r"cancel: scancel \d+")
         return re.match(r"job (\d+)", told)[1]
@@ -71,7 +71,7 @@ class Farm(unittest.TestCase):
         return path.read_text() if path.exists() else ""
 
     def stored(self, task):
-        """Returns the number of bytes that a task has stored of its unfinished part."""
+        """Returns the number of bytes that a task has stored for its unfinished part."""
         return sum(path.stat().st_size for path in self.folder.glob(f"drawing.{task}.exr*"))
 
     def host_with_tiles(self, job):
@@ -82,7 +82,7 @@ class Farm(unittest.TestCase):
         return None
 
     def found(self, task):
-        """Returns how many tiles each run of the task found."""
+        """Returns the number of finished tiles that each run of the task found at its start."""
         return [int(number) for number in re.findall(r"^(\d+) of 32 tiles were finished before", self.log(task), re.M)]
 
     def expect_whole(self):
@@ -111,7 +111,7 @@ class Farm(unittest.TestCase):
         job = self.submit_slow()
         task, host = wait_for(lambda: self.host_with_tiles(job))
         self.cluster.cut_off(host)
-        # Stops the old process until the new one detects it. Then the old process continues to
+        # Stops the old process until the new process detects it. Then the old process continues to
         # write.
         found = subprocess.run(["pgrep", "-f", f"{self.folder}/drawing.{task}.exr"], stdout=subprocess.PIPE, text=True, check=True)
         old = [int(number) for number in found.stdout.split()]
@@ -132,7 +132,7 @@ class Farm(unittest.TestCase):
             if self.picture.exists():
                 break
             time.sleep(moments.uniform(0, 4))
-            for task in running:  # some have ended
+            for task in running:  # some tasks have ended
                 self.cluster.on(CONTROLLER, "scontrol", "requeue", f"{job}_{task}", check=False)
         self.expect_whole()
         self.assertGreater(max(max(self.found(task)) for task in range(1, PARTS + 1)), 0)

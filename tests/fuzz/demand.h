@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Declarations shared by the fuzz targets.
+// Declarations that the fuzz targets share.
 #pragma once
 
 #include <stdbool.h>
@@ -9,7 +9,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-// Reports a finding unless the promise holds. Unlike assert, it does not depend on NDEBUG.
+// Reports a finding unless the promise holds. Unlike assert, demand does not depend on NDEBUG.
 static inline void demand(bool promise)
 {
     if (!promise)

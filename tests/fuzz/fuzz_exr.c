@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: reads any bytes as an EXR part, like clrt merge: its settings, and each tile
-// both compressed and as values. libOpenEXRCore is not instrumented, so values behind the picture's
-// end detect its writes there.
+// libFuzzer target: reads any bytes as an EXR part, like clrt merge. Reads the part's settings, and
+// each tile both compressed and decoded. libOpenEXRCore is not instrumented, so guard values after
+// the end of the picture detect wrong writes.
 #include "demand.h"
 
 #include "image/exr_file.h"
@@ -20,7 +20,7 @@
 #define GUARD_VALUES 4096
 #define GUARD        1234.5f
 
-// Returns room for count values, with guards behind them.
+// Returns memory for `count` values, followed by guard values.
 static float *guarded(size_t count)
 {
     float *values = malloc((count + GUARD_VALUES) * sizeof *values);

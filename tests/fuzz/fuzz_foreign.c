@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: parses any bytes as the output of clrt-foreign. A parsed model must fulfill
+// libFuzzer target: parses any bytes as the output of clrt-foreign. A parsed model must satisfy
 // mesh/foreign_stream.h. A failure must return a message and no model.
 #include "demand.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: parses any bytes as a PLY file. Besides the sanitizers' checks, a parsed mesh
-// must fulfill mesh/mesh.h, also with computed normals. A failure must return a message and no
-// mesh. The tolerant reader's mesh must fulfill mesh.h too, and be valid input for clrt check.
+// libFuzzer target: parses any bytes as a PLY file. A parsed mesh must satisfy mesh/mesh.h, with
+// and without computed normals. A failure must return a message and no mesh. The mesh of the
+// tolerant reader must satisfy mesh.h too, and be valid input for clrt check.
 #include "demand.h"
 
 #include "check/census.h"

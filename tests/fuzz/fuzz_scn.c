@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: parses any bytes as scene text. Meshes resolve to a missing folder, so only the
-// text is tested. fuzz_ply.c tests meshes.
+// libFuzzer target: parses any bytes as scene text. The scene's folder is missing, so clrt reads no
+// meshes. fuzz_ply.c tests meshes.
 #include "demand.h"
 
 #include "scene/normalize.h"

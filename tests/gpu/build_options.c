@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// If preloaded, appends the options in CLRT_BUILD_OPTIONS to those of every program. tools/gpu
-// measures compiler options of drivers by this library.
+// If preloaded, this library appends CLRT_BUILD_OPTIONS to the compiler options of every program.
+// tools/gpu measures the effect of drivers' options by this library.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Measures how many bytes a device reads in a second, and how many floating-point operations it
-// computes. Usage: gpu_peaks PEAKS.cl [DEVICE]. Prints both as JSON.
+// computes. Prints both numbers as JSON. Usage: gpu_peaks PEAKS.cl [DEVICE]
 #include "base/clock.h"
 #include "base/file.h"
 #include "device/buffer.h"
@@ -51,7 +51,7 @@ static void open_bench(Bench *bench, const char *path, const char *device)
     file_free(&file);
 }
 
-// Returns the shortest time of a kernel, after a run that is not timed.
+// Returns the shortest time of a kernel in seconds. The first round does not count.
 static double shortest(const Bench *bench, const char *name, cl_uint count)
 {
     Error error = {0};

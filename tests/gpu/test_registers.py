@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Compiles the kernels for two GPUs without running them, and tests that render_tile is small enough
-# for many threads at once. A GPU divides its registers between the threads, and memory of a thread's
-# own (local, scratch) is slow. Usage: test_registers.py KERNEL_FOLDER CACHE_FOLDER
+# Compiles the kernels for two GPUs without running them. Tests that render_tile is small enough for
+# many threads at once: a GPU divides its registers among the threads, and a thread's own memory
+# (local, scratch) is slow. Usage: test_registers.py KERNEL_FOLDER CACHE_FOLDER
 import functools
 import pathlib
 import re
@@ -14,11 +14,11 @@ import unittest
 KERNELS, CACHE = map(pathlib.Path, sys.argv[1:3])
 PTXAS_PACKAGE = "nvidia-cuda-nvcc-cu12==12.9.86"
 BITCODE = pathlib.Path("/usr/lib/clc")
-STACK = 64 * (4 + 4)  # bytes of PairStack, with floats
+STACK = 64 * (4 + 4)  # bytes of PairStack in fp32
 PAIR = "-DCLRT_GPU=1"
 FP64 = "-DCLRT_FP64=1"
 CREATURE = "-DCLRT_GPU=1 -DCLRT_SPHERES=0 -DCLRT_COLORS=0"
-# Kernel, the file appended to render.cl, options.
+# Each program has a kernel, a file that is appended to render.cl, and options.
 PROGRAMS = (*(("render_tile", "tile.cl", options) for options in (PAIR, CREATURE, FP64)),
             ("trace_samples", "samples.cl", PAIR + " -DCLRT_SIGNATURES=1"),
             ("trace_pixels", "ladder.cl", PAIR), ("trace_paths", "aov.cl", PAIR),
@@ -34,7 +34,7 @@ def skip(reason):
 
 @functools.cache
 def find_ptxas():
-    """Installs NVIDIA's assembler of a fixed version, once for all runs."""
+    """Returns the path of NVIDIA's assembler. The first run installs a fixed version."""
     folder = CACHE / "ptxas"
     found = list(folder.glob("lib/**/ptxas"))
     if not found:
@@ -47,7 +47,7 @@ def find_ptxas():
 
 
 def assembly(program, target, bitcode):
-    """Returns clang's output for a program."""
+    """Returns the assembly text of a program."""
     _, appended, options = program
     text = "".join(f'#include "{KERNELS / name}"\n' for name in ("render.cl", appended))
     command = ["clang-19", "-w", "-x", "cl", "-cl-std=CL1.2", *options.split(), *target, "-O3",
@@ -58,7 +58,7 @@ def assembly(program, target, bitcode):
 
 @functools.cache
 def nvidia(program):
-    """Returns the registers, the bytes of stack and the PTX of a kernel for sm_90."""
+    """Returns the number of registers, the bytes of stack and the PTX of a kernel for sm_90."""
     target = ("--target=nvptx64-nvidia-nvcl", "-march=sm_90", "-mllvm", "-nvptx-fma-level=0")
     ptx = assembly(program, target, "nvptx64--nvidiacl.bc")
     path = CACHE / "kernel.ptx"
@@ -71,7 +71,7 @@ def nvidia(program):
 
 
 def amd(program):
-    """Returns the registers and the bytes of scratch memory of a kernel for gfx1100."""
+    """Returns the number of registers and the bytes of scratch memory of a kernel for gfx1100."""
     target = ("--target=amdgcn-amd-amdhsa", "-mcpu=gfx1100", "-nogpulib")
     text = assembly(program, target, "amdgcn--amdhsa.bc")
     about = re.search(rf"\.name: +{program[0]}\n(.*?)\.vgpr_spill", text, re.DOTALL)[1]
@@ -100,7 +100,7 @@ class Registers(unittest.TestCase):
                 ptx = nvidia(program)[2]
                 sizes = [int(size) for size in re.findall(r"\.local .*__local_depot\d+\[(\d+)\]", ptx)]
                 self.assertEqual(sizes, [STACK])
-                # Accesses without a state space are generic.
+                # Instructions that name no state space access generic memory.
                 self.assertEqual(re.findall(r"\b(?:ld|st)\.(?:v[24]\.)?[ubsf]\d+\s.*", ptx), [])
 
 

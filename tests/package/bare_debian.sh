@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Bare Debians for tests, which source this file. Needs root, mmdebstrap and git. Exit status 77: this
-# machine cannot make them.
+# Makes bare Debians for tests, which source this file. Needs root, mmdebstrap and git. Exits with
+# status 77 if this machine cannot make bare Debians.
 checkout=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
 
 skip() {
@@ -17,7 +17,7 @@ unshare --mount --pid --fork true 2>/dev/null || skip "this machine does not per
 
 roots=()
 namespaces=
-# When its first process dies, the kernel kills the namespace's other processes and drops its mounts.
+# When the first process of a namespace dies, the kernel ends the other processes and the mounts.
 clean_up() {
     [ -z "$namespaces" ] || { kill -KILL "$namespaces" && wait; } 2>/dev/null || true
     rm -rf "${roots[@]}" || { sleep 1 && rm -rf "${roots[@]}"; }
@@ -25,7 +25,7 @@ clean_up() {
 trap clean_up EXIT
 trap 'exit 130' INT TERM HUP
 
-# in_namespaces COMMAND...: runs the command with mounts and processes that end with it.
+# in_namespaces COMMAND...: runs the command. Its mounts and child processes end with the command.
 in_namespaces() {
     local status=0
     setpriv --pdeathsig KILL unshare --mount --pid --fork --kill-child --mount-proc "$@" </dev/null &
@@ -35,7 +35,7 @@ in_namespaces() {
     return $status
 }
 
-# make_root SUITE: makes a bare Debian in the new folder $root, with this machine's package sources,
+# make_root SUITE: makes a bare Debian in the new folder $root. It has this machine's package sources,
 # proxies and certificates.
 make_root() {
     local lists proxies
@@ -57,8 +57,8 @@ copy_checkout() {
         tar -x --no-same-owner -C "$root/root/clrt"
 }
 
-# run_in_root COMMANDS: runs the shell commands in /root/clrt of $root without a terminal, and with the
-# course's files beside it.
+# run_in_root COMMANDS: runs the shell commands in /root/clrt of $root without a terminal. The
+# course's files are in /root/shared.
 run_in_root() {
     local environment=(HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin) name
     for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY PIP_INDEX_URL PIP_CERT; do

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Builds the Python wheel in a bare Debian, and runs the commands of the conda recipe. Installs the
 # wheel in a virtual environment in a second bare Debian, which has only Python and PoCL. Runs and
-# times the README's Python example there. Exits with status 77 if this machine cannot create bare
-# Debians. Needs root, mmdebstrap, git and PyPI.
+# times the README's Python example in this environment. Exits with status 77 if this machine cannot
+# create bare Debians. Needs root, mmdebstrap, git and PyPI.
 # Usage: fresh_wheel.sh SUITE (bookworm or trixie)
 set -eu
 . "$(dirname "$(readlink -f "$0")")/bare_debian.sh"

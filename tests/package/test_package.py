@@ -47,7 +47,7 @@ DEVELOPMENT = [
     "pkgconfig/clrt.pc",
     "doc/clrt/examples/picture.c",
 ]
-# CMake uses the architecture's folder for libraries only if the prefix is /usr.
+# lintian expects libraries in the architecture's folder, which CMake uses only if the prefix is /usr.
 LINTIAN = ["lintian", "--fail-on", "error,warning"]
 if "CMAKE_INSTALL_LIBDIR:PATH=lib\n" in CACHE:
     LINTIAN += ["--suppress-tags", "pkg-config-unavailable-for-cross-compilation"]
@@ -157,7 +157,7 @@ class Package(unittest.TestCase):
         environment = {**os.environ, "HOME": "/proc", "XDG_CACHE_HOME": "/proc"}
         environment.pop("POCL_CACHE_DIR", None)
         with tempfile.TemporaryDirectory() as work:
-            # clrt itself writes png and exr. Its module writes tif.
+            # clrt writes png and exr itself, and clrt-foreign writes tif.
             for ending in {"png", "exr", "tif"}.intersection(formats):
                 pictures = [f"{work}/{whose}.{ending}" for whose in ("package", "build")]
                 scene = [self.root / "usr" / SCENE, "-s", "24x16", "-q", "-o"]

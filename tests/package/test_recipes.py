@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the steps of the GitHub Action and checks the conda recipe against the package.
+"""Runs the steps of the GitHub Action, and compares the conda recipe with the package.
 
 usage: test_recipes.py CLRT"""
 import os
@@ -29,12 +29,13 @@ def read(path):
 
 
 def names_of(requirements):
-    """The packages of "name >=1.0" and "name>=1.0"."""
+    """Returns the names of packages from requirements such as "name >=1.0"."""
     return {re.match(r"[\w-]+", requirement)[0] for requirement in requirements}
 
 
 class Action(unittest.TestCase):
-    """A checkout of a user, with clrt in the folder clrt. tools/render is the built program."""
+    """The tests imitate a user's checkout, with clrt in its folder clrt. tools/render starts the built
+    program."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

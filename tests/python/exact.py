@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Nearest hits in rational arithmetic. Coordinates are floats, which Python's fractions hold."""
+"""Computes nearest hits in rational arithmetic. Python's fractions represent floats exactly."""
 import math
 from fractions import Fraction
 
@@ -23,7 +23,7 @@ def _exact(values):
 
 
 def _candidates(corners, origin, direction):
-    """Which triangles the ray may hit, by long doubles with a generous margin."""
+    """Returns the triangles that the ray may hit, by long doubles with a generous margin."""
     a, b, c = (corners[:, i].astype(np.longdouble) - origin.astype(np.longdouble) for i in range(3))
     direction = direction.astype(np.longdouble)
     sides = [np.cross(p, q) @ direction for p, q in ((b, c), (c, a), (a, b))]
@@ -34,7 +34,7 @@ def _candidates(corners, origin, direction):
 
 
 def _meeting(corners, origin, direction):
-    """The t of the hit, whether it is on an outline, or None."""
+    """Returns the t of the hit and whether the hit is on the outline, or None."""
     a, b, c = (_minus(corner, origin) for corner in corners)
     sides = [_dot(_cross(p, q), direction) for p, q in ((b, c), (c, a), (a, b))]
     whole = sum(sides)
@@ -45,13 +45,13 @@ def _meeting(corners, origin, direction):
 
 
 def _root(square):
-    """The square root, off by at most 2^-200 of it."""
+    """Returns the square root with a relative error of at most 2^-200."""
     scale = 1 << (400 + 2 * max(0, square.denominator.bit_length() - square.numerator.bit_length()))
     return Fraction(math.isqrt(square.numerator * scale // square.denominator), math.isqrt(scale))
 
 
 def _sphere_meeting(center, radius, origin, direction):
-    """The t of the hit and whether it is a tangent, or None."""
+    """Returns the t of the hit and whether the ray is a tangent, or None."""
     apart, square = _minus(center, origin), _dot(direction, direction)
     middle = _dot(apart, direction) / square
     quarter = middle**2 - (_dot(apart, apart) - radius**2) / square
@@ -63,8 +63,8 @@ def _sphere_meeting(center, radius, origin, direction):
 
 
 def nearest(corners, origin, direction, own=None, far=math.inf, spheres=()):
-    """(primitive, clear) of the nearest hit; the primitive is None without a hit. Not clear: several
-    primitives are nearest, or the ray passes through an outline. Spheres are (center, radius)."""
+    """Returns the nearest primitive or None, and whether the hit is clear. A hit is not clear if several
+    primitives are nearest, or if the ray passes through an outline. Spheres are (center, radius)."""
     found, start, way = [], _exact(origin), _exact(direction)
     for number, (center, radius) in enumerate(spheres):
         found.append((_sphere_meeting(_exact(center), Fraction(radius), start, way), number))

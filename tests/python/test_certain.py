@@ -38,12 +38,12 @@ class Soup:
         return self.random.uniform(-1.5, 1.5, (RAYS, 3))
 
     def steps(self, smallest, largest):
-        """Small numbers of both signs, whose sizes are spread evenly over all scales."""
+        """Returns random numbers of both signs. The exponents are between `smallest` and `largest`."""
         sign = self.random.choice((-1, 1), (RAYS, 1))
         return sign * 10 ** self.random.uniform(smallest, largest, (RAYS, 1))
 
     def points(self, kind):
-        """Triangles and a point in each of them, or a point on an edge."""
+        """Returns random triangles, and a random point in each triangle or on its edge."""
         chosen = self.random.integers(self.count, size=RAYS)
         weights = self.random.dirichlet((1, 1, 1), RAYS)
         if kind == "edges":
@@ -60,7 +60,7 @@ def soups():
 
 class Certain(unittest.TestCase):
     def compare(self, soup, origins, directions, least, far=None, starts=None):
-        """No certain ray may differ from exact arithmetic. Returns the wrong uncertain ones."""
+        """Fails if a certain ray differs from exact arithmetic. Returns the number of wrong rays."""
         hits = clrt.Renderer().trace(soup.scene, origins, directions, far=far, starts=starts,
                                      results=("primitive", "certain"))
         wrong = 0

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Casts rays exactly through the edges and vertices of boxes and a roof.
 
-Other ray tracers were reported to miss such rays, or to count them twice."""
+Other ray tracers were reported to miss hits of such rays, or to count hits twice."""
 import sys
 import unittest
 
@@ -20,7 +20,8 @@ QUADS = ((0, 2, 1), (1, 2, 3)), ((0, 1, 2), (2, 1, 3))
 
 
 class Box:
-    """A closed box from -1 to 1 of squares with sides of length 2 / cells; trimesh's attributes."""
+    """A closed box from -size to size, with `cells` squares along each side. It has the attributes of
+    a trimesh."""
 
     def __init__(self, cells, size=1.0):
         steps = np.linspace(-1, 1, cells + 1)
@@ -42,7 +43,7 @@ class Box:
         self.faces += [[first + corner for corner in half] for half in QUADS[side]]
 
     def edges(self):
-        """The middles of all edges."""
+        """Returns the midpoints of all edges."""
         ends = self.vertices[self.faces]
         return ((ends + np.roll(ends, 1, axis=1)) / 2).reshape(-1, 3)
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs trimesh's own tests of its ray casters, tests/test_ray.py of its source package, with clrt.
+"""Runs trimesh's own tests of ray casters with clrt: tests/test_ray.py of trimesh's source package.
 
-pip installs trimesh and fetches its sources, so the test needs the network. The sources have no
-models. The meshes of this file replace them.
+pip installs trimesh and fetches its sources, so the test needs the network. The sources contain no
+models, so meshes of this file replace the models.
 
 usage: test_trimesh.py CACHE_FOLDER"""
 import pathlib
@@ -38,7 +38,7 @@ def prepare():
 
 
 def stand_in():
-    """The module `generic` of trimesh's tests, as far as test_ray.py uses it."""
+    """Returns a replacement for the module `generic` of trimesh's tests, with all that test_ray.py uses."""
     import logging
 
     import numpy as np

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Drags a file over a window and drops it there, as file managers do. Uses XDND version 5 through
-libX11."""
+"""Drags files over a window and drops them there, as file managers do, by XDND version 5 and libX11."""
 
 import ctypes
 import pathlib
@@ -35,7 +34,7 @@ class Event(ctypes.Union):
 
 
 class Drag:
-    """A window of another client, from which files are dragged."""
+    """A window of another client. Files are dragged from this window."""
 
     def __init__(self, screen_name):
         self.x = ctypes.CDLL("libX11.so.6")

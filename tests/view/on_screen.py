@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs a command with a display of its own.  Usage: on_screen.py COMMAND..."""
+"""Runs a command with its own display. Usage: on_screen.py COMMAND..."""
 
 import subprocess
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A private display for tests, its contents, and clrt's window on it, controlled by real events."""
+"""A private display for tests. Reads its pixels, and controls clrt's window on it by real events."""
 
 import ctypes
 import inspect
@@ -23,8 +23,8 @@ from skips import leave  # noqa: E402
 
 SCENE = ROOT / "scenes" / "reflections.scn"
 COURSE = pathlib.Path(os.environ.get("CLRT_COURSE", ROOT / ".." / "shared" / "course"))
-PATIENCE = 60  # seconds that any step may take, because kernels may have to be compiled
-TICK = 0.02  # waiting counts these steps, so that pauses of the machine do not count
+PATIENCE = 60  # seconds for any step, because clrt may have to compile kernels
+TICK = 0.02  # loops count waits of this many seconds, so that pauses of the machine do not count
 
 
 def require_tools():
@@ -64,7 +64,7 @@ class Screen:
         return b"".join(self.memory[row:row + 4 * width] for row in rows)
 
     def set_density(self, density):
-        """Sets the density that windows opened later find, in multiples of 96 pixels per inch."""
+        """Sets the density for windows that open later, in multiples of 96 pixels per inch."""
         x = ctypes.CDLL("libX11.so.6")
         x.XOpenDisplay.restype = ctypes.c_void_p
         x.XDefaultRootWindow.restype = ctypes.c_ulong
@@ -81,7 +81,7 @@ class Screen:
                        stdout=subprocess.DEVNULL)
 
     def clear(self):
-        """Ends windows that a failed test has left open."""
+        """Closes windows that a failed test has left open."""
         for window in self.windows:
             window.process.kill()
             window.process.wait()
@@ -96,8 +96,8 @@ class Screen:
 
 
 class Window:
-    """clrt with a scene in a window. Because of -v, clrt prints the state after each picture. Unless
-    `refines`, the window opens without anti-aliasing."""
+    """Runs clrt with a scene in a window. Because of -v, clrt prints the state after each picture. If
+    `refines` is false, the window opens without anti-aliasing."""
 
     def __init__(self, screen, scene, *options, size=(320, 240), folder=None, refines=False):
         self.screen, self.size = screen, size
@@ -171,7 +171,8 @@ class Window:
 
 
 def render(scene, *options, size=(320, 240)):
-    """Returns the picture of -o with one sample per pixel as bytes of blue, green and red, rounded as in 8-bit files."""
+    """Returns the planes of blue, green and red bytes of the picture that -o writes. The default is one
+    sample per pixel."""
     with tempfile.TemporaryDirectory() as folder:
         path = f"{folder}/picture.pfm"
         subprocess.run([os.environ["CLRT"], str(scene), "-q", "-s", f"{size[0]}x{size[1]}",
@@ -195,7 +196,7 @@ def expect(window, scene, what):
 
 
 def planes_of(shown):
-    """Returns blue, green and red of the content of a window."""
+    """Returns the planes of blue, green and red bytes of a window's content."""
     return shown[0::4], shown[1::4], shown[2::4]
 
 
@@ -214,14 +215,15 @@ def is_blue(red, green, blue):
 
 
 def is_test(function):
-    """The arguments of a test are a screen, a window or both, and perhaps a temporary folder."""
+    """Returns whether the function is a test. Its arguments must be a screen, a window or both, and
+    may include a temporary folder."""
     taken = set(inspect.signature(function).parameters)
     return taken - {"folder"} in ({"screen"}, {"window"}, {"screen", "window"})
 
 
 def run_test(test, screen):
-    """Calls a test with its arguments, and closes the windows that it leaves open. A test's window shows
-    SCENE, and runs in the test's folder."""
+    """Calls a test with its arguments, and closes the windows that the test leaves open. The argument
+    `window` shows SCENE, and runs in the test's folder."""
     with tempfile.TemporaryDirectory() as name:
         given = {"screen": lambda: screen, "folder": lambda: pathlib.Path(name),
                  "window": lambda: opened(screen, SCENE, folder=name)}

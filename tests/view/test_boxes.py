@@ -22,11 +22,11 @@ def statistics(scene, *options):
 
 
 def write_clusters(folder):
-    """Writes a scene of small groups of triangles in a plane, with gaps between groups. The camera
-    is above the plane."""
+    """Writes a scene of small clusters of triangles in a plane, with gaps between the clusters. The
+    camera is above the plane."""
     corners, faces = [], []
     for cluster in range(SIDE * SIDE):
-        # The gaps have different sizes. Otherwise the order of division would be arbitrary.
+        # The gaps have different sizes. Otherwise, the order of the tree's splits would be arbitrary.
         x, y = (place + 0.05 * place * place for place in divmod(cluster, SIDE))
         for part in range(6):
             first = len(corners)

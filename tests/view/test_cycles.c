@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Opens and closes the viewer repeatedly in one process, also without fonts. Files and threads must
-// not grow, and memory only by BYTES_A_CYCLE. In builds with AddressSanitizer, no byte may leak.
+// Opens and closes the viewer repeatedly in one process, also without fonts. The numbers of open
+// files and threads must not grow. Memory may grow by less than BYTES_A_CYCLE per cycle. In builds
+// with AddressSanitizer, no byte may leak.
 #include "base/file.h"
 #include "device/cache.h"
 #include "unit/cmocka_all.h"
@@ -18,14 +19,14 @@
 #endif
 #define WARMING_UP 20 // growth in these cycles does not count
 
-// The allowed growth of memory per cycle, in bytes: three times what PoCL keeps for each kernel. A
-// leaked picture would take six times as much.
+// The allowed growth of memory per cycle is three times the memory that PoCL keeps for each kernel.
+// A leaked picture would take at least six times the allowed growth.
 #define BYTES_A_CYCLE 32768
 
 static Cache cache;
 
-// Replaces dlclose, so that drivers stay loaded and the sanitizer can attribute their blocks. The
-// loader binds calls to this function only if it is exported.
+// Overrides the C library's function, so that drivers stay loaded and the sanitizer can attribute
+// their blocks. The loader binds calls to this function only if it is exported.
 __attribute__((visibility("default"))) int dlclose(void *handle)
 {
     (void)handle;
@@ -50,7 +51,7 @@ static void show_once(const char *keys)
         fail_msg("%s", error.text);
 }
 
-// The linker replaces the window's functions by the __wrap_ functions.
+// The linker replaces calls of window_open, window_is_lost and file_read by the __wrap_ functions.
 static int losses, openings;
 bool __real_window_is_lost(const Window *window);
 bool __wrap_window_is_lost(const Window *window);
@@ -71,7 +72,7 @@ bool __wrap_window_open(Window *window, const char *title, uint32_t width, uint3
     return __real_window_open(window, title, width, height, error);
 }
 
-static int fonts_missed = -1; // number of fonts that were not found; negative: fonts are found
+static int fonts_missed = -1; // number of hidden fonts; if negative, fonts are not hidden
 bool __real_file_read(File *file, const char *path, Error *error);
 bool __wrap_file_read(File *file, const char *path, Error *error);
 

@@ -209,7 +209,7 @@ def s_f12_and_ctrl_s_save_the_picture(screen, folder):
     for number, key in enumerate(("s", "F12", "ctrl+s"), start=1):
         window.press(key, f"saved reflections-{number}.png and .")
     window.press("s")
-    window.close()  # the file is complete nevertheless
+    window.close()  # clrt completes the file first
     endings = {file.suffix for file in folder.glob("reflections-2.*")}
     assert endings in ({".png", ".exr"}, {".png", ".pfm"}), endings
 
@@ -234,7 +234,7 @@ def r_in_capitals_reads_everything_again(screen, folder):
     before = scene.stat()
     window = opened(screen, scene)
     large = window.read()
-    # Changes the file invisibly: in place, with the same size and time.
+    # The file changes in place, with the same size and time. The window cannot detect this.
     scene.write_text("material 0\nsphere 0 0 0.5 2\n")
     os.utime(scene, ns=(before.st_atime_ns, before.st_mtime_ns))
     window.press("R")

@@ -11,7 +11,7 @@ import time
 from screen import ROOT, SCENE, Window, opened, planes_of, render, run_tests
 
 LARGE = ROOT / "scenes" / "models" / "coral.ply"
-GONE_SECONDS = 0.1  # in addition to the seconds for closing an idle window on this machine
+GONE_SECONDS = 0.1  # the allowed time beyond the time for closing an idle window
 
 
 def write_large(folder):
@@ -67,7 +67,7 @@ def a_window_closed_while_it_traces_is_gone_at_once(screen, folder):
         cases.append((write_large(folder), ["--tune=bvh=none"]))
     for scene, options in cases:
         rest = seconds_to_close(screen, scene, *options, is_tracing=False)
-        # A busy machine only delays, so the least of three decides.
+        # A busy machine only adds time, so the shortest of three times decides.
         seconds = min(seconds_to_close(screen, scene, *options, is_tracing=True)
                       for _ in range(3))
         print(f"         {scene.stem} {options}: closes in {1e3 * seconds:.0f} ms while "

@@ -37,20 +37,20 @@ def colored(path):
 
 
 def flags(number):
-    """Replaces each nonzero byte of the number by 1."""
+    """Returns the number with each nonzero byte replaced by 1."""
     content = number.to_bytes(SIZE[0] * SIZE[1], "little")
     return int.from_bytes(content.translate(b"\0" + b"\1" * 255), "little")
 
 
 def moved(number, right, down):
-    """Returns the picture shifted by that many pixels. The pixels that enter at the sides do not
-    matter."""
+    """Returns the picture shifted by these numbers of pixels. The pixels that enter at the sides do
+    not matter."""
     places = 8 * (right + down * SIZE[0])
     return (number << places if places >= 0 else number >> -places) & ALL_ONES
 
 
 def edges_of(labels):
-    """Returns the pixels whose right or lower neighbor belongs to another object."""
+    """Returns a flag for each pixel: whether its right or lower neighbor belongs to another object."""
     return flags(labels ^ (labels >> 8)) | flags(labels ^ (labels >> 8 * SIZE[0]))
 
 
@@ -148,7 +148,7 @@ def all_points_of_large_lights_shine(screen, folder):
 
 
 def colors_of_vertices_agree(screen, folder):
-    """A ball has colors of vertices, and a cube the color of its material."""
+    """A ball has colors of vertices, and a cube has the color of its material."""
     scene = folder / "painted.scn"
     scene.write_text("background 0 0 0\ndefine paper silhouette diffuse 0 1 0.5\nmaterial own paper\n"
                      f"mesh {ROOT}/tests/image/painted.ply\nmesh {ROOT}/scenes/cube.ply translate 2.5 0 0\n"

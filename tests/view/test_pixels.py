@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The ray-traced window shows exactly the pixels that -o writes for the same camera.
+"""Tests that the ray-traced window shows exactly the pixels that -o writes for the same camera.
 Usage: CLRT=path/to/clrt test_pixels.py"""
 
 import subprocess

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the text in the window at two densities of the screen. The line at the top and the help fit
+"""Tests the text in the window at two densities of the screen: the line at the top and the help fit
 any window, a hint leads to the help, and a note names what a scene lacks.
 Usage: CLRT=path/to/clrt test_text.py"""
 
@@ -12,7 +12,7 @@ HINT_SECONDS = 5
 
 
 def extent(plain, shown, size):
-    """Returns the width and height of the area, from the upper left corner, where the two differ."""
+    """Returns the width and height of the area, from the upper left corner, where the pictures differ."""
     width = 4 * size[0]
     rows = [(plain[y * width:(y + 1) * width], shown[y * width:(y + 1) * width])
             for y in range(size[1])]
@@ -23,7 +23,7 @@ def extent(plain, shown, size):
 
 
 def measure(screen, size):
-    """Returns the extents of the line and of the help in a window of this size."""
+    """Returns the extents of the text line and of the help in a window of this size."""
     window = opened(screen, SCENE, size=size)
     plain = window.read()
     window.press("t", "text on")
@@ -63,7 +63,7 @@ def a_hint_at_the_help_is_shown_for_some_seconds(screen):
 
 
 def scenes_that_lack_something_say_so_in_the_line(screen, folder):
-    """In a narrow window, the note fills the line, after the hint at the help is gone."""
+    """The window is narrow, so the note fills the line once the hint at the help is hidden."""
     size, widths = (320, 240), {}
     scenes = {"whole": "light 9 -4 10 0.7\nmaterial 1\nsphere 0 0 0 1\n",
               "dark": "material 1\nsphere 0 0 0 1\n", "empty": ""}

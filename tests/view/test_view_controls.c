@@ -102,7 +102,7 @@ TEST(dragging_turns_a_quarter_degree_a_pixel_up_to_the_pole)
     assert_true(near(fixture.state.orbit.azimuth, 89.99));
 }
 
-// Computes the position of a point in a window of 512 x 512, relative to the center.
+// Computes the position of a point in a window of 512 x 512 pixels, relative to the center.
 static void see(const Viewpoint *camera, Vec3 point, double place[2])
 {
     const Vec3 ahead = vec3_normalize(vec3_sub(camera->look_at, camera->eye));
@@ -220,7 +220,7 @@ TEST(levels_go_from_the_leaves_to_the_deepest_inner_nodes)
     press(&fixture, "[[[[");
     assert_int_equal(fixture.state.box_depth, 0);
     press(&fixture, "]BB");
-    assert_int_equal(fixture.state.box_depth, 0); // showing boxes again starts with the leaves
+    assert_int_equal(fixture.state.box_depth, 0); // hiding and showing boxes selects the leaves
 }
 
 TEST(exposure_goes_by_half_stops)

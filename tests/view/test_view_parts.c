@@ -223,7 +223,7 @@ TEST(a_picture_in_progress_covers_the_whole_one_until_it_takes_its_place)
     canvas_open(&canvas, ENCODE_RAW);
     assert_null(canvas_whole(&canvas));
     Layer *first = canvas_begin(&canvas, &settings, true, &error);
-    assert_null(canvas_unfinished(&canvas)); // the picture is to be shown only when complete
+    assert_null(canvas_unfinished(&canvas)); // this picture is hidden until it is complete
     first->framebuffer.pixels[3][1] = 0.5f;
     canvas_add_tiles(&canvas, first, 2, 1);
     canvas_end(&canvas, first, true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests that the worker thread stops a long picture of a large mesh without a tree, so that it soon
-// serves other requests.
+// Tests that the worker thread stops a slow picture and soon serves other requests. The picture
+// shows a large mesh without a tree.
 #include "view/worker.h"
 
 #include "base/clock.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#define ACROSS 250 // squares along a side of the mesh, of two triangles each
+#define ACROSS 250 // squares along a side of the mesh; each square has two triangles
 
 static char path[] = "/tmp/clrt-worker-XXXXXX.ply";
 
@@ -36,7 +36,7 @@ static void ignore_news(void)
 {
 }
 
-// Waits for a status update after `number`.
+// Returns the next status whose number differs from `number`.
 static WorkerStatus await_status(Worker *worker, uint64_t number)
 {
     WorkerStatus status;
