@@ -29,7 +29,7 @@ REFUSALS = [
     (2, "unknown option '--preciasion', perhaps --precision", [*FILE, "--preciasion", "fp64"]),
     (2, "unknown option '-z'; clrt --help lists them", ["-z"]),
     (2, "--size wants a value", [SCENE, "--size"]),
-    (2, "--size wants WIDTHxHEIGHT, each between 1 and 131072, not '0x5'", [*FILE, "--size", "0x5"]),
+    (2, SIZE.format("0x5"), [*FILE, "--size", "0x5"]),
     (2, TOO_MANY.format("b.scn"), ["a.scn", "b.scn", "-o", "a.pfm"]),
     (2, "to write the picture 'e.png', give -o e.png", ["a.scn", "e.png"]),
     (2, TOO_MANY.format("e.png"), ["a.scn", "e.png", "-o", "a.pfm"]),

@@ -12,6 +12,7 @@ import threading
 import unittest
 
 import bombs
+from cache_work import PICTURE
 from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main, needs_exr
 
 FAIL_MEMORY, FAIL_DEVICE, SET_ENVIRONMENT = (os.path.abspath(word) for word in sys.argv[3:6])
@@ -19,8 +20,6 @@ FAIL_MEMORY, FAIL_DEVICE, SET_ENVIRONMENT = (os.path.abspath(word) for word in s
 # kernels.
 LARGE = [SCENE, "-s", "400x300", "-q", "--tune=kernel=wide,specialize=never"]
 DISK_SIZE = 8192
-# The kernels of this picture compile fastest.
-PICTURE = [str(ROOT / "tests/cli/sphere.scn"), "-s", "48x32", "-q", "--tune=kernel=pair,specialize=always"]
 
 
 class Faults(Work):

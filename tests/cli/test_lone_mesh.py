@@ -52,7 +52,13 @@ def tripod(splay=1.0):
     return points, triangles
 
 
-class Random(Work):
+class Meshes(Work):
+    def mesh_of(self, *words):
+        self.clrt("convert", *words, "out.ply", "-q")
+        return self.bytes_of("out.ply")
+
+
+class Random(Meshes):
     def setUp(self):
         super().setUp()
         self.seed = random.SystemRandom().randrange(1 << 32)
@@ -64,10 +70,6 @@ class Upright(Random):
         """Returns the knot's points, moved at random. One coordinate is zero."""
         shift = lambda value: models.rounded(value + self.random.uniform(-0.05, 0.05))
         return [(0.0, 0.5, 0.25)] + [tuple(map(shift, point)) for point in KNOT[1:]]
-
-    def mesh_of(self, *words):
-        self.clrt("convert", *words, "out.ply", "-q")
-        return self.bytes_of("out.ply")
 
     def test_turning_is_exact(self):
         points = self.points()
@@ -178,11 +180,7 @@ def rough_ball(rings=40, sides=40):
     return points, triangles
 
 
-class Normals(Work):
-    def mesh_of(self, *words):
-        self.clrt("convert", *words, "out.ply", "-q")
-        return self.bytes_of("out.ply")
-
+class Normals(Meshes):
     def test_the_shape_chooses_the_crease(self):
         """A rough ball is round everywhere. A tripod has too few edges for statistics."""
         self.write(a_ply=models.ply(*rough_ball()), b_ply=models.ply(*tripod()))

@@ -123,10 +123,6 @@ ESCAPES = re.compile(r"\x1b(\[[0-9;?]*[a-zA-Z]|[=>])")
 READY = "ready to go"
 
 
-def is_here(shell):
-    return shutil.which(shell) is not None
-
-
 class Terminal:
     """A shell in a terminal of 400 lines."""
 
@@ -247,7 +243,7 @@ def add_tests():
 
             if shell != "fish":
                 test = needs_terminal(test)
-            here = unittest.skipUnless(is_here(shell), f"{shell} is not installed")
+            here = unittest.skipUnless(shutil.which(shell), f"{shell} is not installed")
             setattr(Completions, f"test_{shell}_completes_{what}", here(test))
 
 

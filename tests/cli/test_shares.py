@@ -42,7 +42,7 @@ class Shares(Work):
         for words, of in ((["--frames", "2-6:2,{}/2"], 2), (["--frames", "1-6,{}/4"], 4),
                           (["--turntable", "11", "--frames", "{}/3"], 3),
                           (["--turntable", "99", "--frames", "5-99:10,{}/5"], 5)):
-            whole = [word.replace(f",{{}}/{of}", "").replace(f"{{}}/{of}", f"1/1") for word in words]
+            whole = [word.replace(f",{{}}/{of}", "").replace(f"{{}}/{of}", "1/1") for word in words]
             drawn = [self.frames(*(word.format(share) for word in words)) for share in range(1, of + 1)]
             self.assertEqual(sum(drawn, []), self.frames(*whole), words)
             self.assertLessEqual(max(map(len, drawn)) - min(map(len, drawn)), 1)

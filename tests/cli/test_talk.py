@@ -30,6 +30,24 @@ class Talk(Work):
         super().setUp()
         self.write(open_ply=ply([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 1)]), empty_scn="")
 
+    def start_on_terminal(self, *words, **environment):
+        """Returns a run of clrt, and the terminal's side that receives its messages."""
+        ours, theirs = pty.openpty()
+        process = self.start(*words, stderr=theirs, env={**os.environ, **environment})
+        os.close(theirs)
+        return process, ours
+
+    def read_terminal(self, terminal):
+        """Returns the terminal's output until the program closes its side."""
+        text = b""
+        try:
+            while chunk := os.read(terminal, 4096):
+                text += chunk
+        except OSError:  # the program has closed the terminal
+            pass
+        os.close(terminal)
+        return text
+
 
 class Streams(Talk):
     def test_pictures_and_reports_go_to_standard_output_alone(self):
@@ -92,17 +110,8 @@ class StandardInput(Talk):
 class Terminal(Talk):
     def on_terminal(self, *words):
         """Returns clrt's output on a terminal. The kernel cache is empty when a test begins."""
-        ours, theirs = pty.openpty()
-        environment = {**os.environ, "TERM": "xterm", "POCL_CACHE_DIR": str(self.work / "cache")}
-        process = self.start(*words, stderr=theirs, env=environment)
-        os.close(theirs)
-        text = b""
-        try:
-            while chunk := os.read(ours, 4096):
-                text += chunk
-        except OSError:  # the program has closed the terminal
-            pass
-        os.close(ours)
+        process, terminal = self.start_on_terminal(*words, TERM="xterm", POCL_CACHE_DIR=str(self.work / "cache"))
+        text = self.read_terminal(terminal)
         self.assertEqual(process.wait(), 0, text)
         return text
 
@@ -145,21 +154,13 @@ class Terminal(Talk):
 class Stopped(Talk):
     def talk_on_terminal(self, **environment):
         """Returns the terminal output of a stopped picture."""
-        talk, terminal = pty.openpty()
-        process = self.start(*LONG, "-o", "a.pfm", stderr=terminal, env=dict(os.environ, **environment))
-        os.close(terminal)
-        text = b""
-        end = time.monotonic() + 60
+        process, terminal = self.start_on_terminal(*LONG, "-o", "a.pfm", **environment)
+        text, end = b"", time.monotonic() + 60
         while b"left" not in text and time.monotonic() < end:
-            text += os.read(talk, 4096)
+            text += os.read(terminal, 4096)
         process.send_signal(signal.SIGINT)
-        try:
-            while chunk := os.read(talk, 4096):
-                text += chunk
-        except OSError:  # the program has closed the terminal
-            pass
+        text += self.read_terminal(terminal)
         process.wait()
-        os.close(talk)
         return text
 
     @needs_terminal

@@ -73,12 +73,9 @@ TEST(every_pixel_counts_for_its_first_cause)
     for (int kind = 0; kind < CAUSE_KINDS; kind++)
         assert_int_equal(causes.pixels[kind], 1);
     const double step = 0.0625 * 0.0625 / (3 * PIXELS);
-    assert_true(fabs(causes.squares[CAUSE_PRIMITIVE] - (step)) < 1e-12);
-    assert_true(fabs(causes.squares[CAUSE_SHADOW] - (4 * step)) < 1e-12);
-    assert_true(fabs(causes.squares[CAUSE_TRUNCATION] - (9 * step)) < 1e-12);
-    assert_true(fabs(causes.squares[CAUSE_REFLECTION] - (16 * step)) < 1e-12);
-    assert_true(fabs(causes.squares[CAUSE_COVERAGE] - (25 * step)) < 1e-12);
-    assert_true(fabs(causes.squares[CAUSE_ROUNDING] - (0)) < 1e-12);
+    static const double steps[CAUSE_KINDS] = {1, 4, 9, 16, 25, 0};
+    for (int kind = 0; kind < CAUSE_KINDS; kind++)
+        assert_true(fabs(causes.squares[kind] - steps[kind] * step) < 1e-12);
 }
 
 TEST(with_the_same_samples_the_rest_is_rounding)
