@@ -163,7 +163,7 @@ THREE_MF_TRIANGLE = """<model unit="millimeter"><resources><object id="1" type="
 
 
 def three_mf(model, is_found=True):
-    """Returns a 3MF file that contains the XML `model`. If is_found is false, no relation names it."""
+    """Returns a 3MF file with the XML `model`. If is_found is false, no relation names the model."""
     relation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
     target = f'<Relationship Target="/3D/3DModel.model" Id="rel0" Type="{relation}"/>'
     file = io.BytesIO()

@@ -17,7 +17,7 @@ def leave(reason):
 
 def ctest_output(ctest, build, *words, **settings):
     """Returns the output of ctest for the tests of a build. Even if ctest only lists tests, it
-    replaces its log. tools/test reads the build's log, so this function uses a separate one."""
+    replaces its log. tools/test reads the build's log, so this function uses a separate log."""
     with tempfile.TemporaryDirectory() as folder:
         pathlib.Path(folder, "CTestTestfile.cmake").write_text(f'subdirs("{build}/tests")\n')
         command = [ctest, "--test-dir", folder, *words]

@@ -72,10 +72,10 @@ TRIALS = {
     "help": ([], ["--help"]),
 }
 
-# Options that need a window, and the tests that try them.
+# These tests try the options that need a window.
 IN_THE_WINDOW = {"keys": "tests/view/test_keys.py", "quit-after": "tests/view/test_keys.py"}
 
-# Values that differ between two runs with the same arguments.
+# These values differ between two runs with the same arguments.
 MEASURED = ("seconds", "frame_seconds", "bytes", "cached")
 
 

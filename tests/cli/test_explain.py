@@ -43,7 +43,7 @@ def mirror_ball(level, number, distance):
 # Pictures have 5 x 5 pixels and a field of view of 90 degrees. The ray through pixel (2, 2) points at
 # the camera's target. Each row has the scene, the pixel, the rays and parts of the report.
 BY_HAND = [
-    # The eye and the light are 5 from a sphere's center. The hit faces them. The color is 0.8 * (0.1 + 0.5 * 0.5).
+    # The eye and the light are at a distance of 5 from a sphere's center. The color is 0.8 * (0.1 + 0.5 * 0.5).
     (BALL, "2,2", [{"hit": sphere(1, 4, light("reaches", 4, 1, diffuse=0.25), point=[0, -1, 0],
                                   normal=[0, -1, 0])}], {"color": [0.28] * 3}),
     # The direction (-0.8, 1, 0.8) misses the sphere.
@@ -55,7 +55,7 @@ BY_HAND = [
                                     blocker_distance=0.5), normal=[0, 0, 1])}], {"color": [0.08] * 3}),
     # The half angle of the ball's shadow cone has the sine 0.5 / 3. The shadow on the floor has a
     # radius of 4 * 0.169031 = 0.676123. At x = 0.65, the light is sqrt(0.65^2 + 16) away. The
-    # ball's center is 0.481182 off the shadow ray and 1.091310 along it. The ray meets the ball
+    # ball's center is 0.481182 off the shadow ray and 1.091310 along this ray. The ray meets the ball
     # sqrt(0.25 - 0.481182^2) before the center.
     (LAMP + "camera 0.65 -4 0.4 0.65 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4.052468, 0.987053, blocker={"kind": "sphere", "number": 1},
@@ -63,7 +63,7 @@ BY_HAND = [
     # At x = 0.7, nothing occludes the light. Its distance is sqrt(0.49 + 16), and the cosine is 4 / 4.060788.
     (LAMP + "camera 0.7 -4 0.4 0.7 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("reaches", 4.060788, 0.985030))}], {"color": [0.474012] * 3}),
-    # Each mirror ball halves the weight, and level 3 is the background. The balls add 0.453553 with
+    # Each mirror ball halves the weight, and rays of level 3 see the background. The balls add 0.453553 with
     # weights 1/2, 1/4 and 1/8. The background adds 1/8 of blue.
     (MIRRORS, "2,2", [mirror_ball(0, 1, 2), {**mirror_ball(1, 2, 4), "direction": [0, -1, 0]},
                       mirror_ball(2, 1, 4)], {"color": [0.396859, 0.396859, 0.521859]}),
@@ -77,7 +77,7 @@ BY_HAND = [
     # Triangle 0 of the file has two equal corners and is left out.
     ("light 1 0 4 1\nmaterial plain\nply_file dropped.ply\ncamera 1 -4 0.001 1 0 0 90\n", "2,2",
      [{"hit": floor(4, light("reaches", 4, 1), primitive={"kind": "triangle", "id": 0, "number": 1})}], {}),
-    # The eye is in the center of a mirror ball. The light is in the ball too, so normals face away from it.
+    # The eye is in the center of a mirror ball. The light is in the ball too, so normals face away from the light.
     ("light 0 0 0.5 1\nmaterial mirror\nsphere 0 0 0 1\ncamera 0 0 0 0 1 0 90\n", "2,2",
      [{"hit": sphere(1, 1, light("behind"), normal=[0, 1, 0])},
       {"hit": sphere(1, 2, light("behind"), point=[0, -1, 0])}, {"hit": sphere(1, 2, light("behind"))}],
@@ -261,7 +261,7 @@ class Pixels(Explain):
 
 
 class Scenes(Explain):
-    """Specialized kernels omit features that a scene lacks. General kernels contain most of them unused."""
+    """Specialized kernels omit features that a scene lacks. General kernels contain most features unused."""
 
     def expect_parts(self, words, **parts):
         """Expects each part's need, its presence in the program and the reason. Returns the report."""

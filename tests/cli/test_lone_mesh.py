@@ -12,7 +12,7 @@ import models
 from work import Work, main
 
 ASSIMP = sys.argv[2] == "1"
-# For each axis that points up, a function that turns a point so that z is up.
+# TURNS[axis] turns a point so that z points up if `axis` pointed up before.
 TURNS = {
     "x": lambda x, y, z: (-z, y, x),
     "y": lambda x, y, z: (x, -z, y),
@@ -30,7 +30,7 @@ def turned(points, up):
 
 
 def tripod(splay=1.0):
-    """Returns a body on three feet, with z up. It falls over in any other position."""
+    """Returns a body on three feet, with z up. The body falls over in any other position."""
     points, triangles = [], []
 
     def block(low, high):

@@ -105,7 +105,7 @@ class Pages(Work):
         self.assertEqual((done.stderr, done.returncode), ("", 0))
 
 
-# bash and zsh complete words only in a terminal. The tests press the tab key there and read the
+# bash and zsh complete words only in a terminal, where the tests press the tab key and read the
 # completions. fish needs no terminal (ask_fish).
 SETUP = {
     "bash": (
@@ -138,7 +138,7 @@ class Terminal:
         os.write(self.file, text.encode())
 
     def read(self, until, seconds=20):
-        """Reads until until(output) is true or the time is over. Returns the output."""
+        """Returns the output once until(output) is true or the time is over."""
         text, end = "", time.monotonic() + seconds
         while time.monotonic() < end and not until(text):
             if select.select([self.file], [], [], 0.2)[0]:

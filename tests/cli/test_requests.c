@@ -72,7 +72,7 @@ static const char *const commands[] = {
     [ACTION_DEVICES] = "clrt_device_count clrt_device_get",
 };
 
-// Members that no option sets, because only C code can set them.
+// Only C code can set these members, so no option does.
 static const char library_members[] = " ClrtPicture::size ClrtPicture::camera "
                                       "ClrtPicture::progress ClrtPicture::user ClrtLoad::size ";
 

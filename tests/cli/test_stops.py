@@ -30,7 +30,7 @@ class Stops(Work):
         self.caches = 0
 
     def start_picture(self, *words, cold, **more):
-        """Starts a picture, and waits until clrt handles signals. If cold, the kernel cache is empty."""
+        """Starts a picture, and waits until clrt handles signals. If `cold` is true, the kernel cache is empty."""
         environment = dict(os.environ)
         if cold:
             self.caches += 1

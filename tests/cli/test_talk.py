@@ -31,7 +31,7 @@ class Talk(Work):
         self.write(open_ply=ply([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 1)]), empty_scn="")
 
     def start_on_terminal(self, *words, **environment):
-        """Returns a run of clrt, and the terminal's side that receives its messages."""
+        """Returns a run of clrt, and the terminal's side that receives clrt's messages."""
         ours, theirs = pty.openpty()
         process = self.start(*words, stderr=theirs, env={**os.environ, **environment})
         os.close(theirs)

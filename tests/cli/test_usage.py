@@ -96,7 +96,7 @@ class Combinations(Work):
 
 class Notes(Work):
     def draws(self, note, *words):
-        """Expects that clrt draws the picture, and prints only the note. With -q, it prints nothing."""
+        """Expects that clrt draws the picture, and prints only the note. With -q, clrt prints nothing."""
         for quiet in [], ["-q"]:
             done = self.run_clrt(*words, "-s", "8x6", "-o", "a.pfm", *quiet)
             expected = f"clrt: {note}\n" if note and not quiet else ""

@@ -14,8 +14,8 @@ CLRT = pathlib.Path(sys.argv[1]).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = str(ROOT / "scenes/reflections.scn")
 EVERY_FEATURE = str(ROOT / "tests/image/every_feature.scn")
-# The formats of this build. They are the second argument of tests that depend on them. For other
-# tests, the list is empty.
+# The formats of this build, if they are the test's second argument. For other tests, the list is
+# empty.
 FORMATS = sys.argv[2].split(", ") if len(sys.argv) > 2 and "pfm" in sys.argv[2] else []
 HAS_EXR = "jpg" in FORMATS  # only OpenImageIO writes JPEG, and reads EXR for clrt compare
 NO_OPENCL = {"OCL_ICD_VENDORS": "/nonexistent"}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests tools/farm on a cluster whose hosts fail. Its file must equal the file of a single machine,
+# Tests tools/farm on a cluster whose hosts fail. The result must equal the file of a single machine,
 # byte for byte.
 # Usage: test_farm_hosts.py CLRT [TEST...]
 import json

@@ -20,7 +20,7 @@ RAYS = (40, 3000)[int(os.environ.get("CLRT_TEST_TIER", 0)) > 0]
 
 
 class Soup:
-    """Random triangles of floats whose box is [-1, 1]^3, so that normalizing does not round."""
+    """Random triangles of floats. Their bounding box is [-1, 1]^3, so normalizing does not round."""
 
     def __init__(self, random, count, size, spheres=()):
         centers = random.uniform(-1, 1, (count, 1, 3))
@@ -38,7 +38,7 @@ class Soup:
         return self.random.uniform(-1.5, 1.5, (RAYS, 3))
 
     def steps(self, smallest, largest):
-        """Returns random numbers of both signs. The exponents are between `smallest` and `largest`."""
+        """Returns random numbers of both signs, with decimal exponents from `smallest` to `largest`."""
         sign = self.random.choice((-1, 1), (RAYS, 1))
         return sign * 10 ** self.random.uniform(smallest, largest, (RAYS, 1))
 

@@ -119,7 +119,7 @@ class Pictures(unittest.TestCase):
         self.assertGreater(len(np.unique(picture)), 50)
 
     def test_arrays_have_the_bits_of_the_programs_exr_file(self):
-        # The numbers of tests depend on the kernel.
+        # The numbers of box and triangle tests depend on the kernel.
         names = [name for name in clrt.channel_kinds() if not name.endswith("tests")]
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "reflections.exr")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests a child process's streams, environment and limits, and that it ends with its parent.
+// Tests a child process's streams, environment and limits, and that the child ends with its parent.
 #include "base/child_process.h"
 
 #include "foreign/process_limits.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests that clrt reports one message if clrt-foreign crashes, hangs, writes endlessly or is
 // missing. Shell scripts replace clrt-foreign.
-#undef _FORTIFY_SOURCE // with it, the system's headers define readlink
+#undef _FORTIFY_SOURCE // otherwise, the system's headers define readlink
 #include "base/foreign.h"
 
 #include "base/clock.h"

@@ -11,10 +11,10 @@ static const struct {
     {{.is_cpu = true, .compute_units = 8, .group_limit = 4096, .group_multiple = 8}, {8, 8}, 4096},
     {{.is_cpu = true, .compute_units = 2, .group_limit = 4, .group_multiple = 16}, {8, 8}, 4096},
     {{.is_cpu = true, .is_wide = true, .compute_units = 8}, {2, 2}, 4096},
-    // Intel's integrated GPUs, whose compute units are small.
+    // Intel's integrated GPUs have small compute units.
     {{.compute_units = 24, .group_limit = 256, .group_multiple = 16}, {8, 8}, 196608},
     {{.compute_units = 96, .group_limit = 512, .group_multiple = 32}, {8, 8}, 786432},
-    // NVIDIA's GPUs with 20 and 132 multiprocessors. Registers limit the second one's groups.
+    // NVIDIA's GPUs with 20 and 132 multiprocessors. Registers limit the second GPU's groups.
     {{.compute_units = 20, .group_limit = 1024, .group_multiple = 32}, {8, 8}, 163840},
     {{.compute_units = 132, .group_limit = 256, .group_multiple = 32}, {8, 8}, 1048576},
     // AMD's GPUs, Mali with small groups, and a device with groups of one work-item.

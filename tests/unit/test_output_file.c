@@ -71,8 +71,8 @@ TEST(unfinished_files_of_one_name_are_two)
     unlink("picture");
 }
 
-// The process has one umask for all threads. If it changed, files of other threads could become
-// readable by everyone.
+// The process has one umask for all threads. If the umask changed, files of other threads could
+// become readable by everyone.
 TEST(the_mask_is_not_changed_even_for_a_moment)
 {
     OutputFile file;

@@ -235,7 +235,7 @@ def run_test(test, screen):
 
 def run_tests(module):
     """Runs the module's tests, or only the tests that the command line names. A function's name
-    states what it tests."""
+    states what the function tests."""
     screen, failures = Screen(), 0
     tests = [test for test in module.values()
              if inspect.isfunction(test) and test.__module__ == "__main__" and is_test(test)]

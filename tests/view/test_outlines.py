@@ -63,7 +63,7 @@ def near(edges):
 
 
 def compare(name, view, drawn, traced):
-    """Returns how many pixels differ. Fails if one of them is far from an edge."""
+    """Returns how many pixels differ. Fails if a differing pixel is far from an edge."""
     drawn, traced = (int.from_bytes(shown[2::4], "little") for shown in (drawn, traced))
     assert traced != 0 or view == "4", f"{name}, view {view}: nothing is seen"
     apart = flags(drawn ^ traced)
@@ -73,7 +73,7 @@ def compare(name, view, drawn, traced):
 
 
 def both_pictures(screen, scene):
-    """Returns the traced picture of the scene and OpenGL's."""
+    """Returns the traced picture and the OpenGL picture of the scene."""
     window = opened(screen, scene, size=SIZE)
     traced = window.read()
     window.press("r", "OpenGL")

@@ -109,7 +109,7 @@ def saved_pictures_equal_the_picture_in_the_window(screen, folder):
         if saved.exists():
             subprocess.run([os.environ["CLRT"], str(SCENE), "-q", "-s", "160x120", "-o",
                             str(folder / f"a.{ending}")], check=True)
-            # The texts at the start contain different settings. The pixels after them must be
+            # The texts at the start contain different settings. The pixels after the texts must be
             # equal.
             written, found = (folder / f"a.{ending}").read_bytes(), saved.read_bytes()
             same = common_end(written, found)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests that the window reloads changed scenes, meshes and kernels. It must show errors over the
+"""Tests that the window reloads changed scenes, meshes and kernels, and that it shows errors over the
 last valid picture. Usage: CLRT=path/to/clrt test_reload.py"""
 
 import os
