@@ -80,7 +80,7 @@ static bool is_walked(const Option *option)
 }
 
 // Each option as a word of the command line, and the value within this word. Parsed options point
-// to their values, so all command lines share these words.
+// into these words, so only command lines with the same words can be compared.
 static char texts[OPTIONS_MOST][80];
 static const char *values[OPTIONS_MOST];
 

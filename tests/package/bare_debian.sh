@@ -67,7 +67,7 @@ run_in_root() {
     in_namespaces bash -euc '
         root=$1 course=$2 commands=$3
         shift 3
-        # Tests that mount disks need a root that is a mount point.
+        # Some tests mount disks, so the root must be a mount point.
         mount --bind "$root" "$root"
         mount -t proc proc "$root/proc"
         mount -t sysfs -o ro sysfs "$root/sys"

@@ -23,7 +23,7 @@ typedef struct {
     Scene scene;
     Normalization normalization;
     FrameData frame;
-    double height; // of an orthographic picture; 0 for perspective
+    double height; // height of an orthographic picture; 0 for perspective
     SphereData sphere;
     ThinParts parts;
 } World;

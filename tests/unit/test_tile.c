@@ -100,7 +100,7 @@ TEST(no_part_is_much_slower_than_the_mean)
             }
 }
 
-// The number of launches that have drawn each pixel, in the framebuffer's layout.
+// Counts of launches per pixel, in the framebuffer's layout.
 typedef struct {
     unsigned char *counts;
     uint32_t width, height;

@@ -72,7 +72,7 @@ bool __wrap_window_open(Window *window, const char *title, uint32_t width, uint3
     return __real_window_open(window, title, width, height, error);
 }
 
-static int fonts_missed = -1; // number of hidden fonts; if negative, fonts are not hidden
+static int fonts_missed = -1; // number of hidden fonts; -1 hides none
 bool __real_file_read(File *file, const char *path, Error *error);
 bool __wrap_file_read(File *file, const char *path, Error *error);
 
