@@ -275,7 +275,7 @@ class Scenes(Explain):
     def test_the_text_lists_compiled_and_omitted_features_and_uploads(self):
         told = self.clrt("explain", "ball.scn", "--tune", "specialize=always")
         left_out = told.split("\nleft out\n")[1].split("\nuploaded")[0]
-        self.assertEqual(left_out.count("\n  ") + 1, 6, told)
+        self.assertEqual(left_out.count("\n  ") + 1, 7, told)
         self.assertIn("  tree        there are no triangles to find", left_out)
         self.assertIn("  triangles   there are none", left_out)
         for part in "  spheres     1 of them", "  spheres     48 bytes", " nodes triangles looks normals colors":
