@@ -13,7 +13,7 @@ from work import CLRT, ROOT, SharedWork, main
 
 PAGE = ROOT / "docs/tutorial.md"
 SHOWCASE = ROOT / "scenes/showcase.scn"
-STEPS = 12 if sys.argv[2] == "1" else 10  # the last two need Assimp
+STEPS = 13 if sys.argv[2] == "1" else 10  # the last three need Assimp
 TEXT = PAGE.read_text().partition(f"\n## {STEPS + 1}.")[0]
 SCRIPT = re.findall(r"^```(\w+)\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
 PICTURES = re.findall(r"\]\((tutorial/[^)]+\.png)\)", TEXT)
