@@ -14,7 +14,7 @@ CTEST, BUILD = sys.argv[1:3]
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/peers.md"
 PEERS = ["POV-Ray", "c-ray", "LuxCoreRender", "Mitsuba 3", "Cycles", "pbrt-v4", "OSPRay Studio", "Embree",
          "F3D", "Radiance", "tinybvh", "appleseed", "nobody", "all but"]
-LOSSES = ["glass", "textures", "instancing", "Windows and macOS"]
+LOSSES = ["textures", "instancing", "Windows and macOS"]
 # Easily overlooked features, with peers that have them.
 OVERLOOKED = {
     "more samples where pixels differ": ["Cycles (by default, threshold 0.01)"],
