@@ -360,7 +360,7 @@ SceneTraits traits_general(SceneTraits needed)
 {
     for (size_t i = 0; i < TRAIT_COUNT; i++)
         *(bool *)((char *)&needed + trait_table[i].offset) |= !trait_table[i].is_rare;
-    needed.checkers = needed.glass = needed.checkers || needed.glass;
+    needed.checkers |= needed.glass;
     return needed;
 }
 

@@ -81,8 +81,7 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics);
 float flat_reflectivity(const FlatScene *flat);
 
 // Returns the traits of the general program for scenes with the needed traits. General programs
-// have all traits, but rare traits only if they are needed. Checkers and glass are in the same
-// general program.
+// have all traits, but rare traits only if they are needed. Glass comes with checkers.
 SceneTraits traits_general(SceneTraits needed);
 
 #define TRAITS_OPTIONS_SIZE 192

@@ -270,6 +270,17 @@ TEST(only_materials_in_use_count)
     assert_false(traits_of(&flat, false).triangles);
 }
 
+TEST(general_programs_have_rare_traits_only_if_needed)
+{
+    const SceneTraits plain = traits_general((SceneTraits){0});
+    assert_true(plain.mirrors && plain.colors);
+    assert_false(plain.checkers || plain.glass || plain.statistics);
+    const SceneTraits checkers = traits_general((SceneTraits){.checkers = true});
+    assert_true(checkers.checkers && !checkers.glass);
+    const SceneTraits glass = traits_general((SceneTraits){.glass = true});
+    assert_true(glass.checkers && glass.glass);
+}
+
 TEST(traits_become_compiler_options)
 {
     char options[TRAITS_OPTIONS_SIZE];
