@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Reads every #include and reports violations of the layers. A layer ("floor") is a folder of host/.
-# A file may include headers of its own folder and of lower layers, but not in a cycle. NAME.c and
-# NAME.h count as one unit there, so two units must not include each other through their .c files. A
-# kernel file may include only files that precede it in the list in CMakeLists.txt. NAME.h declares
-# only functions of NAME.c.
+# A file may include headers of its own folder and of lower layers, but not in a cycle. In cycles,
+# NAME.c and NAME.h count as one unit, so two units must not include each other through their .c
+# files. A kernel file may include only files that precede it in the list in CMakeLists.txt. NAME.h
+# declares only functions of NAME.c.
 import argparse
 import pathlib
 import re
@@ -44,7 +44,7 @@ BELOW |= {
 CORE = ["base", "mesh", "scene", "accel"]
 FOREIGN = re.compile(r"(CL|OpenCL|GL|GLFW|epoxy|OpenImageIO|assimp)/|(dlfcn|pthread|jansson|png)\.h$")
 
-# The one file that starts threads, for all of the core, and the one that asks where it is.
+# The only file of the core that starts threads, and the only one that asks for its own path.
 EXCEPTIONS = [("base/thread_pool.c", "pthread.h"), ("base/foreign.c", "dlfcn.h")]
 
 # Host and kernels share one header. Only one host file includes it, for all layers above.

@@ -3,9 +3,9 @@
 
 The rate of each kind of ray comes from three pictures of a scene. The first has neither lights nor
 reflections, so it has only camera rays. The second has lights, and the third is complete. A rate is
-the number of rays that a picture adds, divided by the time that it adds, including shading. Times
-are medians of pictures without counters. Counts come from one run with counters. Scenes alternate
-within a round, so that drift of the machine affects all scenes.
+the number of rays that a picture adds to the previous one, divided by the added time, including
+shading. Times are medians of pictures without counters. Counts come from one run with counters.
+Scenes alternate within a round, so that drift of the machine affects all scenes.
 """
 
 import pathlib

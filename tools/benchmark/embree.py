@@ -18,7 +18,8 @@ QUALITIES = ["low", "medium", "high"]
 
 
 def program(target):
-    """Returns the path of the Embree renderer for a target, or for this machine if it is None."""
+    """Returns the path of the Embree renderer for a target, or for this machine if target is
+    None."""
     return common.BUILD / ("embree_peer" + (f"_{target}" if target else ""))
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Generated scenes like most pictures: a small mesh on a large mirror floor under much sky, the floor
-alone, and the sky alone. They show the fixed cost of a ray."""
+"""Writes scenes that resemble most pictures: a small mesh on a large mirror floor under much sky,
+the floor alone, and the sky alone. These scenes show the fixed cost of a ray."""
 
 import pathlib
 

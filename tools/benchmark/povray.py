@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Compares clrt with POV-Ray 3.7 from file to PNG: whole processes, alternating.
+"""Compares the times of clrt and POV-Ray 3.7 from file to PNG. Their processes run alternately.
 
 Converts the scene to POV-Ray input. Meshes become text, because POV-Ray does not read PLY. Both
 renderers use the same shading formula and number of reflections, and one sample per pixel. There is
@@ -18,7 +18,7 @@ import time
 from benchmark import common, ply, scenes
 
 MOST_APART = 0.01
-# clrt's values without such a statement.
+# clrt's values for scenes without these statements.
 SETTINGS = {"size": ["512", "512"], "background": ["1", "1", "1"], "ambient": ["0.05"],
             "max_level": ["3"]}
 
@@ -44,7 +44,7 @@ def settings_of(text):
 
 def finish_of(words, ambient):
     """Returns the texture of a define statement. Ambient and diffuse light are scaled by 1 -
-    reflectivity, as in clrt. The first colors of both checkers start at 0 0 0."""
+    reflectivity, as in clrt. In both renderers, a checker's first color starts at 0 0 0."""
     figures = {"diffuse": ["1", "1", "1"], "kd": ["1"], "reflectivity": ["0"], "checker": None}
     if words[0] != "matte":
         refuse(words[0])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vectors of LANES numbers, one per ray of a packet, and points made of such vectors. They are the
-// compiler's vector types: + - * / work on all lanes at once.
+// Vectors of LANES numbers, one per ray of a packet, and points made of such vectors. The vectors
+// have the compiler's vector types, so + - * / work on all lanes at once.
 #pragma once
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PeerScene -> Framebuffer. The scene is drawn in a mode, which is a way to call Embree.
+// Draws a PeerScene into a Framebuffer in one of several modes, which are ways to call Embree.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -17,10 +17,10 @@ typedef struct {
     enum RTCIntersectContextFlags flags[RAY_KINDS];
     Framebuffer *framebuffer;
     uint32_t x, y, width, height;
-    PeerCounts counts; // the tile's rays are added
+    PeerCounts counts; // of all tiles so far
 } PeerTile;
 
-// A way to call Embree. draw_tile is peer_tile.c, compiled for the mode.
+// A way to call Embree. draw_tile is the function of peer_tile.c, compiled for the mode.
 typedef struct {
     const char *name;
     void (*draw_tile)(PeerTile *tile);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene file -> Embree's scene and the data for shading, in clrt's normalized coordinates.
+// Turns a scene file into Embree's scene and data for shading, in clrt's normalized coordinates.
 #pragma once
 
 #include "scene/scene.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces and shades a tile like kernels/trace.cl, with LANES rays per SIMD packet. Each call of
 // Embree traces PACKETS packets. CMakeLists.txt compiles this file once for each mode. Unlike in
-// clrt, triangles are visible from both sides, and rays end or start at a fixed distance from the
-// surface. Most users of Embree do both, and both are faster than Embree's filter functions.
+// clrt, triangles are visible from both sides, and rays start or end at a fixed distance from the
+// surface. Most users of Embree do this, because filter functions are slower.
 #include "calls.h"
 #include "peer_draw.h"
 

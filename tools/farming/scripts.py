@@ -21,7 +21,7 @@ folder={folder}
 cd {here}
 """
 
-# A task's number, from Slurm or from the command line.
+# Gets a task's number from the command line or from Slurm.
 TASK = """\
 task=${1:-$SLURM_ARRAY_TASK_ID}
 """
@@ -58,7 +58,7 @@ MERGE = """\
 
 def write(folder, command, scripts):
     """Writes the scripts to the folder. A script is (name, name of its log, folder in which it
-    runs, lines). In their head, each line of the command is a comment."""
+    runs, lines). The head of each script contains the command's lines as comments."""
     first = folder / f"{scripts[0][0]}.sh"
     command = command.replace("\n", "\n# ")
     if first.exists():

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// make_manual TEMPLATE: prints the template. Parts from the tables replace %NAMES%.
+// make_manual TEMPLATE: prints the template with parts from the tables in place of %NAMES%.
 #include "manual.h"
 
 #include <string.h>

@@ -157,7 +157,8 @@ void write_classes(FILE *stream)
     fputs(".El\n", stream);
 }
 
-// Writes the window's keys. Each has a line, in which two spaces separate it from its meaning.
+// Writes the window's keys. show_write_keys prints a line for each key, with two spaces between the
+// key and its meaning.
 void write_keys(FILE *stream)
 {
     char text[4096] = "";

@@ -15,6 +15,6 @@ WritePart write_synopsis, write_commands, write_options, write_exclusions, write
 WritePart write_command_names;
 
 // A line for each option: commands|name|letter|kind|values|help. The commands are separated by
-// spaces, and "-" stands for rendering. The kind is flag or, with an optional argument after
-// "optional", one of file, words and other. The text has no quotes, backslashes or dollar signs.
+// spaces, and "-" stands for rendering. The kind is flag, file, words or other. The word "optional"
+// precedes the kind of an optional argument. The text has no quotes, backslashes or dollar signs.
 WritePart write_option_table;

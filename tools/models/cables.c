@@ -26,8 +26,8 @@ static Vec3 cross_section(double degrees, double radius)
                     vec3_scale(up, radius * sine_of_degrees(degrees)));
 }
 
-// Returns a point on a cable's center line; part is 0 to 1. The cables of the bundle lie like a
-// sunflower's seeds.
+// Returns a point on a cable's center line; part is 0 to 1. In a cross-section, the cables lie like
+// a sunflower's seeds.
 static Vec3 cable_point(int cable, double part)
 {
     const double degrees = GOLDEN_DEGREES * cable, ring = sqrt((cable + 0.5) / CABLES);

@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-// The directed edges, sorted by their start. ends[first[v]] up to, not including, ends[first[v +
-// 1]] are the ends of edges from vertex v.
+// The directed edges, sorted by their start. The edges from vertex v end at ends[i] for first[v] <=
+// i < first[v + 1].
 typedef struct {
     size_t *first;
     uint32_t *ends;

@@ -14,7 +14,7 @@
 #define BLOCK_SAMPLES 4
 
 // Fields are distances to first order only. A block is skipped if its center is farther from the
-// surface than twice the distance to its corners.
+// surface than twice the center's distance to the block's corners.
 #define BLOCK_CAUTION 2.0
 
 // The depth of a sample that is moved inside, in cells. It is small, so that the surface hardly

@@ -12,14 +12,14 @@
 // More steps hardly improve the triangles.
 #define RELAX_STEPS 6
 
-// The fraction of the way to the neighbors' mean that a step moves.
+// The fraction of the way to its neighbors' mean that a vertex moves in a step.
 #define RELAX_SPEED 0.6
 
 // In one step, a vertex moves at most this many cells along the gradient. If the field has finer
 // detail than the grid, a full step would fold the surface.
 #define LONGEST_STEP 0.5
 
-// The distance of the gradient's samples along each axis, in cells. It smooths creases that
+// The distance of the gradient's samples along each axis, in cells. This smooths creases that
 // triangles cannot show.
 #define GRADIENT_REACH 0.3
 
@@ -38,8 +38,8 @@ typedef struct {
     double value;
 } Slope;
 
-// Evaluates the field at the corners of a tetrahedron: four evaluations instead of the six of
-// central differences.
+// Evaluates the field at the four corners of a tetrahedron. Central differences would need six
+// evaluations.
 static Slope field_slope(Field *field, Vec3 p, double reach)
 {
     const double a = field(vec3(p.x + reach, p.y + reach, p.z + reach));

@@ -8,8 +8,8 @@
 #include "base/vec.h"
 #include "wave.h"
 
-// This exceeds the blend widths with which the parts that use it are joined. At this distance from
-// such a part, a bound of its field is sufficient.
+// At this distance from a part, a bound of the part's field is sufficient, because the blend widths
+// at the part are smaller.
 #define SHAPE_FAR 0.05
 
 static inline double shape_smaller(double a, double b)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Grid -> Surface by naive surface nets (Gibson, "Constrained Elastic Surface Nets", MICCAI 1998).
-// Every cell that the surface crosses gets a vertex, at the mean of the surface's crossings of the
-// cell's edges. Every crossed grid edge gets a quad around it. The grid is well-composed, so a cell
-// contains one sheet of the surface, and the quads form a closed surface.
+// Makes a Surface of a Grid by naive surface nets (Gibson, "Constrained Elastic Surface Nets",
+// MICCAI 1998). Every cell that the surface crosses gets a vertex, at the mean of the surface's
+// crossings of the cell's edges. Every crossed grid edge gets a quad around it. The grid is
+// well-composed, so a cell contains one sheet of the surface, and the quads form a closed surface.
 #include "surface.h"
 
 #include "base/array.h"

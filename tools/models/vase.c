@@ -12,7 +12,7 @@
 #define BELLY  0.38
 #define PERIOD 0.92
 
-// Returns about the distance from the side.
+// Returns the approximate distance from the side.
 static double side_field(Vec3 p)
 {
     const double turns = (p.z - BELLY) / PERIOD;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Makes memory faults harder to exploit: checked string functions, stack protectors, addresses that
-# differ in every run, read-only tables of functions.
+# differ in every run, and read-only tables of functions.
 include(CheckCCompilerFlag)
 include(CheckPIESupported)
 check_pie_supported(LANGUAGES C)

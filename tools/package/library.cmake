@@ -38,7 +38,8 @@ install(FILES ${CMAKE_BINARY_DIR}/clrt.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pk
 install(FILES tests/library/picture.c DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
         COMPONENT development)
 
-# The Python package: the library, its header and its companion beside the modules (pyproject.toml).
+# The Python package has the library, its header and clrt-foreign beside its modules
+# (pyproject.toml).
 if(CLRT_PYTHON_WHEEL)
   install(FILES $<TARGET_FILE:clrt_library> DESTINATION clrt RENAME libclrt.so.0 COMPONENT python)
   install(FILES host/library/clrt.h DESTINATION clrt COMPONENT python)

@@ -7,7 +7,7 @@ set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libclrt0)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS clrt) # which reads models
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS clrt) # contains clrt-foreign, which reads models
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "pictures by the ray tracer clrt from other programs
 libclrt traces scenes of triangle meshes and spheres with OpenCL kernels, on
 CPUs and GPUs, into the memory of the program that it is part of, with the same
@@ -15,7 +15,7 @@ bits on every device.")
 file(WRITE ${folder}/triggers "activate-noawait ldconfig\n")
 file(WRITE ${folder}/shlibs "libclrt 0 libclrt0 (>= ${PROJECT_VERSION})\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${folder}/triggers;${folder}/shlibs")
-# If this were on, CPack would add scripts that run ldconfig, although the trigger already does.
+# With SHLIBDEPS, CPack would add scripts that run ldconfig, although the trigger already runs it.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_SOURCE_DIR}/tools/package/library_depends.cmake)
 set(CPACK_CLRT_LIBRARY ${CMAKE_BINARY_DIR}/libclrt.so.${PROJECT_VERSION})

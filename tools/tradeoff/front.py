@@ -3,7 +3,7 @@
 
 
 def mark(rows):
-    """Sets "front" of each row: whether no other row is at least as fast and as accurate, and
+    """Sets "front" of each row: false if another row is at least as fast and as accurate, and
     better in time or accuracy."""
     for row in rows:
         row["front"] = not any(

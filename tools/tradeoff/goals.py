@@ -10,8 +10,8 @@ MARGIN = 1.1
 
 
 def rival(row, trials):
-    """Returns the cost of all trials, the last of which meets the row's goal, with the row's
-    relative cost. Without trials, returns None."""
+    """Returns the total cost of the trials, and the row's cost relative to it, or None without
+    trials. The last trial meets the row's goal."""
     if not trials:
         return None
     milliseconds = sum(trial["milliseconds"] for trial in trials)
@@ -29,7 +29,7 @@ def fastest(row, rows):
 
 def doubling(row, rows):
     """Returns the uniform settings 1 x 1, 2 x 2, 4 x 4 and so on, up to the first that meets the
-    row's goal. If none of rows is this setting, returns nothing."""
+    row's goal. Returns none if rows lack one of these settings."""
     by_side = {uniform.side_of(other): other for other in rows}
     trials, side = [], 1
     while side in by_side:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Places the names of points. Each name takes the nearest position around its point that covers
-the least of other names and points. A thin line leads to a distant name."""
+"""Places the names of points. Each name takes the position around its point that covers the least
+of other names and points, and among equal positions the nearest. A thin line leads to a distant
+name."""
 
 import math
 

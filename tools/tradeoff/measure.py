@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A scene and settings -> rows of figures: times, and errors relative to one reference."""
+"""Measures the settings of a scene. Each gets a row of figures: times, and errors relative to one
+reference."""
 
 import json
 import pathlib
@@ -16,8 +17,8 @@ from tradeoff import front, goals, grid, uniform
 # late initialization, so only the others are timed.
 FRAMES = 3
 
-# With --processor-time, frames after the first take at least this number of seconds, or are the most
-# that clrt draws.
+# With --processor-time, a process draws enough frames that those after the first take this number
+# of seconds, but at most MOST_FRAMES.
 PROCESSOR_SECONDS = 0.5
 MOST_FRAMES = 1000
 
@@ -64,7 +65,7 @@ def draw(setting, scene, options, picture, *more):
 def first_row(place, setting, scene, options, folder):
     """Draws a setting's picture with statistics, and compares it with the reference."""
     picture, report = folder / f"{place}.pfm", folder / f"{place}.json"
-    # Otherwise, clrt would draw settings with few samples by kernels that compile sooner.
+    # Without this, clrt would draw settings with few samples by kernels that compile sooner.
     kernels = [word for word in setting.words if not word.startswith(("--aa=", "--max-level"))]
     run_clrt(["warm", "-q", scene, *kernels])
     draw(setting, scene, options, picture, f"--json={report}")

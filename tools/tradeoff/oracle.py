@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Measured pictures of N x N samples per pixel -> the least time in which samples can reach an error.
-An oracle knows the squared error of each pixel in each picture, and gives each pixel its own N. A
-pixel costs its share of the time of the picture with this N. The oracle minimizes the time plus the
-squared error times a weight, pixel by pixel. Larger weights lead to smaller errors."""
+"""Computes the least time in which samples can reach an error, from measured pictures of N x N
+samples per pixel. An oracle knows the squared error of each pixel in each picture, and gives each
+pixel its own N. A pixel costs its share of the time of the picture with this N. The oracle
+minimizes the time plus the squared error times a weight, pixel by pixel. Larger weights lead to
+smaller errors."""
 
 import numpy
 
@@ -29,8 +30,8 @@ def squares_of(picture, reference):
 
 
 def add(scene, folder):
-    """Adds "oracle", the points of limit(), to a scene, and to each error goal "oracle_times", its
-    time divided by the oracle's. folder has the pictures."""
+    """Adds the points of limit() to a scene as "oracle". Adds "oracle_times" to each error goal:
+    the goal's time divided by the oracle's. folder contains the pictures."""
     rows = [row for row in scene["rows"] if row["kind"] == "uniform"]
     if not rows:
         return

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Computes SSIM and FLIP, which estimate visible differences, of PFM files. Both interpret the
-values as display values. FLIP assumes 67 pixels per degree, its default."""
+"""Computes SSIM and FLIP of PFM files. Both estimate visible differences. Both interpret the values
+as display values. FLIP assumes 67 pixels per degree, its default."""
 
 import flip_evaluator
 import numpy

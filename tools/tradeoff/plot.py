@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Rows -> an SVG of error against time, both logarithmic. Settings on the Pareto front have filled
-markers; other settings have hollow markers. A dotted line shows the oracle's limit, and a horizontal
-line the reference's own error."""
+"""Plots error against time as SVG, both logarithmic. Settings on the Pareto front have filled
+markers; other settings have hollow markers. A dotted line shows the oracle's limit, and a
+horizontal line the reference's own error."""
 
 import io
 import math
@@ -21,7 +21,7 @@ KINDS = [("uniform", "uniform samples", "#0b62c4", "o"),
          ("error", "error goals", "#a21caf", "*"),
          ("time", "time goals", "#b45309", "P")]
 
-# The kinds of settings that differ only in one number. A line connects them.
+# The settings of these kinds differ only in one number. A line connects them.
 SERIES = ["uniform", "adaptive", "error"]
 
 
