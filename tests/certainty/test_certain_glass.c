@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tests --aov certainty in random scenes with glass: the colors of certified pixels differ from
-// fp64 only by rounding, repaired pixels have the colors of fp64, and most pixels are certified.
-// Tier 0 draws 10 scenes, and tier 1 draws 50.
+// Tests --aov certainty in random scenes with glass. The colors of certified pixels may differ from
+// fp64 only by rounding, repaired pixels must have the colors of fp64, and most pixels must be
+// certified. Tier 0 draws 10 scenes, and tier 1 draws 50.
 #include "certainty/certified.h"
 #include "extremes/support/check.h"
 #include "image/form.h"
@@ -42,7 +42,7 @@ static void write_random_meshes(FILE *stream, uint64_t *random)
     }
 }
 
-// Writes a floor and a mirror with balls and meshes of glass, of which some are in others.
+// Writes a floor, a mirror, and balls and meshes of glass. Some of them are inside others.
 static void write_random_scene(char path[TEMPORARY_PATH], uint64_t seed)
 {
     FILE *stream = temporary_open(path);

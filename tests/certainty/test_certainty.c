@@ -103,8 +103,8 @@ typedef struct {
     float share;
 } Seen;
 
-// Returns whether the plain picture has the mark's first hit and number of lights. The lights of
-// silhouettes and glass decide nothing.
+// Returns whether the plain picture has the mark's first hit and number of lights. The colors of
+// silhouettes and glass do not depend on lights.
 static bool is_alike(const Certified *certified, const CertaintyMark *mark, const Seen *seen)
 {
     if (seen->primitive != mark->first_id)

@@ -30,7 +30,7 @@ class View:
         self.down = [self.right[2] * self.forward[1] - self.right[1] * self.forward[2],
                      self.right[0] * self.forward[2] - self.right[2] * self.forward[0],
                      self.right[1] * self.forward[0] - self.right[0] * self.forward[1]]
-        self.pixel = 2 * math.tan(math.radians(self.fov) / 2) / size[1]  # its side, at depth 1
+        self.pixel = 2 * math.tan(math.radians(self.fov) / 2) / size[1]  # a pixel's side at depth 1
 
     def point(self, x, y, depth):
         across, along = ((place - side / 2) * self.pixel for place, side in zip((x, y), self.size))

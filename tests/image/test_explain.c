@@ -54,8 +54,8 @@ static void check_surface(const Explainer *explainer, const ExplainedRay *ray)
     }
 }
 
-// Rounds the result of an operation to the kernel's precision. A double is wide enough to round
-// sums and products of floats twice without an error.
+// Rounds the result of an operation to the kernel's precision. Rounding a sum or product of floats
+// to double first does not change the float.
 static double rounded_as(const Explainer *explainer, double value)
 {
     return explainer->is_fp64 ? value : (double)(float)value;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Properties of glass that need no second tracer.
+// Tests properties of glass that need no second ray tracer.
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
@@ -12,7 +12,7 @@
 #define BLOCK  CLRT_SOURCE_FOLDER "/tests/image/block.ply"
 #define BALL   CLRT_SOURCE_FOLDER "/tests/image/ball.ply"
 
-// The meshes along a side of the grid.
+// The number of meshes along a side of the grid.
 #define SIDE 8
 
 // Writes a floor in the light of a sun, and meshes of glass above it, each turned at random. Every
@@ -41,8 +41,7 @@ static void write_turned_meshes(char path[TEMPORARY_PATH], const char *mesh, dou
     temporary_close(stream);
 }
 
-// Each crossing halves the red channel, without rounding. The ratio of two channels therefore
-// counts the crossings.
+// Returns the number of crossings. Each crossing halves the red channel without rounding.
 static uint32_t crossings_of(const float color[3])
 {
     assert_true(color[0] > 0 && color[1] == color[2]);
@@ -67,11 +66,11 @@ TEST(straight_rays_leak_through_no_turned_cube)
         }
         unlink(path);
     }
-    assert_true(most >= 6); // both meshes on the ray, and a cube on its way to the light
+    assert_true(most >= 6); // a ray crosses two meshes, and its light crosses a cube
 }
 
-// Expects that each ray that hits no glass is outside: the rays before it cross an even number of
-// surfaces.
+// Expects each ray that hits no glass to be outside: the rays before it must cross an even number
+// of surfaces.
 static void expect_outside(const Explainer *explainer, const ExplainedSample *sample)
 {
     uint32_t crossings[GLASS_LEVELS + 1] = {0};
@@ -138,8 +137,8 @@ static Framebuffer drawn_behind(const char *front)
     return picture;
 }
 
-// The rays start anew at the surface of the glass, so they differ by rounding. At the edges of
-// other shapes, this may decide which of them a ray hits.
+// Rays start anew at the surface of the glass, so they differ by rounding. At the edges of other
+// shapes, rounding may decide which shape a ray hits.
 TEST(a_ball_of_index_one_is_invisible)
 {
     uint32_t differing = 0;

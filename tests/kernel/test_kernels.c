@@ -259,7 +259,7 @@ TEST(powers_are_right_in_fp64)
     }
 }
 
-// Snell's and Fresnel's laws with angles instead of cosines. Returns whether light passes.
+// Applies Snell's and Fresnel's laws with angles instead of cosines. Returns whether light passes.
 static bool exact_refraction(double ratio, double cosine, double *beyond, double *reflectance)
 {
     const double incoming = acos(fmin(cosine, 1)), sine = ratio * sin(incoming);
@@ -277,8 +277,8 @@ static bool exact_refraction(double ratio, double cosine, double *beyond, double
 
 #define ANGLES 1000
 
-// Results may be off by rounding, and by as much as they change if the cosine changes by 4 u. Near
-// the angle of total reflection, this is the larger part.
+// Results may differ by rounding, plus the change that a change of the cosine by 4 u causes. Near
+// the angle of total reflection, the latter is larger.
 static void expect_refraction(const float given[2], const float result[6])
 {
     const double ratio = (double)given[0], cosine = (double)given[1], change = 4 * 0x1p-24;

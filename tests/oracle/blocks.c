@@ -31,7 +31,7 @@ static Vec3 load(const VectorColumns *columns, uint32_t place)
     return vec3(columns->x[place], columns->y[place], columns->z[place]);
 }
 
-// `least` is that of the triangle in OracleBlock.
+// `least` is the triangle's value for OracleBlock::least.
 static void block_add(OracleBlock *block, const Mesh *mesh, size_t triangle, double least)
 {
     const Vec3 corner = corner_of(mesh, triangle, 0);

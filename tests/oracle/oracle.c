@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces and shades by the rules of the course and of clrt. A light shines on a point if the
-// interpolated normal faces the light, and neither the surface itself nor another one occludes the
-// light. A ray never hits the triangle that it leaves, and hits a sphere that it leaves only at the
-// far wall. A reflected ray that would enter the surface is mirrored out of the surface.
+// interpolated normal faces the light, and nothing but glass occludes the light. A ray never hits
+// the triangle that it leaves, and hits a sphere that it leaves only at the far wall. A reflected
+// ray that would enter the surface is mirrored out of the surface.
 #include "oracle/oracle.h"
 
 // A light grazes a face if the sine of the light's height over the face is below this limit. A
@@ -98,8 +98,8 @@ static Vec3 times(Vec3 a, Vec3 b)
     return vec3(a.x * b.x, a.y * b.y, a.z * b.z);
 }
 
-// Returns the part of a light that passes all glass on a ray, for each channel: zero behind
-// anything else. Like the renderer, every crossing starts a new ray.
+// Returns the part of each channel of a light that passes the glass on a ray, or zero if the ray
+// also hits anything else. As in the renderer, a new ray starts at each crossing.
 static Vec3 light_let_through(const Oracle *oracle, OracleRay ray, OracleDecisions *decisions)
 {
     Vec3 passed = {1, 1, 1};
@@ -211,16 +211,15 @@ static Vec3 reflected(const OracleSurface *surface)
     return vec3_normalize(outward);
 }
 
-// The vectors of a refraction, which Snell's law splits into a part along the surface and a part
-// along the normal.
+// The refracted direction, and the share of the light that is reflected.
 typedef struct {
     Vec3 direction;
     double reflectance; // 1 for total reflection
 } Bent;
 
-// Returns the refracted ray. Its part along the surface has the sine of Snell's law. The amplitudes
-// are Fresnel's, from the tangents and sines of both angles. At right angles to the surface, where
-// both are zero, only the indices matter.
+// Applies Snell's law to the direction's part along the surface, and Fresnel's equations to the
+// sines and tangents of both angles. At right angles to the surface, both angles are zero, and the
+// reflectance depends only on the index.
 static Bent bend(const OracleSurface *surface, double ior)
 {
     const bool is_sphere = vec3_dot(surface->normal, surface->face) < 0;

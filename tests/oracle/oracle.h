@@ -31,8 +31,8 @@ typedef struct {
 OracleView oracle_view(const Oracle *oracle, const Viewpoint *viewpoint, uint32_t width,
                        uint32_t height, uint32_t max_level);
 
-// The decisions of a ray tree. For the camera ray and each reflected ray, they are the hit object,
-// its side, whether its cube is odd, and the lights that reach the point.
+// The decisions of a ray tree. For each ray but shadow rays, they are the hit object, its side,
+// whether its cube is odd, and the lights that reach the point.
 typedef struct {
     uint64_t signature; // a hash of all decisions
     bool grazes;        // a light is so low that rounding may decide whether it shines

@@ -85,10 +85,10 @@ static Vec3 vertex_normal(const Mesh *mesh, uint32_t vertex, Vec3 face)
 }
 
 typedef struct {
-    double of[3]; // the corners' shares of the point; their sum is 1
+    double of[3]; // the weights of the corners at the point; their sum is 1
 } Shares;
 
-// Shares are areas, each divided by the sum of all three.
+// The shares are areas, divided by the sum of all three.
 static Shares shares_of(const Mesh *mesh, const uint32_t corners[3], Vec3 point, Vec3 face)
 {
     Vec3 p[3];
