@@ -277,8 +277,8 @@ static bool exact_refraction(double ratio, double cosine, double *beyond, double
 
 #define ANGLES 1000
 
-// Results may differ by rounding, plus the change that a change of the cosine by 4 u causes. Near
-// the angle of total reflection, the latter is larger.
+// Allows for rounding, and for the effect of an error of 4 u in the cosine. Near the angle of total
+// reflection, this effect is larger.
 static void expect_refraction(const float given[2], const float result[6])
 {
     const double ratio = (double)given[0], cosine = (double)given[1], change = 4 * 0x1p-24;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene with all that clrt.h can add to a scene, except area lights. filled.scn and its meshes
-// describe the same scene, except for max_level.
+// A scene with every kind of object that clrt.h can add, except area lights. filled.scn and its
+// meshes describe the same scene, except for max_level.
 #pragma once
 
 #include <clrt.h>

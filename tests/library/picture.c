@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ball on a mirror, as PFM: cc picture.c -o picture $(pkg-config --cflags --libs clrt)
+// Draws a ball on a mirror as PFM: cc picture.c -o picture $(pkg-config --cflags --libs clrt)
 #include <clrt.h>
 #include <stdio.h>
 

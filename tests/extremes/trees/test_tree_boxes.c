@@ -9,7 +9,7 @@
 #include "device/kernel_choice.h"
 
 // With division of 2.5 ulp, the triangle test accepts triangles up to 34 units of rounding beside
-// the ray, plus 25 if t may be zero. The slabs' errors add up to 8. The margin is relative to the
+// the ray, plus 25 if t may be zero. The slabs' errors add 8 units. The margin is relative to the
 // box's largest coordinate.
 #define NEEDED_MARGIN (67 * 0x1p-24)
 
