@@ -15,7 +15,7 @@ typedef struct {
 
 typedef struct {
     bool settled;       // the error of the arithmetic cannot change any decision of the tree
-    bool first_settled; // the same for the decisions at the first hit
+    bool first_settled; // the error cannot change any decision at the first hit
     uint32_t first_id;  // NOTHING if the camera ray has no hit
     uint32_t lit;       // bit i: light i reaches the first hit, for the first 32 lights
     uint32_t signature; // a hash of all decisions, computed as in certify.cl

@@ -69,7 +69,7 @@ static void write_random_scene(char path[TEMPORARY_PATH], uint64_t seed)
 typedef struct {
     uint64_t pixels, certified, open, wrong;
     uint64_t differing; // pixels that are not certified and differ from fp64
-    float largest;      // difference of a certified pixel from fp64
+    float largest;      // largest difference of a certified pixel from fp64
 } Sum;
 
 // The largest difference that rounding causes if no decision differs.

@@ -140,8 +140,8 @@ static void pretend_gpu(Device *device, uint32_t units)
 
 // Opens the session at the first request, and whenever the compiler's options or the GPU change.
 // Specialized programs and programs with options are not saved, because saving takes longer than
-// their pictures. The session stays open, because some implementations of OpenCL cannot be called
-// at exit.
+// drawing their pictures. The session stays open, because some implementations of OpenCL cannot be
+// called at exit.
 static bool open_session(const PictureRequest *request, Error *error)
 {
     static uint32_t units;

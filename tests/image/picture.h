@@ -21,7 +21,7 @@ typedef struct {
     uint32_t view;          // from 1
     uint32_t width, height; // 0: the scene's
     uint32_t samples;       // per pixel and axis
-    float contrast;         // refines adaptively down to this contrast; 0: does not
+    float contrast;         // refines adaptively down to this contrast; 0: no refinement
     double error_goal;      // refines until the error bound is at most this; 0: no goal
     uint32_t threads;       // of the host, for refined pictures
     uint64_t *sample_count; // receives the samples of a refined picture; or NULL

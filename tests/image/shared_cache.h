@@ -5,5 +5,6 @@
 
 #include "device/cache.h"
 
-// Opens the cache at the first call, which must precede all OpenCL calls. It is closed at exit.
+// Opens the cache at the first call, which must precede all OpenCL calls. The cache is closed at
+// exit.
 const Cache *shared_cache(void);

@@ -40,7 +40,7 @@ static double apart(Vec3 a, Vec3 b)
 
 typedef struct {
     uint32_t pixels;                   // all of them
-    uint32_t others, shadows, bounces; // with other primitives, shadows, bounces than the oracle's
+    uint32_t others, shadows, bounces; // pixels that differ from the oracle's
     double depth, normal, position;    // largest differences on equal primitives
 } Judgment;
 

@@ -108,7 +108,8 @@ TEST(a_floor_between_layers_shows_the_layer_behind_it)
     }
 }
 
-// At these heights, the moved coordinate is in the plane between two layers (B19 of numerics.md).
+// At these heights, place_move (docs/numerics.md, B19) moves the coordinate to the plane between
+// two layers.
 TEST(no_floor_flickers_at_any_height)
 {
     const double rate = 8, move = 0x1p-19 * (rate + 1); // normalization divides by 4

@@ -17,7 +17,7 @@ typedef struct {
     double x, y;
 } Corner;
 
-// Triangles that share no vertex. For the camera, their corners are counter-clockwise.
+// Triangles that share no vertex. The camera sees their corners counter-clockwise.
 typedef struct {
     char scene[TEMPORARY_PATH], mesh[TEMPORARY_PATH];
     Mesh triangles;

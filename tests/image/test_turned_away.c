@@ -55,7 +55,7 @@ static void stage_write(const Stage *stage, char path[TEMPORARY_PATH])
 // The contents of a pixel.
 typedef struct {
     uint32_t primitive;
-    bool lit; // in the color and in the channel
+    bool lit; // by the color and by the channel
 } Seen;
 
 // Stores the contents of the picture's SIDE x SIDE pixels.

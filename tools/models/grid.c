@@ -17,8 +17,8 @@
 // surface than twice the center's distance to the block's corners.
 #define BLOCK_CAUTION 2.0
 
-// The depth of a sample that is moved inside, in cells. It is small, so that the surface hardly
-// moves.
+// The depth of a sample that is moved inside, in cells. The depth is small, so that the surface
+// hardly moves.
 #define REPAIR_DEPTH 0.05F
 
 static int smaller_count(int a, int b)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Surface -> binary little-endian PLY file.
-// Format: Greg Turk, "The PLY Polygon File Format", Stanford 1994.
+// Writes a surface as a binary little-endian PLY file (Greg Turk, "The PLY Polygon File Format",
+// Stanford 1994).
 #pragma once
 
 #include "surface.h"

@@ -201,8 +201,8 @@ def stored_rows(scene, options, folder):
 
 
 def measured_rows(scene, options, folder):
-    """Measures all settings of a scene. They alternate, so that drift of the machine affects all
-    of them."""
+    """Measures all settings of a scene. The settings alternate, so that drift of the machine
+    affects all of them."""
     rows = first_rows(scene, options, folder)
     for turn in range(options.runs):
         for row in rows if turn % 2 == 0 else reversed(rows):

@@ -41,7 +41,7 @@ typedef struct {
     size_t leaks[TRACERS], true_leaks;
 } Cracks;
 
-// A ray is wrong if it passes but the exact ray clearly hits.
+// A ray is wrong if it passes although it clearly hits in exact arithmetic.
 static bool judge_leak(void *context, const Traced *traced)
 {
     Cracks *cracks = context;

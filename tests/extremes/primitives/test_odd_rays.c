@@ -26,8 +26,8 @@ static TestRay special_ray(size_t number, const Room *room, Random *random)
 }
 
 // A ray from inside a closed shape must hit the shape in every direction. The test skips directions
-// shorter than 1e-20. Pictures hardly ever need them, and reciprocals of their components can
-// overflow.
+// shorter than 1e-20. Pictures hardly ever need such directions, and reciprocals of their
+// components can overflow.
 EXTREME(directions_of_special_values_leave_no_closed_shape_t21)
 {
     Random random = {21};

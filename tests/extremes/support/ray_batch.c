@@ -104,8 +104,8 @@ void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *opti
         .entry = &entry,
         .choice = batch->choice,
         .traits = traits_general((SceneTraits){0}),
-        .arithmetic_is_exact = kernel_folder != NULL}; // skips its test, because some folders
-                                                       // change it on purpose
+        .arithmetic_is_exact = kernel_folder != NULL}; // skips the test of arithmetic, which some
+                                                       // folders change on purpose
     const FirstRun first = {make_kernels, batch};
     require(program_make(&batch->program, &source, &first, &error), &error);
     file_free(&file);

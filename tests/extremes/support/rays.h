@@ -10,7 +10,7 @@ Rays rays_make(size_t count);
 void rays_free(const Rays *rays);
 
 // Returns whether ray i needs a new origin. With packets, `bundle` rays share an origin. With other
-// kernels, every ray has its own.
+// kernels, every ray has its own origin.
 bool rays_move_origin(size_t i, size_t bundle);
 
 // The rays per origin, enough to fill packets in every octant of directions.
