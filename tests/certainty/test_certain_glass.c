@@ -4,6 +4,7 @@
 // certified. Tier 0 draws 10 scenes, and tier 1 draws 50.
 #include "certainty/certified.h"
 #include "extremes/support/check.h"
+#include "image/comparison.h"
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
@@ -19,25 +20,21 @@
 
 static const Studio *studio;
 
-static double between(uint64_t *random, double least, double most)
-{
-    return least + random_unit(random) * (most - least);
-}
-
 static void write_place(FILE *stream, uint64_t *random, double height)
 {
-    fprintf(stream, " %g %g %g", between(random, -1.6, 1.6), between(random, -1.6, 1.6), height);
+    fprintf(stream, " %g %g %g", random_between(random, -1.6, 1.6),
+            random_between(random, -1.6, 1.6), height);
 }
 
 static void write_random_meshes(FILE *stream, uint64_t *random)
 {
     for (int i = 0; i < 3; i++) {
         fprintf(stream, "define m%d glass ior %g color 0.9 1 0.8\nmaterial m%d\nnormals %s\n", i,
-                between(random, 1.1, 2.4), i, i == 2 ? "smooth" : "flat");
+                random_between(random, 1.1, 2.4), i, i == 2 ? "smooth" : "flat");
         fprintf(stream, "mesh %s scale %g rotate %g %g 1 %g translate", i == 2 ? BALL : BLOCK,
-                between(random, 0.2, 0.4), between(random, -1, 1), between(random, -1, 1),
-                between(random, 0, 360));
-        write_place(stream, random, between(random, 0.4, 1.2));
+                random_between(random, 0.2, 0.4), random_between(random, -1, 1),
+                random_between(random, -1, 1), random_between(random, 0, 360));
+        write_place(stream, random, random_between(random, 0.4, 1.2));
         fputc('\n', stream);
     }
 }
@@ -56,13 +53,13 @@ static void write_random_scene(char path[TEMPORARY_PATH], uint64_t seed)
     fputs(" 0.4\n", stream);
     for (int i = 0; i < 4; i++) {
         fprintf(stream, "define s%d glass ior %g\nmaterial s%d\nsphere", i,
-                between(&random, i == 3 ? 0.6 : 1.1, 2), i);
-        write_place(stream, &random, between(&random, 0.5, 1));
-        fprintf(stream, " %g\n", between(&random, 0.1, 0.5));
+                random_between(&random, i == 3 ? 0.6 : 1.1, 2), i);
+        write_place(stream, &random, random_between(&random, 0.5, 1));
+        fprintf(stream, " %g\n", random_between(&random, 0.1, 0.5));
     }
     write_random_meshes(stream, &random);
-    fprintf(stream, "camera %g -4 %g  0 0 0.4  45\n", between(&random, -3, 3),
-            between(&random, 0.5, 4));
+    fprintf(stream, "camera %g -4 %g  0 0 0.4  45\n", random_between(&random, -3, 3),
+            random_between(&random, 0.5, 4));
     temporary_close(stream);
 }
 
@@ -74,11 +71,6 @@ typedef struct {
 
 // The largest difference that rounding causes if no decision differs.
 #define ROUNDED 1e-5f
-
-static float difference(const float a[3], const float b[3])
-{
-    return fmaxf(fabsf(a[0] - b[0]), fmaxf(fabsf(a[1] - b[1]), fabsf(a[2] - b[2])));
-}
 
 static void check_scene(Sum *sum, uint64_t seed)
 {
@@ -93,7 +85,7 @@ static void check_scene(Sum *sum, uint64_t seed)
     unlink(path);
     for (uint32_t i = 0; i < exact.width * exact.height; i++) {
         const uint32_t certainty = certified.map.marks[i].certainty;
-        const float apart = difference(certified.plain.pixels[i], exact.pixels[i]);
+        const float apart = color_difference(certified.plain.pixels[i], exact.pixels[i]);
         sum->pixels++;
         sum->open += certainty == CERTAINTY_OPEN;
         sum->differing += certainty != CERTAINTY_CERTIFIED && apart > ROUNDED;

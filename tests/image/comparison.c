@@ -6,12 +6,6 @@
 
 #include <string.h>
 
-static float largest_difference(const float a[3], const float b[3])
-{
-    const float red = fabsf(a[0] - b[0]), green = fabsf(a[1] - b[1]), blue = fabsf(a[2] - b[2]);
-    return fmaxf(red, fmaxf(green, blue));
-}
-
 static void judge(Comparison *comparison, const OracleView *view, const uint32_t place[2],
                   const float color[3], const float expected[3])
 {
@@ -44,7 +38,7 @@ Comparison comparison_make(const OracleView *view, const Framebuffer *picture,
     for (uint32_t i = 0; i < comparison.compared; i++) {
         const uint32_t place[2] = {i % expected->width * step, i / expected->width * step};
         const float *color = picture->pixels[(size_t)place[1] * picture->width + place[0]];
-        const float difference = largest_difference(color, expected->pixels[i]);
+        const float difference = color_difference(color, expected->pixels[i]);
         if (!(difference <= COLOR_TOLERANCE))
             judge(&comparison, view, place, color, expected->pixels[i]);
         else

@@ -7,6 +7,12 @@
 // A pixel differs if the difference of a channel is larger than this.
 #define COLOR_TOLERANCE (1.0f / 255)
 
+// Returns the largest difference of a channel.
+static inline float color_difference(const float a[3], const float b[3])
+{
+    return fmaxf(fabsf(a[0] - b[0]), fmaxf(fabsf(a[1] - b[1]), fabsf(a[2] - b[2])));
+}
+
 typedef struct {
     uint32_t compared;                                       // number of compared pixels
     uint32_t differing;                                      // number of differing pixels

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compares fp64 pictures with the oracle, which traces the same stored numbers in fp64 by other
 // methods. Compares fp32 pictures with fp64 pictures, which differ by rounding.
+#include "image/comparison.h"
 #include "image/course.h"
 #include "image/form.h"
 #include "image/rendered.h"
@@ -33,11 +34,6 @@ static PictureRequest request_of(const char *path, const Scene *scene, uint32_t 
     return request;
 }
 
-static float pixel_difference(const float a[3], const float b[3])
-{
-    return fmaxf(fabsf(a[0] - b[0]), fmaxf(fabsf(a[1] - b[1]), fabsf(a[2] - b[2])));
-}
-
 // Returns the number of pixels that differ by more than the tolerance. expected contains every
 // step-th pixel of every step-th row.
 static uint32_t count_differing(const Framebuffer *picture, const Framebuffer *expected,
@@ -48,7 +44,7 @@ static uint32_t count_differing(const Framebuffer *picture, const Framebuffer *e
         for (uint32_t x = 0; x < expected->width; x++) {
             const float *one = picture->pixels[(size_t)y * step * picture->width + x * step];
             const float *other = expected->pixels[(size_t)y * expected->width + x];
-            differing += !(pixel_difference(one, other) <= tolerance);
+            differing += !(color_difference(one, other) <= tolerance);
         }
     return differing;
 }

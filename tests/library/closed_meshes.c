@@ -35,6 +35,15 @@ void closed_mesh_free(ClosedMesh *mesh)
     free(mesh->faces);
 }
 
+Position *closed_mesh_positions(const ClosedMesh *mesh)
+{
+    Position *positions = require(calloc(mesh->vertex_count, sizeof *positions));
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            positions[i][axis] = (double)mesh->vertices[i][axis] / GRID;
+    return positions;
+}
+
 static void place(ClosedMesh *mesh, size_t vertex, Point point)
 {
     mesh->vertices[vertex][0] = (int32_t)lrint(point.x * GRID);

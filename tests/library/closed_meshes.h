@@ -21,3 +21,7 @@ typedef struct {
 // Makes mesh `number`, counted from 0. Any failure ends the test.
 ClosedMesh closed_mesh_make(int number);
 void closed_mesh_free(ClosedMesh *mesh);
+
+// Returns the positions of the vertices. The caller frees them.
+typedef double Position[3];
+Position *closed_mesh_positions(const ClosedMesh *mesh);

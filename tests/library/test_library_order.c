@@ -14,7 +14,7 @@
 enum { RAYS = 4000, COPIES = 2 };
 
 static ClosedMesh mesh;
-static double (*positions)[3];
+static Position *positions;
 static double origins[RAYS][3], directions[RAYS][3];
 static uint64_t numbers = 23;
 
@@ -33,11 +33,7 @@ static Results first, second;
 static void open_mesh(int number)
 {
     mesh = closed_mesh_make(number);
-    positions = calloc(mesh.vertex_count, sizeof *positions);
-    assert_non_null(positions);
-    for (size_t i = 0; i < mesh.vertex_count; i++)
-        for (int axis = 0; axis < 3; axis++)
-            positions[i][axis] = (double)mesh.vertices[i][axis] / GRID;
+    positions = closed_mesh_positions(&mesh);
 }
 
 static void close_mesh(void)

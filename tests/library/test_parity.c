@@ -33,11 +33,7 @@ static size_t full_or(size_t full, size_t quick)
 static void open_mesh(int number)
 {
     mesh = closed_mesh_make(number);
-    double(*positions)[3] = calloc(mesh.vertex_count, sizeof *positions);
-    assert_non_null(positions);
-    for (size_t i = 0; i < mesh.vertex_count; i++)
-        for (int axis = 0; axis < 3; axis++)
-            positions[i][axis] = (double)mesh.vertices[i][axis] / GRID;
+    Position *positions = closed_mesh_positions(&mesh);
     const ClrtMesh given = {.size = sizeof given,
                             .positions = positions[0],
                             .triangles = mesh.faces[0],
