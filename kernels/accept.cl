@@ -39,7 +39,7 @@ static inline Sides sides_exchanged(Mask exchange, Sides sides)
 //  - The plane of the other triangle: the other triangle is ahead if the own triangle is on the
 //    side from which the ray comes, and behind if the own triangle is on the opposite side.
 // A ray does not hit coplanar neighbors. `cross` receives the lanes in which neither plane decides
-// and a triangle is on both sides of the other's plane. In these lanes, the order along the ray
+// and one triangle is on both sides of the other's plane. In these lanes, the order along the ray
 // decides (order.cl).
 static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
                                  Mask from_back, Mask *cross)

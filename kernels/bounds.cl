@@ -82,7 +82,7 @@ static inline Real3 lower3(Real3 a, Real3 b)
     return real3_of(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z));
 }
 
-// The extremes over a beam's packets, separately for each lane. Maxima are stored as minima of the
+// The extremes of the packets' rays, separately for each lane. Maxima are stored as minima of the
 // negated numbers. Each origin moves by its own slack, and also by the growth of a node's box,
 // because the boxes of single triangles have not grown.
 typedef struct {

@@ -37,7 +37,7 @@ static inline uint level_among(UInt levels, Mask among)
     return ((const uint *)&level)[0];
 }
 
-// Stores a ray in the slot of each lane's level.
+// Stores the rays of the given lanes, each in the slot of its lane's level.
 static inline void push_branches(Branches *branches, UInt levels, Mask lanes, const Branch *branch)
 {
     branches->waiting |= lanes ? (UInt)(1) << levels : (UInt)(0);

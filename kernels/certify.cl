@@ -107,8 +107,8 @@ static inline bool decide_lights(const Tracer *tracer, const UncertainSurface *s
     return true;
 }
 
-// Makes the decisions at the end of the path's ray, and sets the next ray. Stores whether there is
-// one in *leads. Returns false if a decision is not certain.
+// Makes the decisions at the end of the path's ray, and sets the next ray. Stores in *leads whether
+// there is a next ray. Returns false if a decision is not certain.
 static inline bool decide_ray(const Tracer *tracer, ConePath *path, Decisions *decisions,
                               bool *leads)
 {

@@ -5,9 +5,9 @@
 #define CLRT_CERTIFY_GLASS_CL
 #include "certify_surface.cl"
 
-// Below this cosine on either side, rounding may decide whether there is a refracted ray. If the
-// ratio of the indices differs from 1 by less than LEAST_RATIO, rounding may decide whether any
-// light is reflected.
+// If the cosine on either side is below LEAST_COSINE, rounding may decide whether there is a
+// refracted ray. If the ratio of the indices differs from 1 by less than LEAST_RATIO, rounding may
+// decide whether any light is reflected.
 #define LEAST_COSINE 0x1p-10f
 #define LEAST_RATIO  0x1p-10f
 

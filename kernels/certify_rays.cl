@@ -4,7 +4,7 @@
 // CLRT_FP64, and only if requested.
 #include "certify_search.cl"
 
-// Returns the distance between a ray's start and its own sphere, or 0 if it has no own sphere.
+// Returns the distance between a ray's start and the sphere that the ray leaves, or 0 without one.
 static inline Real sphere_offset(const Tracer *tracer, Real3 origin, uint own)
 {
     if (own >= tracer->frame->sphere_count)

@@ -20,8 +20,8 @@ typedef struct {
     Real area;        // lower bound of twice the triangle's area
 } UncertainSurface;
 
-// Bounds the error of a unit vector that is computed from a vector of this length, whose error is
-// at most `doubt`.
+// Bounds the error of a unit vector that is computed from a vector with this length and with an
+// error of at most `doubt`.
 static inline Real turn_of(Real doubt, Real length)
 {
     return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
@@ -159,8 +159,8 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 // start by up to 256u / sine along the surface, on each axis (B14).
 //
 // A reflected ray is lifted only if its line misses the triangle from the last start. This start is
-// 256u / sine from the point toward the triangle's middle, or the middle if that is nearer. As a
-// fraction of the distance to the middle, the move is at least the smaller of 1 and
+// the point moved by 256u / sine toward the triangle's middle, or the middle itself if it is
+// nearer. As a fraction of the distance to the middle, the move is at least the smaller of 1 and
 // 500u / (sine * edge). At this start, each weight is at least a third of the fraction.
 static inline UncertainPoint start_of(const UncertainSurface *surface, Real3 direction, Real doubt,
                                       Real u, bool *may_be_lifted)

@@ -43,8 +43,8 @@ static inline Real place_move(const Cubes *cubes)
     return CHECK_MOVE * (cubes->rate + 1.0f);
 }
 
-// Returns whether the cube at the place has an odd index. The subtraction rounds only in cube -1,
-// where the result is still right.
+// Returns whether the index of the cube at the place is odd. The subtraction rounds only in cube
+// -1, where the result is still right.
 static inline Mask place_is_odd(Real place)
 {
     const Real pairs = 0.5f * place;

@@ -3,7 +3,7 @@
 // Snell's law gives directions. Fresnel's equations for unpolarized light give the reflectance
 // (Pharr, Jakob and Humphreys, "Physically based rendering", 4th edition, section 9.5).
 //
-// The optics use exactly rounded operations only. Every device therefore computes the same bits.
+// The optics use only correctly rounded operations. Every device therefore computes the same bits.
 #ifndef CLRT_GLASS_CL
 #define CLRT_GLASS_CL
 #include "checker.cl"
@@ -36,8 +36,8 @@ typedef struct {
     Real reflectance; // the part of the light that is reflected
 } Refraction;
 
-// Returns Fresnel's reflectance, the mean of both polarizations. Equal indices reflect nothing, and
-// need this rule because denominators can then be zero.
+// Returns Fresnel's reflectance, the mean of both polarizations. Equal indices reflect nothing.
+// They are a case of their own, because the denominators can then be zero.
 static inline Real reflectance_of(const Refraction *at)
 {
     const Real near = at->ratio * at->cosine, far = at->ratio * at->beyond;
@@ -69,7 +69,8 @@ static inline Real3 refracted_direction(const Refraction *at, Real3 normal, Real
     return difference(turn, scaled3(at->ratio, toward_viewer));
 }
 
-// Returns the normal on the ray's side. A sphere's normal always points outward.
+// Returns the normal on the ray's side. A sphere's own normal always points outward, so its face is
+// returned instead.
 static inline Real3 normal_before(const Surface *surface)
 {
     return choose3(surface->index == NOTHING, surface->face, surface->normal);
@@ -181,7 +182,7 @@ static NOT_INLINE void follow_light(const Tracer *tracer, Ray *rays, uint count,
     }
 }
 
-// Finds what blocks the shadow rays to the light at `place`.
+// Finds the primitives that block the shadow rays to the light at `place`.
 static inline void light_blockers(const Tracer *tracer, Ray *rays, uint count, Real3 place,
                                   LightPath *light)
 {

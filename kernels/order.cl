@@ -103,7 +103,7 @@ static inline Mask edges_meet_at_ray(const Edges *edges)
 }
 
 // Returns the corners in another order. An edge that the ray hits exactly becomes the edge from a
-// to b, with its ends in the host's order. A corner that the ray hits exactly becomes a.
+// to b, with its ends in the host's order. A corner that the ray hits exactly becomes the corner a.
 static inline Corners corners_from_edge(const Corners *s, const Edges *edges, Mask *at_corner)
 {
     const Mask on_u = edges->u == 0.0f, on_v = edges->v == 0.0f;

@@ -36,8 +36,8 @@ static inline Real3 first_real3(Real3 v, Mask among)
     return real3_of(first_real(v.x, among), first_real(v.y, among), first_real(v.z, among));
 }
 
-// Returns whether the rays are probably traced faster as a beam than ray by ray. The hits are the
-// same. The library scales directions until their largest component is in [1, 2).
+// Returns whether the rays are probably traced faster as a beam than ray by ray. Both ways find the
+// same hits. The library scales directions until their largest component is in [1, 2).
 static inline bool are_coherent(const Ray packets[PACKETS])
 {
     bool coherent = true;

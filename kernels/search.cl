@@ -6,8 +6,8 @@
 //
 // To ensure this, the host grows each box by BVH_SLACK times its largest coordinate. slabs_of moves
 // the ray's origin by BVH_SLACK times the origin's largest coordinate, forward for near planes and
-// back for far planes. Both together cover the rounding of the triangle test and of the box test
-// (shared.h).
+// back for far planes. The growth and the move together cover the rounding of the triangle test and
+// of the box test (shared.h).
 #ifndef CLRT_SEARCH_CL
 #define CLRT_SEARCH_CL
 #include "ray.cl"

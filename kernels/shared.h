@@ -32,7 +32,7 @@ typedef uint64_t ulong;
 // Boxes grow and origins move by this factor of their largest coordinate. The factor is 256 units
 // of 2^-24. A triangle that triangle.inc.cl accepts is within 22 units of the ray (B8 of
 // docs/numerics.md), and the slab arithmetic adds 4 (B9). If division is only accurate to 2.5 ulp,
-// these become 34 and 8.
+// these numbers become 34 and 8.
 //
 // The error of a hit's distance can put the hit up to 54 units behind the ray's start, and
 // search_behind allows 256 more. A box at the start has the origin's coordinates. The box and the

@@ -13,9 +13,10 @@
 // then decide which light reaches the surface and which rays leave it. The face's normal always
 // points to the side from which the ray comes.
 //  - A light reaches a point only if the shading normal and the face both face it (shade.cl). The
-//    course's renderers (docs/scenes.md) start shadow rays slightly off the surface with the same
-//    effect: the face blocks a light behind it. A sphere seen from inside keeps its outward normal,
-//    as in the course. Its inner face and its normal never face the same light, so it stays unlit.
+//    course's renderers (docs/scenes.md) start shadow rays slightly off the surface, which has the
+//    same effect: the face blocks a light behind it. A sphere seen from inside keeps its outward
+//    normal, as in the course. Its inner face and its normal never face the same light, so it stays
+//    unlit.
 //  - If the shading normal sends a reflected ray into the face, the ray is mirrored at the face.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL

@@ -118,7 +118,7 @@ static inline UInt last_level(const Paths *paths, uint number)
     return paths->paths[number].level;
 }
 #else
-// Sets the reflected ray of each lane that has one. Returns whether any lane has one.
+// Sets the reflected rays in the lanes of path->reflects. Returns whether any lane has one.
 static inline bool aim_rays(const Tracer *tracer, Paths *paths)
 {
     bool any = false;
@@ -175,7 +175,7 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
     hash_lanes(tracer->tally, number, path->met, surface_word(tracer->frame, &path->surface));
 }
 
-// Follows the ray of each lane that has one, up to the surface that it hits.
+// Follows the active rays up to the surfaces that they hit.
 static inline void paths_step(const Tracer *tracer, Paths *paths)
 {
     paths->level++;

@@ -111,7 +111,8 @@ static inline Mask OVERLOAD triangle_is_at_origin(Real t, const Shear *shear)
     return fabs(t) <= 0x1p-16f * fabs(shear->inverse_z);
 }
 
-// The test of triangles against rays. `inside` selects the rays that pass inside the edges.
+// A test of a triangle against a ray, in each lane. `inside` selects the lanes in which the ray
+// passes inside the edges.
 typedef struct {
     Shear shear;
     Corners sheared;
@@ -130,7 +131,7 @@ static inline TriangleTest OVERLOAD triangle_test(const Corners *relative, const
     return test;
 }
 
-// The result of the test for rays that pass inside the edges.
+// The hits of rays that pass inside the edges.
 typedef struct {
     Real t;
     Mask front; // the ray comes from the triangle's stored front
@@ -181,8 +182,7 @@ static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, flo
     return fabs(height) > UNIT_ROUNDOFF * error ? height : 0.0f;
 }
 
-// The error of a surface point that height_over allows, in units of rounding of the point's
-// coordinates (B7).
+// The `blur` of a surface point for height_over (B7).
 #define POINT_BLUR 16.0f
 
 // A ray that leaves a surface, and its relation to a triangle.

@@ -20,8 +20,7 @@ typedef struct {
     const char *path; // of the triangle's mesh; NULL for a sphere
 } PrimitiveName;
 
-// Returns the name of a primitive. The ids of spheres come first, then those of triangles, mesh by
-// mesh.
+// Returns the name of a primitive. Spheres have the first ids. The triangles follow, mesh by mesh.
 static PrimitiveName name_primitive(const Scene *scene, uint32_t id)
 {
     if (id < scene->spheres.count)
@@ -315,7 +314,7 @@ static void print_sample(const ExplainReport *report, const ExplainedSample *sam
     print(report, json, "  the sample's color {color .6v}\n", "", stream);
 }
 
-// Traces the samples. Adds them to list, and prints them unless stream is NULL.
+// Traces the samples and adds their JSON to list. Prints the samples unless stream is NULL.
 static bool explain_samples(const ExplainReport *report, Explainer *explainer, json_t *list,
                             FILE *stream, Error *error)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One table lists the properties for the reader and for the writer.
+// The reader and the writer share one table of the properties of materials.
 #include "scene/material_text.h"
 
 #include "base/limits.h"

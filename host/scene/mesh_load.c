@@ -47,8 +47,8 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
     return true;
 }
 
-// Adds the model's files to the scene's inputs and hashes. The first file is the model itself,
-// which is listed by the caller's path.
+// Adds the model's files to the scene's inputs and hashes. The first file is the model itself, for
+// which the inputs get the caller's path.
 static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
 {
     if (!scene_add_input(scene, path, error))
@@ -124,8 +124,8 @@ static const File *kept_stream(const ForeignFiles *kept, const char *path)
     return NULL;
 }
 
-// Keeps clrt-foreign's output for later statements with the same path. Frees it if kept is NULL or
-// full.
+// Keeps clrt-foreign's output for later statements with the same path. Frees the output if kept is
+// NULL or full.
 static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
 {
     Error unused = {0};
@@ -176,8 +176,8 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
     return ok;
 }
 
-// Computes the crease angle that suits the shape of the objects from index `first` on that lack
-// normals.
+// Considers the objects from index `first` on that lack normals. Computes the crease angle that
+// suits their shape.
 static bool choose_crease(const Scene *scene, size_t first, double *degrees, Error *error)
 {
     EdgeAngles angles = {0};

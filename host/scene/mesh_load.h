@@ -26,12 +26,10 @@ void foreign_files_free(ForeignFiles *files);
 
 // Options for loading a file.
 typedef struct {
-    MeshObject object;        // properties of the file's objects, without meshes
-    bool is_flat;             // ignores the file's normals
-    double crease_degrees;    // for computing missing normals, or CREASE_BY_SHAPE; NO_CREASE leaves
-                              // them missing
-    bool takes_own_materials; // the file's materials replace the object's, if the file has any;
-                              // false also ignores the file's colors
+    MeshObject object;         // properties of the file's objects, without meshes
+    bool is_flat;              // ignores the file's normals
+    double crease_degrees;     // for missing normals: an angle, CREASE_BY_SHAPE or NO_CREASE
+    bool takes_own_materials;  // shows the materials and colors of the file if it has any
     uint32_t colored_material; // the material of meshes whose files define colors, but no material
     bool is_plain_ply;         // PLY only, without transforms
     PlyParse *parse;           // the reader of PLY files

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The following functions find the axis that points up. A mesh stands on a table, instead of
-// falling over, if the points that touch the table lie on all four sides of the mesh's center.
+// The following functions find the axis that points up. A mesh stands on a table without falling
+// over if the points that touch the table lie on all four sides of the mesh's center.
 
 // Fractions of the bounding box's longest side.
 #define TOUCH  0.01 // points touch the table up to this height
@@ -147,9 +147,9 @@ static double touch(const Framing *framing, Vec3 axis, Vec3 back, double *middle
     return next;
 }
 
-// Returns the field of view in degrees in which planes of the given slope span the fraction FILLED
-// of the picture. Newton's method starts above the result and stays above it, because tan is convex
-// there.
+// Returns the field of view, in degrees, of a picture in which planes of the given slope span the
+// fraction FILLED of the picture. Newton's method starts above the result and stays above it,
+// because tan is convex there.
 static double field_of_view(double slope)
 {
     double half = 45;

@@ -24,7 +24,8 @@ typedef struct {
 // 1e9 would leave too few bits for a mesh.
 Normalization normalization_of(const Scene *scene);
 
-// Returns the longest side of the box that normalization_of scales; negative if the box is empty.
+// Returns the longest side of the box that normalization_of scales, or a negative number if the box
+// is empty.
 double scene_extent(const Scene *scene);
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point);

@@ -10,7 +10,7 @@
 #include "mesh/mesh.h"
 #include "scene/material_names.h"
 
-// Limits that keep sample coordinates exact in float, and loops short.
+// These limits keep sample coordinates exact in float, and loops short.
 #define PICTURE_SIZE_MAX 131072
 #define MAX_LEVEL_LIMIT  1000
 
@@ -147,9 +147,9 @@ MissingPart scene_missing(const Scene *scene);
 double truncation_bound(const Scene *scene, uint32_t max_level);
 
 // Returns the largest max_level that pictures of the scene can have. Higher values are reduced to
-// it.
+// this limit.
 uint32_t scene_level_limit(const Scene *scene);
 
-// Returns the smallest max_level whose truncation_bound is at most bound, or the limit if it is
-// less.
+// Returns the smallest max_level whose truncation_bound is at most bound, but not more than
+// scene_level_limit.
 uint32_t truncation_level(const Scene *scene, double bound);

@@ -42,7 +42,7 @@
 #define SAVED_PER_SAMPLE 0.3e-6
 
 // The fraction of a time limit that is lost with quick kernels, which trace at most half as many
-// samples in this time.
+// samples as packets.
 // Measure: 1 - samples.total of `clrt SCENE --time 1 --tune kernel=pair --json` / samples.total
 // with kernel=packet.
 #define LOST_OF_LIMIT 0.5

@@ -15,7 +15,7 @@
 // A disk of this diameter always contains a point of a lattice with spacing 1.
 #define LARGEST 1.41421357
 
-// Returns how much of a unit square's area a disk around the square's center covers.
+// Returns the part of a unit square that a disk around the square's center covers.
 static double covered_area(double diameter)
 {
     const double pi = 3.14159265358979, radius = diameter / 2;

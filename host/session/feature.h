@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The number of pixels that have this number of samples.
+// Pixels that have equally many samples.
 typedef struct {
     uint32_t samples;
     uint64_t pixels;

@@ -33,7 +33,7 @@ const KernelEntry *picture_entry(const PictureGoal *goal)
     return goal_is_given(goal) ? &ladder_entry : &draw_entry;
 }
 
-// Returns the time that a pixel takes, in samples of --aa.
+// Returns the time that a pixel takes, in units of one sample of --aa.
 static double samples_per_pixel(const SessionPicture *request)
 {
     const PictureGoal *goal = &request->goal;

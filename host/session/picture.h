@@ -58,7 +58,7 @@ const KernelEntry *picture_entry(const PictureGoal *goal);
 // Returns the camera for `samples` sub-pixels along each side of a pixel.
 CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples);
 
-// Returns the work of `pictures` pictures of this kind.
+// Returns the work of drawing the request `pictures` times.
 SessionWork session_work(const SessionPicture *request, double pictures);
 
 // Uploads the scene and compiles the kernels for session_draw.

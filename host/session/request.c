@@ -102,7 +102,7 @@ bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision pre
     return check_numbers(wanted, fault) && check_conflicts(wanted, channels, precision, fault);
 }
 
-// Returns whether an error bound chooses the picture's level.
+// Returns whether an error bound determines the picture's max_level.
 static bool chooses_level(const ClrtPicture *wanted)
 {
     return wanted->max_level == 0 && (wanted->truncation > 0 || wanted->error > 0);
@@ -126,7 +126,8 @@ static uint32_t max_level_of(const ClrtPicture *wanted, const Scene *scene)
 }
 
 // Returns the max_level of the picture's reference, which is at least the scene's. If an error
-// bound chooses the picture's level, the reference uses as many levels as floats can show.
+// bound determines the picture's max_level, the reference has enough levels for the accuracy of
+// floats.
 static uint32_t reference_level(const ClrtPicture *wanted, const Scene *scene)
 {
     const uint32_t level = chooses_level(wanted) ? truncation_level(scene, FLOAT_HALF_STEP)

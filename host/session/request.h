@@ -18,11 +18,10 @@ typedef enum {
     REQUEST_CONFLICT // two settings exclude each other
 } RequestRule;
 
-// A rule that a request breaks.
+// A rule that a request breaks. `other` is NULL unless the rule is REQUEST_CONFLICT.
 typedef struct {
     RequestRule rule;
-    const char *setting, *other; // members of ClrtPicture, channels, "crop", "tile" or "fp64";
-                                 // other is NULL unless the rule is REQUEST_CONFLICT
+    const char *setting, *other; // members of ClrtPicture, channels, "crop", "tile" or "fp64"
     double value, low, high;     // for REQUEST_NUMBER
 } RequestFault;
 

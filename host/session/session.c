@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opens the device, and chooses and makes kernels. session_begin opens the device on a background
-// thread while the caller's thread reads the scene. If the background thread also made the kernel,
-// runs would not be measurably shorter.
+// thread while the caller's thread reads the scene. Making the kernel on the background thread,
+// too, would save no measurable time.
 //
 // Two choices save time and never change a picture. Small pictures use kernels that compile faster,
 // and kernels are specialized if that saves more time than compiling takes (costs.h).
@@ -67,7 +67,7 @@ static bool is_compiled(const Session *session, const KernelEntry *entry, Kernel
     return kernel_set_has(&session->kernels, &spec);
 }
 
-// Pair kernels compile faster than packets and trace slower. Until packets are compiled, pair
+// Pair kernels compile faster than packets, but trace more slowly. Until packets are compiled, pair
 // kernels draw small pictures of small scenes, if this saves time in total. With a kernel_folder,
 // the session does not change the choice.
 static void choose_quick_kernels(Session *session, const SessionWork *work)

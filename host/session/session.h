@@ -84,8 +84,8 @@ bool session_take(Session *session, const Scene *scene, Error *error);
 // Releases the compiled forms of a scene.
 void session_scene_free(SessionScene *scene);
 
-// Returns false if the scene is traced faster in this layout without a tree, and wanted.tree is
-// CLRT_TREE_AUTO.
+// Returns whether the scene needs a tree in this layout. The result is false only if wanted.tree is
+// CLRT_TREE_AUTO and the scene is traced faster without a tree.
 bool session_wants_tree(const Session *session, NodeLayout layout);
 
 // Sets the session's normalization, tree builder and threads in *source, and calls scene_compile.
