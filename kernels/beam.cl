@@ -17,7 +17,9 @@
 
 // A subtree is searched ray by ray if at most this many lanes of a beam enter it. The limit is
 // higher for DENSE or more triangles, because rays then separate more. Exchanging the two limits
-// makes scenes of 6 thousand triangles 9 % slower, and scenes of a million 10 % slower.
+// makes scenes of 6 thousand triangles 9 % slower, and scenes of a million 10 % slower. Arrays of
+// free rays keep the lower limit: a million camera rays at 1.3 million triangles then take 16 %
+// less time, although 65 thousand take 9 % more.
 #define MOST_LANES_LEAVING       (3 * BEAM_LANES / 16)
 #define MOST_LANES_LEAVING_DENSE (5 * BEAM_LANES / 8)
 #define DENSE                    300000
@@ -186,7 +188,8 @@ static NOT_INLINE void search_apart(Beam *beam, uint child, uint packets, const 
 
 static inline void walk_tree(Beam *beam)
 {
-    const bool is_dense = beam->tracer->frame->triangle_count >= DENSE;
+    const bool is_free = CLRT_RAYS && plain_kind(beam->kind) == RAY_CAMERA;
+    const bool is_dense = !is_free && beam->tracer->frame->triangle_count >= DENSE;
     const uint most_leaving = is_dense ? MOST_LANES_LEAVING_DENSE : MOST_LANES_LEAVING;
     uint searching = packets_searching(beam);
     float reach = reach_of(beam, searching);

@@ -34,32 +34,17 @@ size_t ray_grid_width(const ClrtRays *rays)
     return is_grid ? width : 0;
 }
 
-// A rectangle of a grid.
-typedef struct {
-    size_t left, top, width, height;
-} Rectangle;
-
-// Appends the numbers of the rectangle's rays to the order, which has `filled` numbers. Returns the
-// new count of numbers.
-static size_t append(uint32_t *order, size_t filled, size_t grid_width, Rectangle part)
-{
-    for (size_t y = part.top; y < part.top + part.height; y++)
-        for (size_t x = part.left; x < part.left + part.width; x++)
-            order[filled++] = (uint32_t)(y * grid_width + x);
-    return filled;
-}
-
 void ray_grid_order(uint32_t *order, size_t count, size_t width)
 {
-    size_t filled = 0, height = width > 0 ? BLOCK_ROWS : 1;
-    while (height > 1 && height * width > count)
+    size_t filled = 0, height = width > 0 ? BLOCK_ROWS : 0;
+    while (height * width > count)
         height /= 2;
-    const size_t side = BEAM_RAYS / height, rows = height > 1 ? count / width / height * height : 0;
-    for (size_t top = 0; top < rows; top += height)
-        for (size_t left = 0; left + side <= width; left += side)
-            filled = append(order, filled, width, (Rectangle){left, top, side, height});
-    const size_t rest = width > 0 ? width % side : 0;
-    filled = append(order, filled, width, (Rectangle){width - rest, 0, rest, rows});
+    const size_t side = height > 0 ? BEAM_RAYS / height : 0;
+    for (size_t top = 0; height > 0 && (top + height) * width <= count; top += height)
+        for (size_t left = 0; left < width; left += side)
+            for (size_t y = top; y < top + height; y++)
+                for (size_t x = left; x < left + side && x < width; x++)
+                    order[filled++] = (uint32_t)(y * width + x);
     for (; filled < count; filled++)
         order[filled] = (uint32_t)filled;
 }

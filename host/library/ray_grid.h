@@ -10,6 +10,6 @@
 // one direction and jump back at the end of each row. Returns 0 for other rays.
 size_t ray_grid_width(const ClrtRays *rays);
 
-// Fills order with the numbers 0 to count - 1, in groups of 64 that are blocks of the grid. Numbers
-// outside complete blocks come last. If width is 0, the numbers ascend.
+// Fills order with the numbers 0 to count - 1, in blocks of 64 rays of the grid. Rows too few for a
+// block come last. If width is 0, the numbers ascend.
 void ray_grid_order(uint32_t *order, size_t count, size_t width);
