@@ -156,7 +156,7 @@ static bool fill_entry(const Entry *entry, const GivenRay *given, size_t number,
         return check_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu", number,
                           given->own, (unsigned long long)primitives);
     if (is_on_surface(given) && given->own >= spheres && ray->limit >= 0) {
-        ray->own_index = entry->scene->places[given->own - spheres];
+        ray->own_index = entry->scene->places[given->own - spheres].index;
         if (!move_to_plane(&origin, entry->scene, given->own - spheres, &off))
             return check_fail(error, CLRT_ARGUMENT,
                               "ray %zu should start on primitive %u, but starts %.3g from its "
@@ -191,7 +191,7 @@ void ray_part_move(RayPart *part, const RayScene *scene)
 {
     for (RayData *ray = part->rays; ray < part->rays + part->count; ray++)
         if (ray->own_index != NOTHING)
-            ray->own_index = scene->places[ray->own - scene->flat.sphere_count];
+            ray->own_index = scene->places[ray->own - scene->flat.sphere_count].index;
 }
 
 static Vec3 sphere_center(const SphereData *sphere)
@@ -255,21 +255,16 @@ static void store_surface(const ClrtHits *hits, size_t ray, const HitSurface *su
 }
 
 // Stores the number of a triangle's mesh and the triangle's number in that mesh.
-static void store_place(const ClrtRenderer *renderer, const ClrtHits *hits, size_t ray, uint32_t id)
+static void store_place(const RayScene *scene, const ClrtHits *hits, size_t ray, uint32_t id)
 {
-    const RayScene *rays = &renderer->rays;
-    const Scene *scene = renderer->session.scene.scene;
-    uint32_t mesh = NOTHING, number = NOTHING;
-    if (id != NOTHING && id >= rays->flat.sphere_count) {
-        const uint32_t triangle = id - rays->flat.sphere_count;
-        mesh = ray_scene_mesh(rays, triangle);
-        number = (uint32_t)mesh_original_number(&scene->objects.data[mesh].mesh,
-                                                triangle - rays->mesh_starts[mesh]);
-    }
+    static const TrianglePlace nowhere = {NOTHING, NOTHING, NOTHING};
+    const uint32_t spheres = scene->flat.sphere_count;
+    const TrianglePlace *place =
+        id != NOTHING && id >= spheres ? &scene->places[id - spheres] : &nowhere;
     if (hits->meshes != NULL)
-        hits->meshes[ray] = mesh;
+        hits->meshes[ray] = place->mesh;
     if (hits->triangles != NULL)
-        hits->triangles[ray] = number;
+        hits->triangles[ray] = place->number;
 }
 
 // Returns the index of an entry's first result in the caller's arrays.
@@ -295,13 +290,12 @@ static void store_primitives(const RayPart *part, const HitData *found, uint32_t
             primitives[place_of(part, entry) + i] = found[entry * part->room + i].id;
 }
 
-static void store_places(const RayPart *part, const ClrtRenderer *renderer, const HitData *found,
+static void store_places(const RayPart *part, const RayScene *scene, const HitData *found,
                          const ClrtHits *hits)
 {
     for (size_t entry = 0; entry < part->count; entry++)
         for (size_t i = 0; i < part->room; i++)
-            store_place(renderer, hits, place_of(part, entry) + i,
-                        found[entry * part->room + i].id);
+            store_place(scene, hits, place_of(part, entry) + i, found[entry * part->room + i].id);
 }
 
 static void store_surfaces(const RayPart *part, const RayScene *scene, const HitData *found,
@@ -316,7 +310,7 @@ static void store_surfaces(const RayPart *part, const RayScene *scene, const Hit
 }
 
 // Separate loops take half the time of a single loop that checks for each hit which arrays to fill.
-void ray_part_store(const RayPart *part, const ClrtRenderer *renderer, const HitData *found,
+void ray_part_store(const RayPart *part, const RayScene *scene, const HitData *found,
                     const ClrtHits *hits)
 {
     if (hits->distances != NULL)
@@ -324,7 +318,7 @@ void ray_part_store(const RayPart *part, const ClrtRenderer *renderer, const Hit
     if (hits->primitives != NULL)
         store_primitives(part, found, hits->primitives);
     if (hits->meshes != NULL || hits->triangles != NULL)
-        store_places(part, renderer, found, hits);
+        store_places(part, scene, found, hits);
     if (hits->weights != NULL || hits->normals != NULL || hits->fronts != NULL)
-        store_surfaces(part, &renderer->rays, found, hits);
+        store_surfaces(part, scene, found, hits);
 }

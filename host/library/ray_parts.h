@@ -28,5 +28,5 @@ bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *
 void ray_part_move(RayPart *part, const RayScene *scene);
 
 // Stores the hits, part->room of each entry, in the caller's arrays.
-void ray_part_store(const RayPart *part, const ClrtRenderer *renderer, const HitData *found,
+void ray_part_store(const RayPart *part, const RayScene *scene, const HitData *found,
                     const ClrtHits *hits);

@@ -98,7 +98,7 @@ static void store_part(Batch *batch)
     const RayResults *results = &batch->results;
     if (results->finds_all)
         clear_unused(batch);
-    ray_part_store(&batch->part, batch->renderer, batch->hits, &results->hits);
+    ray_part_store(&batch->part, &batch->renderer->rays, batch->hits, &results->hits);
     if (results->occluded != NULL || results->finds_all || results->hits.certain != NULL)
         for (size_t entry = 0; entry < batch->part.count; entry++)
             store_ray(batch, entry);

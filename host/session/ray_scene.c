@@ -11,7 +11,6 @@ void ray_scene_free(RayScene *ray_scene)
     flat_free(&ray_scene->flat);
     triangles_free(&ray_scene->triangles);
     free(ray_scene->places);
-    free(ray_scene->mesh_starts);
     *ray_scene = (RayScene){0};
 }
 
@@ -32,58 +31,44 @@ static bool compile(RayScene *ray_scene, const Session *session, NodeLayout layo
     return ok;
 }
 
-static bool find_places(RayScene *ray_scene, Error *error)
+// Lists the triangles of all meshes.
+static void name_triangles(TrianglePlace *places, const Scene *scene)
+{
+    for (uint32_t mesh = 0; mesh < scene->objects.count; mesh++) {
+        const Mesh *named = &scene->objects.data[mesh].mesh;
+        for (size_t i = 0; i < named->triangle_count; i++)
+            *places++ = (TrianglePlace){NOTHING, mesh, (uint32_t)mesh_original_number(named, i)};
+    }
+}
+
+static bool find_places(RayScene *ray_scene, const Scene *scene, Error *error)
 {
     const FlatScene *flat = &ray_scene->flat;
     const uint32_t spheres = flat->sphere_count;
-    uint32_t *places = memory_raw(flat->triangle_count, sizeof *places, error);
+    TrianglePlace *places = memory_raw(flat->triangle_count, sizeof *places, error);
     ray_scene->places = places;
     if (places == NULL)
         return false;
+    name_triangles(places, scene);
     for (uint32_t i = 0; flat->layout == NODES_PAIR && i < flat->triangle_count; i++)
-        places[flat->triangles[i].id - spheres] = i;
+        places[flat->triangles[i].id - spheres].index = i;
     for (uint32_t i = 0; i < flat->block_count * WIDE; i++) {
         const uint32_t word = flat->blocks[i / WIDE].id[i % WIDE];
         if (word != NOTHING)
-            places[(word & ~TRIANGLE_MARKS) - spheres] = i;
+            places[(word & ~TRIANGLE_MARKS) - spheres].index = i;
     }
     return true;
-}
-
-static bool list_meshes(RayScene *ray_scene, const Scene *scene, Error *error)
-{
-    const uint32_t count = (uint32_t)scene->objects.count;
-    uint32_t *starts = memory_zeroed(count + 1, sizeof *starts, error);
-    ray_scene->mesh_starts = starts;
-    ray_scene->mesh_count = count;
-    for (uint32_t i = 0; starts != NULL && i < count; i++)
-        starts[i + 1] = starts[i] + (uint32_t)scene->objects.data[i].mesh.triangle_count;
-    return starts != NULL;
-}
-
-uint32_t ray_scene_mesh(const RayScene *ray_scene, uint32_t triangle)
-{
-    uint32_t low = 0, high = ray_scene->mesh_count;
-    while (high - low > 1) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (ray_scene->mesh_starts[middle] <= triangle)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
 }
 
 bool ray_scene_take(RayScene *ray_scene, Session *session, NodeLayout layout, bool one_sided,
                     Error *error)
 {
-    const Scene *scene = session->scene.scene;
     if (ray_scene->is_loaded && ray_scene->one_sided == one_sided)
         return true;
     ray_scene_free(ray_scene);
     const bool ok =
-        compile(ray_scene, session, layout, one_sided, error) && find_places(ray_scene, error) &&
-        list_meshes(ray_scene, scene, error) &&
+        compile(ray_scene, session, layout, one_sided, error) &&
+        find_places(ray_scene, session->scene.scene, error) &&
         scene_buffers_make(&ray_scene->buffers, &session->device, &ray_scene->flat, error);
     if (!ok)
         ray_scene_free(ray_scene);

@@ -7,12 +7,16 @@
 #include "session/session.h"
 
 typedef struct {
+    uint32_t index;  // in the device's arrays
+    uint32_t mesh;   // number of the mesh
+    uint32_t number; // in the mesh as given, with the triangles that clrt drops
+} TrianglePlace;
+
+typedef struct {
     FlatScene flat;
     SceneBuffers buffers;
     Triangles triangles;   // as traced, in the order of their ids
-    uint32_t *places;      // index of each triangle in the device's arrays
-    uint32_t *mesh_starts; // first triangle of each mesh, then the number of triangles
-    uint32_t mesh_count;
+    TrianglePlace *places; // of the triangles
     bool is_loaded, one_sided;
 } RayScene;
 
@@ -24,6 +28,3 @@ bool ray_scene_take(RayScene *ray_scene, Session *session, NodeLayout layout, bo
 
 // Releases the scene. The session's scene may change afterwards.
 void ray_scene_free(RayScene *ray_scene);
-
-// Returns the index of the mesh that contains the triangle.
-uint32_t ray_scene_mesh(const RayScene *ray_scene, uint32_t triangle);
