@@ -148,7 +148,7 @@ static inline void cross_triangles(const Tracer *tracer, const Ray *along, Real 
 #endif
 
 // Stores the number of crossings of each ray in `counts`. Stores the nearest `room` crossings of
-// each ray in `hits`, which has `room` entries for each ray.
+// each ray in `hits`, which has `room` entries for each ray. Unused entries get the id NOTHING.
 kernel void find_crossings(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint room,
                            global HitData *hits, global uint *counts)
 {
@@ -164,5 +164,7 @@ kernel void find_crossings(TRACER_ARGUMENTS, global const RayData *rays, uint co
     if (CLRT_TRIANGLES && frame.triangle_count != 0 && data->limit >= 0.0f &&
         any_lane(is_searchable(&ray)))
         cross_triangles(&tracer, &ray, data->limit, &crossings);
+    for (uint i = crossings.count; i < room; i++)
+        crossings.nearest[i] = (HitData){INFINITY, NOTHING};
     counts[place] = crossings.count;
 }

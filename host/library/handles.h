@@ -58,11 +58,16 @@ bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *e
 struct ClrtRenderer {
     Session session;
     RayCaster casters[RAY_QUERIES]; // open after the first rays that need them
-    RayScene rays;                  // empty until rays are cast
-    RayScene certain_rays;          // the same for RAYS_CERTAIN
+    RayScene rays[2];               // by NodeLayout; empty until rays are cast
     atomic_bool is_busy;            // true while a picture is drawn or rays are cast
     uint64_t state;                 // ClrtScene::state of the session's scene; 0 without a scene
 };
+
+// Returns the scene in the layout of the query's kernel. The query's caster must be open.
+static inline RayScene *renderer_handle_rays(ClrtRenderer *renderer, RayQuery query)
+{
+    return &renderer->rays[renderer->casters[query].kernel->choice.nodes];
+}
 
 // Checks the arguments and marks the renderer as busy. On success, the caller must call
 // renderer_handle_end later.

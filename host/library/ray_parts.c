@@ -54,15 +54,6 @@ static double cube_entry(Vec3 origin, Vec3 direction)
                 entry_of_axis(origin.z, direction.z));
 }
 
-// An entry of a part, with the scene's normalization.
-typedef struct {
-    RayPart *part;
-    const RayScene *scene;
-    Vec3 center;
-    double scale, inverse_scale;
-    size_t entry;
-} Entry;
-
 static double largest_of(Vec3 v)
 {
     const double x = fabs(v.x), y = fabs(v.y), z = fabs(v.z), larger = x > y ? x : y;
@@ -97,106 +88,109 @@ static void advance(Vec3 *origin, Vec3 direction, double t, double *sizes)
 
 // Stores a ray's direction and its limit, and a bound on the rounding of doubles as its doubt.
 // Returns the ray's normalized origin. A ray that can hit nothing gets a limit below 0.
-static Vec3 convert(const Entry *entry, const GivenRay *given)
+static Vec3 convert(RayPart *part, const GivenRay *given)
 {
     const double largest = largest_of(given->direction);
     const bool is_usable = largest >= 1e-300 && sum_of(given->direction) <= 1e300;
     const double shrink = is_usable ? power_to_one(largest) : 0;
-    const double unit = shrink * entry->inverse_scale;
+    const double unit = shrink * part->inverse_scale;
     const Vec3 direction = vec3_scale(given->direction, shrink);
     double start = given->near;
-    Vec3 origin = vec3_scale(vec3_sub(given->origin, entry->center), entry->scale);
+    Vec3 origin = vec3_scale(vec3_sub(given->origin, part->center), part->scale);
     double sizes = sum_of(origin);
     if (start != 0)
         advance(&origin, direction, start / unit, &sizes);
-    if (largest_of(origin) > 2 * CUBE && entry->scene->flat.sphere_count == 0) {
+    if (largest_of(origin) > 2 * CUBE && part->scene->flat.sphere_count == 0) {
         const double ahead = fmax(cube_entry(origin, direction), 0);
         advance(&origin, direction, ahead, &sizes);
         start += ahead * unit;
     }
     const double limit = given->far < INFINITY ? (given->far - start) / unit : INFINITY;
     const bool is_ray = is_usable && sum_of(origin) < FARTHEST;
-    RayData *ray = &entry->part->rays[entry->entry];
+    RayData *ray = &part->rays[part->count];
     ray->doubt = is_ray ? (float)(0x1p-50 * sizes) : INFINITY;
     ray->limit = !is_ray || !(given->far >= start) ? -1 : limit < 0x1p127 ? (float)limit : INFINITY;
     vec3_store(ray->direction, direction);
-    entry->part->starts[entry->entry] = start;
-    entry->part->units[entry->entry] = unit;
+    part->starts[part->count] = start;
+    part->units[part->count] = unit;
     return origin;
 }
 
-// Moves the start of a ray onto the plane of its triangle. Stores the signed distance of the start
-// from the plane in *off. Returns false if the distance is too large.
-static bool move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle, double *off)
+// Moves the start of a ray onto the plane of its triangle. Returns the signed distance of the start
+// from the plane.
+static double move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle)
 {
     const FaceCorners corners = corners_of(&scene->triangles, triangle);
     const Vec3 normal = normal_of(&corners);
-    *off = vec3_dot(normal, vec3_sub(*origin, corners.at[0]));
-    *origin = vec3_sub(*origin, vec3_scale(normal, *off));
-    return fabs(*off) <= OFF_PLANE;
+    const double off = vec3_dot(normal, vec3_sub(*origin, corners.at[0]));
+    *origin = vec3_sub(*origin, vec3_scale(normal, off));
+    return off;
 }
 
-// Returns whether the ray starts on a primitive. If near is not 0, the ray starts elsewhere and
-// only skips the primitive.
+// Returns whether a ray starts on a primitive. If near is not 0, the ray starts elsewhere and only
+// skips the primitive.
 static bool is_on_surface(const GivenRay *given)
 {
     return given->own != NOTHING && given->near == 0;
 }
 
-static bool fill_entry(const Entry *entry, const GivenRay *given, size_t number, ClrtError *error)
+static bool fill_entry(RayPart *part, const GivenRay *given, ClrtError *error)
 {
-    RayData *ray = &entry->part->rays[entry->entry];
-    const uint32_t spheres = entry->scene->flat.sphere_count;
-    const uint64_t primitives = (uint64_t)spheres + entry->scene->flat.triangle_count;
+    RayData *ray = &part->rays[part->count];
+    const uint32_t spheres = part->scene->flat.sphere_count;
+    const uint64_t primitives = (uint64_t)spheres + part->scene->flat.triangle_count;
     double off = 0;
-    Vec3 origin = convert(entry, given);
+    Vec3 origin = convert(part, given);
+    if (given->own != NOTHING && given->own >= primitives)
+        return check_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu",
+                          ray_part_number(part, part->count), given->own,
+                          (unsigned long long)primitives);
+    if (is_on_surface(given) && given->own >= spheres && ray->limit >= 0)
+        off = move_to_plane(&origin, part->scene, given->own - spheres);
+    if (fabs(off) > OFF_PLANE)
+        return check_fail(error, CLRT_ARGUMENT,
+                          "ray %zu should start on primitive %u, but starts %.3g from its "
+                          "plane; at most %.3g are allowed",
+                          ray_part_number(part, part->count), given->own,
+                          fabs(off) * part->inverse_scale, OFF_PLANE * part->inverse_scale);
     ray->own = given->own;
     ray->own_index = NOTHING;
-    if (given->own != NOTHING && given->own >= primitives)
-        return check_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu", number,
-                          given->own, (unsigned long long)primitives);
-    if (is_on_surface(given) && given->own >= spheres && ray->limit >= 0) {
-        ray->own_index = entry->scene->places[given->own - spheres].index;
-        if (!move_to_plane(&origin, entry->scene, given->own - spheres, &off))
-            return check_fail(error, CLRT_ARGUMENT,
-                              "ray %zu should start on primitive %u, but starts %.3g from its "
-                              "plane; at most %.3g are allowed",
-                              number, given->own, fabs(off) * entry->inverse_scale,
-                              OFF_PLANE * entry->inverse_scale);
-    }
     vec3_store(ray->origin, origin);
     ray->doubt += (float)(1.01 * fabs(off) + 1.01 * 0x1p-24 * sum_of(origin));
     return true;
 }
 
-bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *rays,
-                   ClrtError *error)
+void ray_part_begin(RayPart *part, const Session *session, const RayScene *scene, size_t room)
 {
-    const Normalization *frame = &renderer->session.scene.normalization;
-    Entry entry = {part, &renderer->rays, frame->center, frame->scale, 1 / frame->scale, 0};
-    size_t first = 0, last = part->count;
-    for (size_t i = 0; i < part->count; i++) {
-        const size_t number = part->first + part->sequence[i];
-        const GivenRay given = given_ray(rays, number);
-        entry.entry = is_on_surface(&given) ? --last : first++;
-        part->order[entry.entry] = part->sequence[i];
-        if (!fill_entry(&entry, &given, number, error))
+    const Normalization *frame = &session->scene.normalization;
+    part->scene = scene;
+    part->center = frame->center;
+    part->scale = frame->scale;
+    part->inverse_scale = 1 / frame->scale;
+    part->room = room;
+}
+
+bool ray_part_fill(RayPart *part, const ClrtRays *rays, ClrtError *error)
+{
+    part->count = 0;
+    for (size_t i = 0; i < part->size; i++) {
+        const GivenRay given = given_ray(rays, part->first + part->sequence[i]);
+        if (is_on_surface(&given) != (part->start == RAYS_ON_SURFACE))
+            continue;
+        part->order[part->count] = part->sequence[i];
+        if (!fill_entry(part, &given, error))
             return false;
+        part->count++;
     }
-    part->on_surface = part->count - last;
     return true;
 }
 
-void ray_part_move(RayPart *part, const RayScene *scene)
+void ray_part_index(RayPart *part, const RayScene *scene)
 {
+    const uint32_t spheres = scene->flat.sphere_count;
     for (RayData *ray = part->rays; ray < part->rays + part->count; ray++)
-        if (ray->own_index != NOTHING)
-            ray->own_index = scene->places[ray->own - scene->flat.sphere_count].index;
-}
-
-static Vec3 sphere_center(const SphereData *sphere)
-{
-    return vec3_add(vec3_of_floats(sphere->center), vec3_of_floats(sphere->center_low));
+        if (part->start == RAYS_ON_SURFACE && ray->own >= spheres && ray->limit >= 0)
+            ray->own_index = scene->places[ray->own - spheres].index;
 }
 
 // Stores the weights of the second and third corner at the point where the ray's line crosses the
@@ -217,60 +211,54 @@ static void weights_at(double weights[2], const FaceCorners *corners, Vec3 origi
     weights[1] = fmin(fmax(third, 0), 1 - weights[0]);
 }
 
-// The properties of a hit's surface that callers may request.
-typedef struct {
-    double weights[2];
-    Vec3 normal;
-    bool front;
-} HitSurface;
-
-static HitSurface surface_of(const RayData *ray, const RayScene *scene, HitData hit)
+static Vec3 sphere_normal(const SphereData *sphere, Vec3 point)
 {
-    HitSurface surface = {0};
-    const uint32_t spheres = scene->flat.sphere_count;
-    const Vec3 origin = vec3_of_floats(ray->origin), direction = vec3_of_floats(ray->direction);
-    if (hit.id == NOTHING)
-        return surface;
-    if (hit.id < spheres) {
-        const Vec3 point = vec3_add(origin, vec3_scale(direction, (double)hit.t));
-        surface.normal =
-            vec3_normalize(vec3_sub(point, sphere_center(&scene->flat.spheres[hit.id])));
-    } else {
-        const FaceCorners corners = corners_of(&scene->triangles, hit.id - spheres);
-        weights_at(surface.weights, &corners, origin, direction);
-        surface.normal = normal_of(&corners);
-    }
-    surface.front = vec3_dot(surface.normal, direction) <= 0;
-    return surface;
+    const Vec3 center =
+        vec3_add(vec3_of_floats(sphere->center), vec3_of_floats(sphere->center_low));
+    return vec3_normalize(vec3_sub(point, center));
 }
 
-static void store_surface(const ClrtHits *hits, size_t ray, const HitSurface *surface)
+// Stores the properties of a hit's surface.
+static void store_surface(const RayScene *scene, const RayData *ray, HitData hit,
+                          const ClrtHits *hits, size_t result)
 {
-    for (int i = 0; hits->weights != NULL && i < 2; i++)
-        hits->weights[2 * ray + (size_t)i] = surface->weights[i];
+    const uint32_t spheres = scene->flat.sphere_count;
+    const Vec3 origin = vec3_of_floats(ray->origin), direction = vec3_of_floats(ray->direction);
+    double weights[2] = {0, 0};
+    Vec3 normal = {0, 0, 0};
+    if (hit.id != NOTHING && hit.id < spheres) {
+        const Vec3 point = vec3_add(origin, vec3_scale(direction, (double)hit.t));
+        normal = sphere_normal(&scene->flat.spheres[hit.id], point);
+    } else if (hit.id != NOTHING) {
+        const FaceCorners corners = corners_of(&scene->triangles, hit.id - spheres);
+        weights_at(weights, &corners, origin, direction);
+        normal = normal_of(&corners);
+    }
+    if (hits->weights != NULL)
+        memcpy(hits->weights + 2 * result, weights, sizeof weights);
     if (hits->normals != NULL)
-        vec3_store_doubles(hits->normals + 3 * ray, surface->normal);
+        vec3_store_doubles(hits->normals + 3 * result, normal);
     if (hits->fronts != NULL)
-        hits->fronts[ray] = surface->front;
+        hits->fronts[result] = hit.id != NOTHING && vec3_dot(normal, direction) <= 0;
 }
 
 // Stores the number of a triangle's mesh and the triangle's number in that mesh.
-static void store_place(const RayScene *scene, const ClrtHits *hits, size_t ray, uint32_t id)
+static void store_place(const RayScene *scene, uint32_t id, const ClrtHits *hits, size_t result)
 {
     static const TrianglePlace nowhere = {NOTHING, NOTHING, NOTHING};
     const uint32_t spheres = scene->flat.sphere_count;
     const TrianglePlace *place =
         id != NOTHING && id >= spheres ? &scene->places[id - spheres] : &nowhere;
     if (hits->meshes != NULL)
-        hits->meshes[ray] = place->mesh;
+        hits->meshes[result] = place->mesh;
     if (hits->triangles != NULL)
-        hits->triangles[ray] = place->number;
+        hits->triangles[result] = place->number;
 }
 
-// Returns the index of an entry's first result in the caller's arrays.
-static size_t place_of(const RayPart *part, size_t entry)
+// Returns the index of an entry's result in the caller's arrays.
+static size_t result_of(const RayPart *part, size_t entry, size_t i)
 {
-    return (part->first + part->order[entry]) * part->room;
+    return ray_part_number(part, entry) * part->room + i;
 }
 
 static void store_distances(const RayPart *part, const HitData *found, double *distances)
@@ -279,7 +267,7 @@ static void store_distances(const RayPart *part, const HitData *found, double *d
         for (size_t i = 0; i < part->room; i++) {
             const HitData hit = found[entry * part->room + i];
             const double distance = part->starts[entry] + (double)hit.t * part->units[entry];
-            distances[place_of(part, entry) + i] = hit.id == NOTHING ? INFINITY : distance;
+            distances[result_of(part, entry, i)] = hit.id == NOTHING ? INFINITY : distance;
         }
 }
 
@@ -287,38 +275,30 @@ static void store_primitives(const RayPart *part, const HitData *found, uint32_t
 {
     for (size_t entry = 0; entry < part->count; entry++)
         for (size_t i = 0; i < part->room; i++)
-            primitives[place_of(part, entry) + i] = found[entry * part->room + i].id;
+            primitives[result_of(part, entry, i)] = found[entry * part->room + i].id;
 }
 
-static void store_places(const RayPart *part, const RayScene *scene, const HitData *found,
-                         const ClrtHits *hits)
+static void store_details(const RayPart *part, const HitData *found, const ClrtHits *hits)
 {
-    for (size_t entry = 0; entry < part->count; entry++)
-        for (size_t i = 0; i < part->room; i++)
-            store_place(scene, hits, place_of(part, entry) + i, found[entry * part->room + i].id);
-}
-
-static void store_surfaces(const RayPart *part, const RayScene *scene, const HitData *found,
-                           const ClrtHits *hits)
-{
+    const bool has_surface = hits->weights != NULL || hits->normals != NULL || hits->fronts != NULL;
     for (size_t entry = 0; entry < part->count; entry++)
         for (size_t i = 0; i < part->room; i++) {
-            const HitSurface surface =
-                surface_of(&part->rays[entry], scene, found[entry * part->room + i]);
-            store_surface(hits, place_of(part, entry) + i, &surface);
+            const HitData hit = found[entry * part->room + i];
+            const size_t result = result_of(part, entry, i);
+            store_place(part->scene, hit.id, hits, result);
+            if (has_surface)
+                store_surface(part->scene, &part->rays[entry], hit, hits, result);
         }
 }
 
 // Separate loops take half the time of a single loop that checks for each hit which arrays to fill.
-void ray_part_store(const RayPart *part, const RayScene *scene, const HitData *found,
-                    const ClrtHits *hits)
+void ray_part_store(const RayPart *part, const HitData *found, const ClrtHits *hits)
 {
     if (hits->distances != NULL)
         store_distances(part, found, hits->distances);
     if (hits->primitives != NULL)
         store_primitives(part, found, hits->primitives);
-    if (hits->meshes != NULL || hits->triangles != NULL)
-        store_places(part, scene, found, hits);
-    if (hits->weights != NULL || hits->normals != NULL || hits->fronts != NULL)
-        store_surfaces(part, scene, found, hits);
+    if (hits->meshes != NULL || hits->triangles != NULL || hits->weights != NULL ||
+        hits->normals != NULL || hits->fronts != NULL)
+        store_details(part, found, hits);
 }

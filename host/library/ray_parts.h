@@ -7,26 +7,36 @@
 // The largest number of rays in a part.
 #define PART_RAYS 16384
 
-// A part of a batch, on its way to the device and back.
+// A part of a batch, on its way to the device and back. The caller sets first, size, sequence and
+// start, and ray_part_begin sets the members before them.
 typedef struct {
+    const RayScene *scene;
+    Vec3 center; // of the scene's normalization, like scale
+    double scale, inverse_scale;
+    size_t room;                  // hits stored for each ray
+    size_t first, size;           // of the batch's rays
+    uint32_t sequence[PART_RAYS]; // order in which the rays are traced (ray_grid_order)
+    RayStart start;               // the entries are the rays with this start
+    size_t count;                 // of entries
+    uint32_t order[PART_RAYS];    // by entry: the ray's number in the part
     RayData rays[PART_RAYS];
     double starts[PART_RAYS], units[PART_RAYS]; // the caller's t = starts + units * the device's t
-    uint32_t sequence[PART_RAYS]; // order in which ray_part_fill takes rays (ray_grid_order)
-    uint32_t order[PART_RAYS];    // by entry: the ray's number in the part
-    size_t first, count;          // of the batch's rays
-    size_t room;                  // hits stored for each ray
-    size_t on_surface;            // the rays of the last on_surface entries start on primitives
 } RayPart;
 
-// Fills part->rays with the batch's rays [first, first + count). Fails if a ray starts on a
-// primitive that does not exist or is too far from the ray's origin.
-bool ray_part_fill(RayPart *part, const ClrtRenderer *renderer, const ClrtRays *rays,
-                   ClrtError *error);
+void ray_part_begin(RayPart *part, const Session *session, const RayScene *scene, size_t room);
 
-// Replaces the indices of the triangles on which rays start by their indices in another layout of
-// the scene.
-void ray_part_move(RayPart *part, const RayScene *scene);
+// Returns the number of an entry's ray in the batch.
+static inline size_t ray_part_number(const RayPart *part, size_t entry)
+{
+    return part->first + part->order[entry];
+}
+
+// Makes entries of the part's rays that have part->start. Fails if a ray starts on a primitive that
+// does not exist or is too far from the ray's origin.
+bool ray_part_fill(RayPart *part, const ClrtRays *rays, ClrtError *error);
+
+// Stores the indices of the triangles on which rays start in the arrays of the scene.
+void ray_part_index(RayPart *part, const RayScene *scene);
 
 // Stores the hits, part->room of each entry, in the caller's arrays.
-void ray_part_store(const RayPart *part, const RayScene *scene, const HitData *found,
-                    const ClrtHits *hits);
+void ray_part_store(const RayPart *part, const HitData *found, const ClrtHits *hits);

@@ -8,9 +8,9 @@
 
 // The caller's arrays for results.
 typedef struct {
-    ClrtHits hits;
-    uint8_t *occluded, *inside; // NULL if not requested
-    bool finds_all;             // finds all crossings instead of the nearest hits
+    RayQuery query; // RAYS_NEAREST or RAYS_CROSSED
+    ClrtHits hits;  // room is 1 for RAYS_NEAREST
+    uint8_t *flags; // whether a ray is occluded, or starts inside of the meshes; may be NULL
 } RayResults;
 
 // A batch that is being traced.
@@ -21,107 +21,95 @@ typedef struct {
     RayPart part;
     uint32_t counts[PART_RAYS]; // crossings of each ray
     HitData certain[PART_RAYS]; // of RAYS_CERTAIN
-    HitData *hits;              // room for one part
+    HitData hits[];             // results.hits.room for each ray of a part
 } Batch;
-
-// Returns the number of hits that are kept for each ray.
-static size_t room_of(const RayResults *results)
-{
-    return results->finds_all ? results->hits.room : 1;
-}
 
 static size_t part_rays(const RayResults *results)
 {
-    const size_t most = CROSSINGS_MAX / (room_of(results) > 0 ? room_of(results) : 1);
+    const size_t room = results->hits.room, most = CROSSINGS_MAX / (room > 0 ? room : 1);
     return most < PART_RAYS ? most : PART_RAYS;
 }
 
-// Casts the rays that start on no primitive, then the rays that start on one. RAYS_CROSSED treats
-// all rays alike.
-static bool cast(Batch *batch, RayQuery query, const RayScene *scene, HitData *hits, Error *error)
+// Opens the query's caster, and compiles the scene in the layout of the caster's kernel.
+static bool prepare(const Batch *batch, RayQuery query, ClrtError *error)
 {
-    const RayPart *part = &batch->part;
-    const RayCaster *caster = &batch->renderer->casters[query];
-    const size_t split = part->count - (query == RAYS_CROSSED ? 0 : part->on_surface);
-    RayCast cast = {.scene = &scene->buffers,
-                    .rays = part->rays,
-                    .count = split,
-                    .any = batch->results.occluded != NULL,
-                    .room = (uint32_t)part->room};
-    if (!ray_caster_cast(caster, &cast, hits, batch->counts, error))
-        return false;
-    cast.rays += split;
-    cast.count = part->count - split;
-    cast.start = RAYS_ON_SURFACE;
-    return cast.count == 0 || ray_caster_cast(caster, &cast, hits + split, NULL, error);
+    Error cause = {0};
+    Session *session = &batch->renderer->session;
+    RayCaster *caster = &batch->renderer->casters[query];
+    return ((caster->kernel != NULL || ray_caster_open(caster, session, query, &cause)) &&
+            ray_scene_take(renderer_handle_rays(batch->renderer, query), session,
+                           caster->kernel->choice.nodes, batch->rays.one_sided, &cause)) ||
+           check_fail_for(error, CLRT_DEVICE, &cause);
 }
 
-static bool trace_part(Batch *batch, Error *error)
+static bool cast(Batch *batch, RayQuery query, HitData *hits, ClrtError *error)
 {
-    ClrtRenderer *renderer = batch->renderer;
-    const RayQuery query = batch->results.finds_all ? RAYS_CROSSED : RAYS_NEAREST;
-    if (!cast(batch, query, &renderer->rays, batch->hits, error))
-        return false;
-    if (batch->results.hits.certain == NULL)
-        return true;
-    ray_part_move(&batch->part, &renderer->certain_rays);
-    return cast(batch, RAYS_CERTAIN, &renderer->certain_rays, batch->certain, error);
-}
-
-// Marks the entries beyond each ray's crossings as unused.
-static void clear_unused(Batch *batch)
-{
-    const size_t room = batch->part.room;
-    for (size_t entry = 0; entry < batch->part.count; entry++)
-        for (size_t i = batch->counts[entry]; i < room; i++)
-            batch->hits[entry * room + i] = (HitData){INFINITY, NOTHING};
+    Error cause = {0};
+    RayPart *part = &batch->part;
+    const RayScene *scene = renderer_handle_rays(batch->renderer, query);
+    const RayCast cast = {.scene = &scene->buffers,
+                          .rays = part->rays,
+                          .count = part->count,
+                          .start = part->start,
+                          .any = batch->results.flags != NULL,
+                          .room = (uint32_t)part->room};
+    ray_part_index(part, scene);
+    return ray_caster_cast(&batch->renderer->casters[query], &cast, hits, batch->counts, &cause) ||
+           check_fail_for(error, CLRT_DEVICE, &cause);
 }
 
 // Stores the results that a ray has only once.
 static void store_ray(const Batch *batch, size_t entry)
 {
     const RayResults *results = &batch->results;
-    const size_t ray = batch->part.first + batch->part.order[entry];
-    if (results->occluded != NULL)
-        results->occluded[ray] = batch->hits[entry].id != NOTHING;
-    if (results->inside != NULL)
-        results->inside[ray] = batch->counts[entry] % 2;
-    if (results->hits.certain != NULL)
-        results->hits.certain[ray] =
-            batch->certain[entry].t == 0 && batch->certain[entry].id == batch->hits[entry].id;
-    if (results->finds_all && results->hits.counts != NULL)
-        results->hits.counts[ray] = batch->counts[entry];
+    const ClrtHits *hits = &results->hits;
+    const HitData *certain = &batch->certain[entry];
+    const bool all = results->query == RAYS_CROSSED;
+    const size_t ray = ray_part_number(&batch->part, entry);
+    if (results->flags != NULL)
+        results->flags[ray] =
+            all ? (batch->counts[entry] & 1) != 0 : batch->hits[entry].id != NOTHING;
+    if (hits->certain != NULL)
+        hits->certain[ray] = certain->t == 0 && certain->id == batch->hits[entry].id;
+    if (all && hits->counts != NULL)
+        hits->counts[ray] = batch->counts[entry];
 }
 
-static void store_part(Batch *batch)
+// Traces the part's rays with this start.
+static bool trace_part(Batch *batch, RayStart start, ClrtError *error)
 {
+    RayPart *part = &batch->part;
     const RayResults *results = &batch->results;
-    if (results->finds_all)
-        clear_unused(batch);
-    ray_part_store(&batch->part, &batch->renderer->rays, batch->hits, &results->hits);
-    if (results->occluded != NULL || results->finds_all || results->hits.certain != NULL)
-        for (size_t entry = 0; entry < batch->part.count; entry++)
+    const ClrtHits *hits = &results->hits;
+    part->start = start;
+    if (!ray_part_fill(part, &batch->rays, error))
+        return false;
+    if (part->count == 0)
+        return true;
+    if (!cast(batch, results->query, batch->hits, error) ||
+        (hits->certain != NULL && !cast(batch, RAYS_CERTAIN, batch->certain, error)))
+        return false;
+    ray_part_store(part, batch->hits, hits);
+    if (results->flags != NULL || hits->certain != NULL || hits->counts != NULL)
+        for (size_t entry = 0; entry < part->count; entry++)
             store_ray(batch, entry);
+    return true;
 }
 
 static bool trace_parts(Batch *batch, ClrtError *error)
 {
-    Error cause = {0};
+    RayPart *part = &batch->part;
     const ClrtRays *rays = &batch->rays;
-    const size_t most = part_rays(&batch->results);
+    const size_t most = part_rays(&batch->results), width = ray_grid_width(rays);
     const uint64_t parts = (rays->count + most - 1) / most;
-    const size_t width = ray_grid_width(rays);
     for (uint64_t done = 0; done < parts; done++) {
-        batch->part.first = done * most;
-        batch->part.count = rays->count - batch->part.first;
-        if (batch->part.count > most)
-            batch->part.count = most;
-        ray_grid_order(batch->part.sequence, batch->part.count, width);
-        if (!ray_part_fill(&batch->part, batch->renderer, rays, error))
+        const size_t left = rays->count - done * most;
+        part->first = done * most;
+        part->size = left < most ? left : most;
+        ray_grid_order(part->sequence, part->size, width);
+        if (!trace_part(batch, RAYS_FREE, error) ||
+            (rays->starts != NULL && !trace_part(batch, RAYS_ON_SURFACE, error)))
             return false;
-        if (!trace_part(batch, &cause))
-            return check_fail_for(error, CLRT_DEVICE, &cause);
-        store_part(batch);
         if (rays->progress != NULL && !rays->progress(rays->user, done + 1, parts) &&
             done + 1 < parts)
             return check_fail(error, CLRT_STOPPED, "the rays were stopped after %llu of %llu parts",
@@ -130,56 +118,39 @@ static bool trace_parts(Batch *batch, ClrtError *error)
     return true;
 }
 
-// Opens the query's caster, and compiles the scene in the layout of the caster's kernel.
-static bool prepare_query(const Batch *batch, RayQuery query, RayScene *scene, Error *error)
+static bool trace_batch(Batch *batch, const ClrtScene *scene, ClrtError *error)
 {
-    Session *session = &batch->renderer->session;
-    RayCaster *caster = &batch->renderer->casters[query];
-    return (caster->kernel != NULL || ray_caster_open(caster, session, query, error)) &&
-           ray_scene_take(scene, session, caster->kernel->choice.nodes, batch->rays.one_sided,
-                          error);
+    const RayResults *results = &batch->results;
+    if (!renderer_handle_take(batch->renderer, scene, error) ||
+        !prepare(batch, results->query, error) ||
+        (results->hits.certain != NULL && !prepare(batch, RAYS_CERTAIN, error)))
+        return false;
+    ray_part_begin(&batch->part, &batch->renderer->session,
+                   renderer_handle_rays(batch->renderer, results->query), results->hits.room);
+    return trace_parts(batch, error);
 }
 
-static bool prepare(const Batch *batch, const ClrtScene *scene, ClrtError *error)
+static bool check_rays(ClrtRays *copy, const ClrtRays *rays, ClrtError *error)
 {
-    Error cause = {0};
-    ClrtRenderer *renderer = batch->renderer;
-    if (!renderer_handle_take(renderer, scene, error))
-        return false;
-    const RayQuery query = batch->results.finds_all ? RAYS_CROSSED : RAYS_NEAREST;
-    return (prepare_query(batch, query, &renderer->rays, &cause) &&
-            (batch->results.hits.certain == NULL ||
-             prepare_query(batch, RAYS_CERTAIN, &renderer->certain_rays, &cause))) ||
-           check_fail_for(error, CLRT_DEVICE, &cause);
+    return check_struct(error, "the rays", rays, copy, sizeof *copy) &&
+           (copy->count == 0 || check_given(error, "the origins", copy->origins));
 }
 
 static bool trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                   const RayResults *results, ClrtError *error)
 {
     Error cause = {0};
-    Batch *batch = memory_raw(1, sizeof *batch, &cause);
-    if (batch == NULL)
-        return check_fail_for(error, CLRT_DEVICE, &cause);
-    batch->renderer = renderer;
-    batch->results = *results;
-    batch->part.room = room_of(results);
-    batch->hits = memory_raw(part_rays(results) * room_of(results), sizeof *batch->hits, &cause);
-    const bool ok =
-        (batch->hits != NULL || check_fail_for(error, CLRT_DEVICE, &cause)) &&
-        check_struct(error, "the rays", rays, &batch->rays, sizeof batch->rays) &&
-        (batch->rays.count == 0 || check_given(error, "the origins", batch->rays.origins)) &&
-        prepare(batch, scene, error) && trace_parts(batch, error);
-    free(batch->hits);
-    free(batch);
-    return ok;
-}
-
-static bool trace_alone(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
-                        const RayResults *results, ClrtError *error)
-{
     if (!renderer_handle_begin(renderer, scene, error))
         return false;
-    const bool ok = trace(renderer, scene, rays, results, error);
+    const size_t hits = part_rays(results) * results->hits.room;
+    Batch *batch = memory_raw(1, sizeof *batch + hits * sizeof *batch->hits, &cause);
+    bool ok = batch != NULL || check_fail_for(error, CLRT_DEVICE, &cause);
+    if (ok) {
+        batch->renderer = renderer;
+        batch->results = *results;
+        ok = check_rays(&batch->rays, rays, error) && trace_batch(batch, scene, error);
+    }
+    free(batch);
     renderer_handle_end(renderer);
     return ok;
 }
@@ -187,34 +158,36 @@ static bool trace_alone(ClrtRenderer *renderer, const ClrtScene *scene, const Cl
 bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                 const ClrtHits *hits, ClrtError *error)
 {
-    RayResults results = {0};
-    return check_struct(error, "the hits", hits, &results.hits, sizeof results.hits) &&
-           trace_alone(renderer, scene, rays, &results, error);
+    RayResults results = {.query = RAYS_NEAREST};
+    if (!check_struct(error, "the hits", hits, &results.hits, sizeof results.hits))
+        return false;
+    results.hits.room = 1;
+    return trace(renderer, scene, rays, &results, error);
 }
 
 bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                     const ClrtHits *hits, ClrtError *error)
 {
-    RayResults results = {.finds_all = true};
+    RayResults results = {.query = RAYS_CROSSED};
     return check_struct(error, "the hits", hits, &results.hits, sizeof results.hits) &&
            check_number(error, "the room for hits", (double)results.hits.room, 0, CROSSINGS_MAX) &&
            (results.hits.certain == NULL ||
             check_fail(error, CLRT_ARGUMENT, "only clrt_trace finds which rays are certain")) &&
-           trace_alone(renderer, scene, rays, &results, error);
+           trace(renderer, scene, rays, &results, error);
 }
 
 bool clrt_occluded(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                    uint8_t *occluded, ClrtError *error)
 {
-    const RayResults results = {.occluded = occluded};
+    const RayResults results = {.query = RAYS_NEAREST, .hits.room = 1, .flags = occluded};
     return check_given(error, "the array of results", occluded) &&
-           trace_alone(renderer, scene, rays, &results, error);
+           trace(renderer, scene, rays, &results, error);
 }
 
 bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                    uint8_t *inside, ClrtError *error)
 {
-    const RayResults results = {.inside = inside, .finds_all = true};
+    const RayResults results = {.query = RAYS_CROSSED, .flags = inside};
     return check_given(error, "the array of results", inside) &&
-           trace_alone(renderer, scene, rays, &results, error);
+           trace(renderer, scene, rays, &results, error);
 }

@@ -67,8 +67,8 @@ ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *erro
 
 static void free_rays(ClrtRenderer *renderer)
 {
-    ray_scene_free(&renderer->rays);
-    ray_scene_free(&renderer->certain_rays);
+    for (int layout = 0; layout < 2; layout++)
+        ray_scene_free(&renderer->rays[layout]);
 }
 
 void clrt_renderer_free(ClrtRenderer *renderer)
