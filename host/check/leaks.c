@@ -54,8 +54,12 @@ static bool trace_aims(StagedMesh *staged, LeakCount *count, const RayCaster *ca
     bool ok = make_batch(&batch, aims->count, error);
     for (int from = 0; ok && from < 2; from++) {
         const size_t rays = make_rays[from](aims, batch.rays, batch.targets);
-        const RayCast cast = {.scene = &staged->buffers, .rays = batch.rays, .count = rays};
-        ok = ray_caster_cast(caster, &cast, batch.hits, NULL, error);
+        for (size_t first = 0; ok && first < rays; first += CAST_RAYS) {
+            const RayCast cast = {.scene = &staged->buffers,
+                                  .rays = batch.rays + first,
+                                  .count = rays - first < CAST_RAYS ? rays - first : CAST_RAYS};
+            ok = ray_caster_cast(caster, &cast, batch.hits + first, NULL, error);
+        }
         if (ok)
             aims_judge(aims, batch.targets, batch.hits, rays);
         count->rays += rays;

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Long lists of rays are split into launches, each of which fits the device buffers. All launches
-// of a kernel use work-groups of one size, because PoCL compiles a kernel again for each size.
+// All launches of a kernel use work-groups of one size, because PoCL compiles a kernel again for
+// each size.
 #include "session/ray_caster.h"
 
 #include "device/buffer.h"
 #include "render/certifier.h"
-
-// The usual number of rays in a launch. Large GPUs need more.
-#define LAUNCH_RAYS 65536
 
 // The smallest vector width of wide kernels; the host may not know the actual width.
 #define FEWEST_LANES 4
@@ -26,35 +23,13 @@ static bool finds_all(const RayCaster *caster)
     return caster->kernel->entry == &entries[RAYS_CROSSED];
 }
 
-// Runs the kernel for the first `count` rays in the buffer.
-static bool launch(const RayCaster *caster, const RayCast *cast, size_t count, Error *error)
-{
-    const Kernel *kernel = caster->kernel;
-    const bool all = finds_all(caster), has_lanes = kernel->choice.nodes == NODES_WIDE && !all;
-    const cl_uint number = (cl_uint)count, kind = cast->start | (cast->any ? RAY_ANY_HIT : 0);
-    const KernelRun run = {.queue = kernel->device->queue,
-                           .frame = &cast->scene->frame,
-                           .scene = cast->scene->arrays,
-                           .arguments = {&caster->rays, &number, all ? &cast->room : &kind,
-                                         &caster->hits, &caster->counts},
-                           .items = {(has_lanes ? count / FEWEST_LANES : count) + 1, 1}};
-    return kernel_run(kernel, &run, error);
-}
-
-static size_t launch_rays(const RayCaster *caster)
-{
-    const uint32_t items = caster->kernel->launch.items;
-    return items > LAUNCH_RAYS ? items : LAUNCH_RAYS;
-}
-
 static bool make_buffers(RayCaster *caster, const Device *device, Error *error)
 {
-    const size_t rays = launch_rays(caster);
-    const size_t hits = finds_all(caster) ? CROSSINGS_MAX : rays;
-    return device_buffer(device, rays * sizeof(RayData), &caster->rays, error) &&
+    const size_t hits = finds_all(caster) ? CROSSINGS_MAX : CAST_RAYS;
+    return device_buffer(device, CAST_RAYS * sizeof(RayData), &caster->rays, error) &&
            device_buffer(device, hits * sizeof(HitData), &caster->hits, error) &&
            (!finds_all(caster) ||
-            device_buffer(device, rays * sizeof(uint32_t), &caster->counts, error));
+            device_buffer(device, CAST_RAYS * sizeof(uint32_t), &caster->counts, error));
 }
 
 bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, Error *error)
@@ -82,43 +57,36 @@ void ray_caster_close(RayCaster *caster)
     *caster = (RayCaster){0};
 }
 
-static size_t smaller(size_t a, size_t b)
+static bool launch(const RayCaster *caster, const RayCast *cast, Error *error)
 {
-    return a < b ? a : b;
+    const Kernel *kernel = caster->kernel;
+    const bool all = finds_all(caster), has_lanes = kernel->choice.nodes == NODES_WIDE && !all;
+    const cl_uint count = (cl_uint)cast->count, kind = cast->start | (cast->any ? RAY_ANY_HIT : 0);
+    const KernelRun run = {.queue = kernel->device->queue,
+                           .frame = &cast->scene->frame,
+                           .scene = cast->scene->arrays,
+                           .arguments = {&caster->rays, &count, all ? &cast->room : &kind,
+                                         &caster->hits, &caster->counts},
+                           .items = {(has_lanes ? count / FEWEST_LANES : count) + 1, 1}};
+    return kernel_run(kernel, &run, error);
 }
 
-// Sends the rays, runs the kernel and reads the results, for at most launch_rays rays. Only the
-// reads wait for the device.
-static bool cast_launch(const RayCaster *caster, const RayCast *cast, HitData *hits,
-                        uint32_t *counts, Error *error)
-{
-    const Device *device = caster->kernel->device;
-    const bool all = finds_all(caster);
-    const size_t found = cast->count * (all ? cast->room : 1);
-    return cl_succeeded(clEnqueueWriteBuffer(device->queue, caster->rays, CL_FALSE, 0,
-                                             cast->count * sizeof *cast->rays, cast->rays, 0, NULL,
-                                             NULL),
-                        "write rays", error) &&
-           launch(caster, cast, cast->count, error) &&
-           (found == 0 || device_read(device, caster->hits, hits, found * sizeof *hits, error)) &&
-           (!all ||
-            device_read(device, caster->counts, counts, cast->count * sizeof *counts, error));
-}
-
+// Only the reads wait for the device.
 bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, uint32_t *counts,
                      Error *error)
 {
-    const size_t room = finds_all(caster) ? cast->room : 1;
-    const size_t most = smaller(launch_rays(caster), CROSSINGS_MAX / (room > 0 ? room : 1));
-    RayCast part = *cast;
-    for (size_t first = 0; first < cast->count; first += most) {
-        part.rays = cast->rays + first;
-        part.count = smaller(cast->count - first, most);
-        if (cast_launch(caster, &part, hits + first * room, counts != NULL ? counts + first : NULL,
-                        error))
-            continue;
-        clFinish(caster->kernel->device->queue); // the device may still read rays
-        return false;
-    }
-    return true;
+    const Device *device = caster->kernel->device;
+    const bool all = finds_all(caster);
+    const size_t rays = cast->count * sizeof *cast->rays;
+    const size_t found = cast->count * (all ? cast->room : 1) * sizeof *hits;
+    const bool ok =
+        cl_succeeded(clEnqueueWriteBuffer(device->queue, caster->rays, CL_FALSE, 0, rays,
+                                          cast->rays, 0, NULL, NULL),
+                     "write rays", error) &&
+        launch(caster, cast, error) &&
+        (found == 0 || device_read(device, caster->hits, hits, found, error)) &&
+        (!all || device_read(device, caster->counts, counts, cast->count * sizeof *counts, error));
+    if (!ok)
+        clFinish(device->queue); // the device may still read rays
+    return ok;
 }

@@ -14,7 +14,7 @@ typedef enum {
 
 typedef struct {
     const Kernel *kernel;
-    cl_mem rays, hits, counts; // room for one launch; counts is NULL unless RAYS_CROSSED
+    cl_mem rays, hits, counts; // room for one cast; counts is NULL unless RAYS_CROSSED
 } RayCaster;
 
 // Compiles the query's kernel. Fails for RAYS_CERTAIN if certifier_check_device rejects the device.
@@ -30,12 +30,13 @@ typedef enum {
 typedef struct {
     const SceneBuffers *scene; // in the node layout of the caster's kernel
     const RayData *rays;
-    size_t count;
+    size_t count; // in [1, CAST_RAYS]
     RayStart start;
     bool any;      // for RAYS_NEAREST: any hit suffices
-    uint32_t room; // for RAYS_CROSSED: hits stored for each ray; at most CROSSINGS_MAX
+    uint32_t room; // for RAYS_CROSSED: hits stored for each ray; at most CROSSINGS_MAX / count
 } RayCast;
 
+#define CAST_RAYS     262144
 #define CROSSINGS_MAX 1048576
 
 // Stores the hits of the rays. For RAYS_CROSSED, stores the numbers of crossings in `counts`, and
