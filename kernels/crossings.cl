@@ -90,8 +90,8 @@ static inline void cross_tree(const CrossingRay *ray, Crossings *crossings)
     } while (pop_child(&stack, ray->limit, &child));
 }
 
-static inline void cross_triangles(const Tracer *tracer, const Ray *along, float limit,
-                                   Crossings *crossings)
+static NOT_INLINE void cross_triangles(const Tracer *tracer, const Ray *along, float limit,
+                                       Crossings *crossings)
 {
     CrossingRay ray;
     ray.search = search_along(tracer, along, limit);
@@ -126,8 +126,8 @@ static inline void cross_range(const Search *search, uint2 range, Crossings *cro
     }
 }
 
-static inline void cross_triangles(const Tracer *tracer, const Ray *along, Real limit,
-                                   Crossings *crossings)
+static NOT_INLINE void cross_triangles(const Tracer *tracer, const Ray *along, Real limit,
+                                       Crossings *crossings)
 {
     const Search search = search_along(tracer, along, limit);
     if (!CLRT_BVH || !tracer->frame->uses_bvh) {

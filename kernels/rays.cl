@@ -85,8 +85,29 @@ static inline void store_hits(global HitData *hits, uint left, const Hit *found)
     }
 }
 
+// The arguments of trace_rays.
+typedef struct {
+    global const RayData *rays;
+    uint count, kind;
+    global HitData *hits;
+} RayArray;
+
+// Traces PACKETS packets of consecutive rays. PoCL compiles a kernel's own code three times, but
+// this function once.
+static NOT_INLINE void trace_packets(const Tracer *tracer, const RayArray *array, uint start)
+{
+    const uint count = array->count;
+    Ray packets[PACKETS];
+    Hit found[PACKETS];
+    for (uint i = 0; i < PACKETS; i++)
+        packets[i] = ray_at(array->rays, start + i * CLRT_LANES, count, array->kind, &found[i]);
+    search_rays(tracer, packets, found);
+    for (uint i = 0; i < PACKETS && start + i * CLRT_LANES < count; i++)
+        store_hits(array->hits + start + i * CLRT_LANES, count - start - i * CLRT_LANES, &found[i]);
+}
+
 // Finds the nearest hits of `count` rays, or any hits if `kind` has RAY_ANY_HIT. All rays have the
-// same kind (RayKind). A work-item traces PACKETS packets of consecutive rays.
+// same kind (RayKind).
 kernel void trace_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
                        global HitData *hits)
 {
@@ -95,11 +116,6 @@ kernel void trace_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count,
         return;
     Tally tally = {0};
     const Tracer tracer = TRACER(&tally);
-    Ray packets[PACKETS];
-    Hit found[PACKETS];
-    for (uint i = 0; i < PACKETS; i++)
-        packets[i] = ray_at(rays, start + i * CLRT_LANES, count, kind, &found[i]);
-    search_rays(&tracer, packets, found);
-    for (uint i = 0; i < PACKETS && start + i * CLRT_LANES < count; i++)
-        store_hits(hits + start + i * CLRT_LANES, count - start - i * CLRT_LANES, &found[i]);
+    const RayArray array = {rays, count, kind, hits};
+    trace_packets(&tracer, &array, start);
 }
