@@ -26,49 +26,8 @@ static inline Mask begin_search(const Tracer *tracer, const Ray *ray, Hit *hit)
     return ends_at_any_hit(ray->kind) ? searching && hit->id == NOTHING : searching;
 }
 
-#if CLRT_PACKET
-// If origins or directions differ by more than this, beams are slower than single rays. For random
-// rays in 5, 82 and 1300 thousand triangles, single rays save about 45, 35 and 40 % of the time.
-#define LARGEST_SPREAD 0.5f
-
-static inline Real3 first_real3(Real3 v, Mask among)
-{
-    return real3_of(first_real(v.x, among), first_real(v.y, among), first_real(v.z, among));
-}
-
-// Returns whether the rays are probably traced faster as a beam than ray by ray. Both ways find the
-// same hits. The library scales directions until their largest component is in [1, 2).
-static inline bool are_coherent(const Ray packets[PACKETS])
-{
-    bool coherent = true;
-    const Real3 origin = first_real3(packets[0].origin, packets[0].active);
-    const Real3 direction = first_real3(packets[0].direction, packets[0].active);
-    for (uint i = 0; i < PACKETS; i++) {
-        const Real apart = max(largest_component(difference(packets[i].origin, origin)),
-                               largest_component(difference(packets[i].direction, direction)));
-        coherent &= !any_lane(packets[i].active && apart > LARGEST_SPREAD);
-    }
-    return coherent;
-}
-
-static inline void search_singly(const Tracer *tracer, const Ray *ray, Hit *hits)
-{
-    const uint bits = lane_bits(begin_search(tracer, ray, hits));
-    const Search search = search_along(tracer, ray, hits->t);
-    if (bits != 0)
-        intersect_lanes(&search, bits, 0, hits);
-}
-#endif
-
 static inline void search_rays(const Tracer *tracer, const Ray packets[PACKETS], Hit hits[PACKETS])
 {
-#if CLRT_PACKET
-    if (CLRT_BVH && tracer->frame->uses_bvh && !are_coherent(packets)) {
-        for (uint i = 0; i < PACKETS; i++)
-            search_singly(tracer, &packets[i], &hits[i]);
-        return;
-    }
-#endif
     Mask searching[PACKETS];
     for (uint i = 0; i < PACKETS; i++)
         searching[i] = begin_search(tracer, &packets[i], &hits[i]);

@@ -310,12 +310,39 @@ static inline bool take_group(Ungrouped *rays, uint smallest, RayGroup *group)
     return group->size != 0;
 }
 
+// If origins or directions differ by more than this, beams are slower than single rays. For random
+// rays in 5, 82 and 1300 thousand triangles, single rays save about 45, 35 and 40 % of the time.
+#define LARGEST_SPREAD 0.5f
+
+static inline Real3 first_real3(Real3 v, Mask among)
+{
+    return real3_of(first_real(v.x, among), first_real(v.y, among), first_real(v.z, among));
+}
+
+// Returns whether the rays are probably traced faster as a beam than ray by ray. Both ways find the
+// same hits. Only rays of an array may be random. The library scales their directions until the
+// largest component is in [1, 2).
+static inline bool are_coherent(const Ray *rays, uint count)
+{
+    bool coherent = true;
+    if (!CLRT_RAYS)
+        return true;
+    const Real3 origin = first_real3(rays->origin, rays->active);
+    const Real3 direction = first_real3(rays->direction, rays->active);
+    for (uint i = 0; i < count; i++) {
+        const Real apart = max(largest_component(difference(rays[i].origin, origin)),
+                               largest_component(difference(rays[i].direction, direction)));
+        coherent &= !any_lane(rays[i].active && apart > LARGEST_SPREAD);
+    }
+    return coherent;
+}
+
 // Finds the hits of the lanes selected by `wanted`, in `count` packets.
 static NOT_INLINE void search_beams(const Tracer *tracer, const Ray *rays, const uint *wanted,
                                     uint count, Hit *hits)
 {
     const bool has_tree = CLRT_BVH && tracer->frame->uses_bvh;
-    if (!CLRT_PACKET && has_tree) {
+    if (has_tree && (!CLRT_PACKET || !are_coherent(rays, count))) {
         for (uint i = 0; i < count; i++) {
             const Search search = search_along(tracer, &rays[i], hits[i].t);
             intersect_lanes(&search, wanted[i], 0, &hits[i]);
