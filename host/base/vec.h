@@ -75,10 +75,11 @@ static inline Vec3 vec3_upper(Vec3 a, Vec3 b)
     return (Vec3){a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
 }
 
-// Returns the largest absolute value of the components.
+// Returns the largest absolute value of the components, none of which should be a NaN.
 static inline double vec3_extent(Vec3 a)
 {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    const double x = fabs(a.x), y = fabs(a.y), z = fabs(a.z), larger = x > y ? x : y;
+    return larger > z ? larger : z;
 }
 
 // Returns `a` scaled to length 1; the zero vector stays zero. If squares could overflow or

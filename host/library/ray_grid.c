@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "library/ray_grid.h"
 
-#include "library/given_ray.h"
-
 // The most rays of a beam, the largest height of a block, and the bounds of a row's length.
 #define BEAM_RAYS   64
 #define BLOCK_ROWS  8

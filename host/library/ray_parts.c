@@ -9,7 +9,7 @@
 // every batch.
 #include "library/ray_parts.h"
 
-#include "library/given_ray.h"
+#include "library/ray_grid.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,12 +54,6 @@ static double cube_entry(Vec3 origin, Vec3 direction)
                 entry_of_axis(origin.z, direction.z));
 }
 
-static double largest_of(Vec3 v)
-{
-    const double x = fabs(v.x), y = fabs(v.y), z = fabs(v.z), larger = x > y ? x : y;
-    return larger > z ? larger : z;
-}
-
 // Returns a NaN if a component is a NaN.
 static double sum_of(Vec3 v)
 {
@@ -90,7 +84,7 @@ static void advance(Vec3 *origin, Vec3 direction, double t, double *sizes)
 // Returns the ray's normalized origin. A ray that can hit nothing gets a limit below 0.
 static Vec3 convert(RayPart *part, const GivenRay *given)
 {
-    const double largest = largest_of(given->direction);
+    const double largest = vec3_extent(given->direction);
     const bool is_usable = largest >= 1e-300 && sum_of(given->direction) <= 1e300;
     const double shrink = is_usable ? power_to_one(largest) : 0;
     const double unit = shrink * part->inverse_scale;
@@ -100,7 +94,7 @@ static Vec3 convert(RayPart *part, const GivenRay *given)
     double sizes = sum_of(origin);
     if (start != 0)
         advance(&origin, direction, start / unit, &sizes);
-    if (largest_of(origin) > 2 * CUBE && part->scene->flat.sphere_count == 0) {
+    if (vec3_extent(origin) > 2 * CUBE && part->scene->flat.sphere_count == 0) {
         const double ahead = fmax(cube_entry(origin, direction), 0);
         advance(&origin, direction, ahead, &sizes);
         start += ahead * unit;
