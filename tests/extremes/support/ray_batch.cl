@@ -150,7 +150,9 @@ static inline void leave_surfaces(const Tracer *tracer, const TestRays *all, con
         const LightSample light = {
             .position = sum3(surface.point, direction), .toward = direction, .faces = met};
         const Ray shadow = ray_to_light(tracer, &surface, &light);
-        const Mask dark = blocking_hit(tracer, &shadow).id != NOTHING;
+        Hit blocker;
+        blocking_hits(tracer, &shadow, 1, &blocker);
+        const Mask dark = blocker.id != NOTHING;
         second.id = second.id == NOTHING && dark ? (UInt)(LEAVE_SHADOWED) : second.id;
     }
     store_hits(hits, all, ray->active, met ? second.t : 0.0f, met ? second.id : (UInt)(NOTHING));

@@ -29,7 +29,7 @@ typedef struct {
 
 typedef enum {
     BATCH_NEAREST, // nearest_hit
-    BATCH_BLOCKED, // blocking_hit: t is 0; id is 1 if blocked, else 0
+    BATCH_BLOCKED, // blocking_hits: t is 0; id is 1 if blocked, else 0
     BATCH_LEAVE,   // ray_batch_leave
     BATCH_TASKS
 } BatchTask;
