@@ -122,9 +122,9 @@ static inline bool move_to_child(global const Node *nodes, Real2 entry, PairStac
     return nearer < INFINITY;
 }
 
-// Enters a node's children. A GPU keeps the nearer one in registers. On a CPU, small scenes take a
-// seventh less time with both on the stack. Returns whether the place is now a child. Otherwise,
-// the caller must pop the next place.
+// Enters a node's children. A GPU keeps the nearer child in registers. On a CPU, small scenes take
+// a seventh less time with both children on the stack. Returns whether the place is now a child.
+// Otherwise, the caller must pop the next place.
 static inline bool enter_children(global const Node *nodes, Real2 entry, PairStack *stack,
                                   PairPlace *place)
 {

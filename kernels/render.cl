@@ -57,8 +57,8 @@ static NOT_INLINE void sample_colors(const Tracer *tracer, const Places samples[
     trace(tracer, &paths, colors);
 }
 
-// The sums of the samples' colors, in steps of 2^-32. Integer sums are exact in any order. A
-// constant color therefore stays unchanged for any number of samples.
+// The sums of the samples' colors, in steps of 2^-32. Integer sums are exact, so a constant color
+// stays unchanged for any number of samples.
 typedef struct {
     ULong red, green, blue;
 } ColorSum;

@@ -115,7 +115,6 @@ static inline Received receive_light(const LightSample *light, const Lighting *l
     return received;
 }
 
-// The sums of all lights' contributions.
 typedef struct {
     Real3 diffuse, specular;
 } Illumination;

@@ -178,7 +178,6 @@ static inline Mask comes_from_outside(const Sphere *sphere, const Ray *ray, cons
     return ray->own != hit->id && sphere_power(f, sphere->radius) > 0.0f;
 }
 
-// A sphere's normal points outward even if the ray comes from inside, as in the course.
 static inline Surface sphere_surface(const Tracer *tracer, const Ray *ray, const Hit *hit)
 {
     const Sphere sphere = fetch_sphere(tracer, hit->index);

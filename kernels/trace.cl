@@ -118,7 +118,8 @@ static inline UInt last_level(const Paths *paths, uint number)
     return paths->paths[number].level;
 }
 #else
-// Sets the reflected rays in the lanes of path->reflects. Returns whether any lane has one.
+// Sets the reflected rays in the lanes of path->reflects. Returns whether any lane has a reflected
+// ray.
 static inline bool aim_rays(const Tracer *tracer, Paths *paths)
 {
     bool any = false;

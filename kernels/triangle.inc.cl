@@ -70,9 +70,7 @@ static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
     return edge > 0.0f || (edge == 0.0f && beside);
 }
 
-// Returns whether the triangle owns the ray, and thus counts as crossed (crossings.cl). If the ray
-// crosses a surface at an edge or vertex, an odd number of the triangles there own the ray. If the
-// ray only touches the surface, an even number of them own the ray.
+// Returns whether the triangle owns the ray and counts as crossed. crossings.cl has the invariant.
 static inline Mask OVERLOAD edges_own(const Corners *sheared, const Edges *edges)
 {
     const Real3 a = sheared->a, b = sheared->b, c = sheared->c;

@@ -224,7 +224,7 @@ static void print_light(const ExplainReport *report, const ExplainedRay *ray, si
     fputs("\n", stream);
 }
 
-// Prints the other factors of the surface's color.
+// Prints the factors of the surface's color besides the lights.
 static void print_factors(const json_t *factors, Shader shader, FILE *stream)
 {
     if (shader == SHADER_GLASS) {

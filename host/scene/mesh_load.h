@@ -24,7 +24,6 @@ typedef struct {
 
 void foreign_files_free(ForeignFiles *files);
 
-// Options for loading a file.
 typedef struct {
     MeshObject object;         // properties of the file's objects, without meshes
     bool is_flat;              // ignores the file's normals

@@ -253,7 +253,6 @@ static void hash_choices(Scene *scene, const SceneLoadOptions *options)
         scene_hash_input(scene, normals, sizeof normals);
 }
 
-// Turns the meshes upright and adds the studio.
 static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
 {
     for (size_t object = 0; object < scene->objects.count; object++)

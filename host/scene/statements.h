@@ -10,7 +10,6 @@
 // Reads the rest of a define statement and adds the material to scene.
 bool materials_define(Scene *scene, Tokens *tokens);
 
-// The choice of a `material` statement.
 typedef struct {
     uint32_t plain;   // the material of spheres, and of meshes that get no other material
     uint32_t colored; // if is_own: the material of meshes whose files define colors only

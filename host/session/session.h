@@ -15,8 +15,6 @@
 #include "render/renderer.h"
 #include "session/geometry.h"
 
-// All settings with the same wanted.precision draw the same picture, unless kernel_folder replaces
-// the kernels.
 typedef struct {
     ClrtSettings wanted;       // wanted.size is not used
     const char *kernel_folder; // replaces the embedded kernels; may be NULL
@@ -96,7 +94,6 @@ bool session_compile(const Session *session, CompileSource *source, FlatScene *f
 // tree if has_tree is false or session_wants_tree returns false.
 SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Error *error);
 
-// Returns the builder that the settings request.
 BvhBuilder session_builder(const ClrtSettings *settings);
 
 // Returns the kernels that the settings request. The combination may be impossible.
@@ -105,7 +102,6 @@ KernelRequest session_kernel_request(const ClrtSettings *settings);
 // Returns the scene in the layout of session->choice, or NULL.
 SceneForm *session_own_form(Session *session, Error *error);
 
-// The kernel of a renderer.
 typedef struct {
     const KernelEntry *entry;
     const KernelChoice *choice; // NULL: the session's
