@@ -54,8 +54,9 @@ static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3
     return ahead && !behind;
 }
 
-// Returns the rays that start on another triangle and stop on this one. The line of each ray must
-// hit this triangle within rounding of the ray's start.
+// Returns the rays that start on another triangle and stop on this one. Each ray's line must hit
+// this triangle so close to the ray's start that rounding could put the hit before or behind the
+// start.
 static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask from_back)
 {
     const Ray *ray = search->ray;

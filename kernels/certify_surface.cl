@@ -221,9 +221,9 @@ static inline Answer certify_face_facing(const UncertainSurface *surface, const 
     return (side < 0) == surface->from_behind ? ANSWER_YES : ANSWER_NO;
 }
 
-// Returns whether the shading normal and the face both face the light. From outside, a sphere's
-// face is its normal. From inside, its face is opposite to its normal. A light then passes both
-// tests only by rounding, near the horizon.
+// Returns whether the shading normal and the face both face the light. Seen from outside, a
+// sphere's face normal is its shading normal. From inside, its face is opposite to its normal. A
+// light then passes both tests only by rounding, near the horizon.
 static inline Answer certify_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
     const Answer normal = certify_normal_facing(surface, to_light);

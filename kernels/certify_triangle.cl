@@ -97,9 +97,9 @@ static inline Real slope_of(const ProjectedTriangle *projected)
 // Returns bounds on the depth of a hit. The hit is at most one blur away from the axis, and its
 // depth is between the depths of the corners. For a broad triangle, the plane's slope also limits
 // the difference between this depth and the depth at which the axis crosses the plane. A broad
-// triangle is more than 8 blurs high. Weights then stay within [-1/4, 5/4], and rounding tilts the
-// plane by less than half of 1 + slope. A bound of 4 (1 + slope) blurs covers all of this. The term
-// of 26 u times the size covers the rounding of the distance (B11).
+// triangle is more than 8 blurs high. The hit's weights then stay within [-1/4, 5/4], and rounding
+// changes the plane's slope by less than (1 + slope) / 2. A bound of 4 (1 + slope) blurs covers all
+// of this. The term of 26 u times the size covers the rounding of the distance (B11).
 static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 {
     const Corners *c = &projected->corners;

@@ -209,7 +209,8 @@ typedef struct {
 CLRT_SAME_SIZE(FrameData, 152)
 
 // The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
-// that the ray and its reflections hit, and of the lights that reach these surfaces.
+// that the ray, its reflections and refractions hit, of the lights that reach these surfaces, and
+// of the glass on their way.
 typedef struct {
     float color[3];
     uint signature;

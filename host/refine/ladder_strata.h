@@ -18,10 +18,11 @@
 static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
 
 // On rung 0, strata are octaves of the pixel's bend (refine/ladder_entry.c). Each octave from
-// FLAT_CLASS on has a second stratum for pixels near contrast, numbered from NEAR_CLASS on. If a
-// thin part touches a pixel of these octaves (refine/thin_parts.h), the pixel is in THIN_CLASS
-// instead. On higher rungs, strata are octaves of the standard deviation of a pixel's samples. Bent
-// pixels, which had a large bend or a thin part on rung 0, form strata of their own.
+// FLAT_CLASS on has a second stratum, for pixels near contrast. The second strata are numbered from
+// NEAR_CLASS on. If a thin part touches a pixel of these octaves (refine/thin_parts.h), the pixel
+// is in THIN_CLASS instead. On higher rungs, strata are octaves of the standard deviation of a
+// pixel's samples. Bent pixels, which had a large bend or a thin part on rung 0, form strata of
+// their own.
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
 #define THIN_CLASS        12

@@ -5,8 +5,8 @@
 #include "image/framebuffer.h"
 #include "render/renderer.h"
 
-// A pass over all tiles by a kernel that computes values for each pixel. The kernel's arguments are
-// the frame, the scene's arrays and the outputs.
+// A pass over the tiles from `first` on, by a kernel that computes values for each pixel. The
+// kernel's arguments are the frame, the scene's arrays and the outputs.
 typedef struct {
     FrameData frame;          // without a tile
     size_t sizes[2];          // bytes per pixel of each output; 0 if the kernel does not write it

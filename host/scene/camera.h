@@ -23,5 +23,6 @@ static inline double camera_reduction(const CameraData *camera, double depth)
 void camera_shift(CameraData *camera, double right, double down);
 
 // Returns the viewpoint with its eye rotated about an axis parallel to up. The axis passes through
-// look_at or, for the course's viewpoints, through the origin. A turn by 0 degrees changes no bit.
+// look_at or, for the six default views (docs/scenes.md), through the origin. A turn by 0 degrees
+// changes no bit.
 Viewpoint turn_viewpoint(const Viewpoint *viewpoint, bool is_course, double degrees);

@@ -17,7 +17,7 @@ typedef struct {
 
 typedef enum { MISSES, MEETS, UNCLEAR } Outcome;
 
-// A hit of a ray, or a possible hit, whose t is at least low.
+// A hit or a possible hit of a ray. Its t is at least `low`.
 typedef struct {
     NUMBER t, low;      // INFINITY for none; a hit's true t is in [low, t + (t - low)]
     uint32_t id, place; // place: index in the flat scene's spheres or triangles

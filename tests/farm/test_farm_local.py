@@ -13,7 +13,7 @@ import unittest
 CLRT = str(pathlib.Path(sys.argv[1]).resolve())
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SMALL = [str(ROOT / "scenes/reflections.scn"), "-s", "61x43", "--tune", "tile=16x8"]
-# The stubs add a line to the log. A job's id is the number of lines.
+# The stubs of sbatch and scancel add a line to the log. A job's id is the number of lines.
 SBATCH = '#!/bin/sh\nprintf "%s|" "$@" >>"$LOG"; echo >>"$LOG"\n[ -z "$BROKEN" ] || exit 1\nwc -l <"$LOG"\n'
 STUBS = {"sbatch": SBATCH, "squeue": '#!/bin/sh\necho "$QUEUED"\n', "scancel": SBATCH}
 

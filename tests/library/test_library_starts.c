@@ -65,8 +65,8 @@ static Pair random_pair(void)
     return pair;
 }
 
-// Omits rays where the triangles are so close to each other that rounded corners could change their
-// order.
+// Omits rays where the triangles are so close to each other that rounding their corners could swap
+// them.
 static Aimed aim(const Pair *pair)
 {
     const double least = 1e-4;

@@ -19,8 +19,8 @@ typedef struct {
 
 OracleSurface surface_at(const Scene *scene, const OracleRay *ray, OracleHit hit);
 
-// Returns whether the surface itself occludes a light in this direction. In the course, shadow rays
-// start at a small distance from the point. In the limit of distance zero, the surface near the
-// point is its tangent plane. The plane occludes the light unless light and viewer are on the same
-// side.
+// Returns whether the surface itself occludes a light in this direction. In the renderers of the
+// course (docs/scenes.md), shadow rays start at a small distance from the point. In the limit of
+// distance zero, the surface near the point is its tangent plane. The plane occludes the light
+// unless light and viewer are on the same side.
 bool surface_blocks(const OracleSurface *surface, Vec3 toward_light);

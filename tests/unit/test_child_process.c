@@ -49,8 +49,8 @@ TEST(ending_no_child_is_harmless)
     assert_int_equal(child_end(&none), 0);
 }
 
-// Calls work in a child process, which writes a report to `end`. Returns the child's status after
-// the child and its own children have ended.
+// Calls `work` in a child process. `work` writes a report to `end`. Returns the child's status
+// after the child and its own children have ended.
 static int status_of(void (*work)(int end), void *report, size_t size)
 {
     int ends[2], status;

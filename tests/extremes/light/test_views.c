@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares pictures with the oracle's. The lights vary in number and intensity, and the cameras in
-// angle and place. Some vertex normals are zero or cancel out.
+// field of view and place. Some vertex normals are zero or cancel out.
 #include "support/picture.h"
 #include "support/random_points.h"
 #include "support/shapes.h"

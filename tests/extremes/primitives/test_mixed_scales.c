@@ -21,7 +21,8 @@ static Scene three_scales(void)
     return scene;
 }
 
-// Rays start close to the small triangle and go to each of the three objects in turn.
+// Rays start close to the small triangle and go in turn to the small triangle, the globe and the
+// large triangle.
 static void aim_at_scales(Rays rays, const Stage *stage, Random *random)
 {
     Vec3 from = {0};
