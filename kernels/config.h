@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The switches that specialize a program. The kernels test most of them with a plain `if`, and the
-// optimizer removes unused features. The defaults make the general program, which renders every
-// scene without glass. If a scene has checkers or glass, its general program has both. The first
-// group describes the scene and enables counting (host/accel/flat.c).
+// optimizer removes unused features. With the defaults, a program renders every scene without
+// glass. General programs have checkers only for scenes with checkers or glass, and glass only for
+// scenes with glass. The first group describes the scene and enables counting (host/accel/flat.c).
 #ifndef CLRT_CONFIG_H
 #define CLRT_CONFIG_H
 
