@@ -17,7 +17,6 @@ static const char *const scenes[] = {
     CLRT_SOURCE_FOLDER "/tests/image/every_feature.scn",
     CLRT_SOURCE_FOLDER "/tests/image/painted.scn",
     CLRT_SOURCE_FOLDER "/tests/image/orthographic.scn",
-    CLRT_SOURCE_FOLDER "/tests/image/glass.scn",
 };
 #define SCENE_COUNT (sizeof scenes / sizeof scenes[0])
 
@@ -51,6 +50,21 @@ TEST(every_form_and_tree_draws_the_same)
 {
     for (size_t scene = 0; scene < SCENE_COUNT; scene++)
         expect_same_in_every_form_and_tree(small_request(scene));
+}
+
+// test_hashes draws glass in every form.
+TEST(every_tree_draws_the_same_glass)
+{
+    const PictureRequest glass = picture_request(CLRT_SOURCE_FOLDER "/tests/image/glass.scn", 1);
+    PictureRequest usual = rendered_in_form(glass, &form_all[0]), others[2];
+    usual.width = 131;
+    usual.height = 97;
+    others[0] = others[1] = usual;
+    others[0].builder = BVH_MIDPOINT;
+    others[0].tile_width = 13;
+    others[0].tile_height = 7;
+    others[1].uses_bvh = false;
+    rendered_expect_same(&usual, others, 2);
 }
 
 // Writes a floor from -1 to 1, and a mesh of scraps: triangles within 1e-4 of the center and 2e-7

@@ -62,17 +62,15 @@ TEST(the_points_of_an_area_light_are_evenly_spaced_and_share_its_intensity)
 {
     FREED_BY(scene_free)
     Scene scene = parsed("light 1 2 3 8 1 0.5 0 area 4 0 0 0 0 16 2\n"
-                         "light 1 2 3 0.7 area 4 0 0 0 0 16 1");
-    static const double x[] = {-0.5, 1.5, 0.5, 2.5}, z[] = {-3, 1, 5, 9};
+                         "light 1 2 3 2 1 0.5 0 area 4 0 0 0 0 16 1");
+    static const double x[] = {-0.5, 1.5, 0.5, 2.5, 1}, z[] = {-3, 1, 5, 9, 3};
     assert_int_equal(scene.lights.count, 5);
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 5; i++) {
         const Light *light = &scene.lights.data[i];
         assert_true(light->position.x == x[i] && light->position.y == 2 &&
                     light->position.z == z[i]);
         assert_true(light->intensity == 2 && light->color.y == 0.5);
     }
-    const Light *single = &scene.lights.data[4];
-    assert_true(single->position.x == 1 && single->position.z == 3 && single->intensity == 0.7);
 }
 
 TEST(suns_are_lights_with_a_direction)
