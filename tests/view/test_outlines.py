@@ -135,16 +135,22 @@ def light_falls_on_the_same_side_of_a_convex_mesh(screen, folder):
         print(f"         {light}: {apart} of {SIZE[0] * SIZE[1]} pixels differ, all at edges")
 
 
+def expect_similar(traced, drawn, most):
+    """Fewer than 300 pixels, those at edges, may differ by more than `most` of 255."""
+    apart = [sum(abs(a - b) > most for a, b in zip(traced[channel::4], drawn[channel::4]))
+             for channel in range(3)]
+    print(f"         {apart} of {SIZE[0] * SIZE[1]} pixels differ by more than {most} of 255")
+    assert max(apart) < 300, apart
+
+
 def all_points_of_large_lights_shine(screen, folder):
-    """OpenGL joins the 257 lights. The red one comes last."""
+    """OpenGL joins the 257 lights. The red one comes last. A joined light is between its lights, which
+    changes some pixels by 3 or 4 of 255."""
     scene = folder / "area.scn"
     scene.write_text("background 0 0 0\nambient 0.1\nmaterial 1\nlight -3 -4 2 0.6 area 0.2 0 0 0 0 0.2 16\n"
                      "light 5 -4 1 0.4 1 0 0\nsphere 0 0 0 1\ncamera 0 -5 0 0 0 0 30\n")
     traced, drawn = both_pictures(screen, scene)
-    apart = [sum(abs(a - b) > 4 for a, b in zip(traced[channel::4], drawn[channel::4]))
-             for channel in range(3)]
-    print(f"         {apart} of {SIZE[0] * SIZE[1]} pixels differ by more than 4 of 255")
-    assert max(apart) < 300, apart
+    expect_similar(traced, drawn, 4)
 
 
 def colors_of_vertices_agree(screen, folder):
@@ -154,10 +160,7 @@ def colors_of_vertices_agree(screen, folder):
                      f"mesh {ROOT}/tests/image/painted.ply\nmesh {ROOT}/scenes/cube.ply translate 2.5 0 0\n"
                      "camera 1.2 -6 2 1.2 0 0.3 50\n")
     traced, drawn = both_pictures(screen, scene)
-    near_edges = [sum(abs(a - b) > 2 for a, b in zip(traced[channel::4], drawn[channel::4]))
-                  for channel in range(3)]
-    print(f"         {near_edges} of {SIZE[0] * SIZE[1]} pixels differ by more than 2 of 255")
-    assert max(near_edges) < 300, near_edges
+    expect_similar(traced, drawn, 2)
     assert len(set(traced[2::4])) > 100, "the ball has few colors"
 
 
