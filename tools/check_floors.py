@@ -28,7 +28,7 @@ BELOW |= {
     "session": [*TRACING, "refine"],
 }
 
-# The clients of the session. None of them includes a layer that the session assembles.
+# The clients of the session. None of them includes accel, device, render or refine.
 CLIENT = ["base", "image", "mesh", "scene", "session"]
 BELOW |= {
     "check": CLIENT,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // make_models FOLDER: writes the models of the scenes as PLY files. Each file is a closed triangle
-// mesh, made from a signed distance field of smooth shapes. Stages: field -> grid -> surface net ->
-// relaxed and checked surface -> file. Only the mesh of the cables needs no field. With IEEE
-// arithmetic and -ffp-contract=off, every machine writes the same bytes.
+// mesh. All except the cables are made from signed distance fields of smooth shapes, in these
+// stages: field -> grid -> surface net -> relaxed and checked surface -> file. With IEEE arithmetic
+// and -ffp-contract=off, every machine writes the same bytes.
 #include "models/cables.h"
 #include "models/closed.h"
 #include "models/grid.h"

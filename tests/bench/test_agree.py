@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Tests that the Embree renderers of tools/bench draw clrt's picture with the same number of rays, in
-each mode and for each target. Otherwise the comparison would be meaningless. Few pixels and rays at
-edges may differ, because Embree's arithmetic differs. Usage: test_agree.py CLRT EMBREE_PEER...
+each mode and for each target. A few pixels and rays at edges may differ, because Embree's arithmetic
+differs. Usage: test_agree.py CLRT EMBREE_PEER...
 """
 
 import json

@@ -8,14 +8,14 @@
 typedef struct {
     uint32_t view; // from 1
     uint32_t width, height;
-    uint32_t samples; // per pixel and axis
+    uint32_t samples; // N of the N x N samples per pixel
 } CertifiedView;
 
 typedef struct {
     Stage stage; // with pair nodes
     CameraData camera;
     RenderSettings settings;
-    Framebuffer plain, picture; // without --aov certainty, and its repaired copy
+    Framebuffer plain, picture; // plain: without --aov certainty; picture: its repaired copy
     Layers seen; // the plain picture's first hits: primitive, material, share of lights
     CertaintyMap map;
 } Certified;

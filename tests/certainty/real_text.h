@@ -17,9 +17,10 @@ typedef struct {
 
 typedef enum { MISSES, MEETS, UNCLEAR } Outcome;
 
-// A hit or a possible hit of a ray. Its t is at least `low`.
+// A hit or a possible hit of a ray.
 typedef struct {
-    NUMBER t, low;      // INFINITY for none; a hit's true t is in [low, t + (t - low)]
+    NUMBER t, low;      // INFINITY for none; a hit's true t is in [low, t + (t - low)], and a
+                        // possible hit's true t is at least low
     uint32_t id, place; // place: index in the flat scene's spheres or triangles
     NUMBER v, w;        // weights of a triangle's second and third corner
     bool front;

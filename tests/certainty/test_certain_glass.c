@@ -39,7 +39,7 @@ static void write_random_meshes(FILE *stream, uint64_t *random)
     }
 }
 
-// Writes a floor, a mirror, and balls and meshes of glass. Some of them are inside others.
+// Writes a floor, a mirror ball, a shiny ball, and balls and meshes of glass, which may overlap.
 static void write_random_scene(char path[TEMPORARY_PATH], uint64_t seed)
 {
     FILE *stream = temporary_open(path);

@@ -67,7 +67,7 @@ class Damage(CacheWork):
         self.assert_heals("killed while it compiled")
         self.assertEqual(self.private_folders(), [])
 
-    # On network file systems, a process cannot remove folders of files that it has open, such as kernels.
+    # On network file systems, a process cannot remove a folder that contains its open files, such as kernels.
     def test_the_rest_of_a_private_folder_is_removed_by_the_next_process(self):
         left = self.cache / "clrt" / f"clrt-{socket.gethostname()}-abcdef" / "IP" / "render_tile"
         others = self.cache / "clrt" / "clrt-another.host-abcdef" / "IP"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests that a crop has the bits of this part of the whole picture, and that some options reject crops.
+# Tests that a crop has the bits of its part of the whole picture, and that some options reject crops.
 # Usage: test_crop.py CLRT FORMATS
 import struct
 

@@ -46,7 +46,7 @@ def vim_roles(text):
 
 def textmate_roles(text):
     """Returns the role of every character as an editor with TextMate grammars colors the text. The leftmost
-    match wins. Of several matches at one place, the match of the first pattern wins."""
+    match wins. If several patterns match at one place, the first pattern wins."""
     patterns = json.loads(TEXTMATE.read_text())["patterns"]
 
     def roles(line):

@@ -261,7 +261,7 @@ class Pixels(Explain):
 
 
 class Scenes(Explain):
-    """Specialized kernels omit features that a scene lacks. General kernels contain most features unused."""
+    """Specialized kernels omit features that a scene lacks. General kernels contain most features anyway."""
 
     def expect_parts(self, words, **parts):
         """Expects each part's need, its presence in the program and the reason. Returns the report."""

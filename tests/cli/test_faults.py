@@ -16,8 +16,8 @@ from cache_work import PICTURE
 from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main, needs_exr
 
 FAIL_MEMORY, FAIL_DEVICE, SET_ENVIRONMENT = (os.path.abspath(word) for word in sys.argv[3:6])
-# LARGE's picture does not fit on a disk of DISK_SIZE bytes in any format. All runs use the same
-# kernels.
+# LARGE's picture does not fit on a disk of DISK_SIZE bytes in any format. Its kernels do not depend
+# on the cache.
 LARGE = [SCENE, "-s", "400x300", "-q", "--tune=kernel=wide,specialize=never"]
 DISK_SIZE = 8192
 
@@ -34,7 +34,7 @@ class Faults(Work):
         for name in os.listdir(self.target):
             os.remove(self.target / name)
 
-    # Runs clrt with a new disk, which only this process sees at `target`. Then lists the disk's files.
+    # Runs clrt with a new disk at `target`, which no other process sees. Then lists the disk's files.
     def clrt_on_disk(self, options, *words):
         script = 'mount -t tmpfs -o "$1" clrt-test target && shift && echo old >target/old && \
             { [ "$1" != ro ] || mount -o remount,ro target; } && shift && "$@"; code=$?; \

@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-// Each option has its counterparts in clrt.h, or a reason why only the program has the option.
 // Counterparts are functions or "Struct::member", separated by spaces. A reason ends with a period.
 static const char *const counterparts[][2] = {
     {"output", "The library fills memory, and other libraries write files."},

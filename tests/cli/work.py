@@ -17,7 +17,7 @@ EVERY_FEATURE = str(ROOT / "tests/image/every_feature.scn")
 # The formats of this build, if they are the test's second argument. For other tests, the list is
 # empty.
 FORMATS = sys.argv[2].split(", ") if len(sys.argv) > 2 and "pfm" in sys.argv[2] else []
-HAS_EXR = "jpg" in FORMATS  # only OpenImageIO writes JPEG, and reads EXR for clrt compare
+HAS_EXR = "jpg" in FORMATS  # a build with JPEG has OpenImageIO, by which clrt compare reads EXR
 NO_OPENCL = {"OCL_ICD_VENDORS": "/nonexistent"}
 
 needs_exr = unittest.skipUnless(HAS_EXR, "this build is without OpenImageIO")

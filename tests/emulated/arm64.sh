@@ -40,7 +40,7 @@ cross_build() {
     cmake --build "$build"
 }
 
-# Makes the kernel start ARM programs in qemu, until this script ends.
+# Makes Linux start ARM programs in qemu until this script ends.
 start_emulation() {
     [ -e $handlers/register ] || mount -t binfmt_misc binfmt_misc $handlers
     [ ! -e $handlers/qemu-aarch64 ] || return 0

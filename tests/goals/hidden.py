@@ -69,7 +69,7 @@ def add_mirror(scene, rng, view):
 
 
 def off_center(rng, width):
-    """Returns the coordinate of a part of that width between two pixel centers, whose coordinates
+    """Returns the coordinate of a part of this width between two pixel centers, whose coordinates
     are -0.5 and 0.5."""
     return rng.uniform(-1, 1) * (0.49 - width / 2)
 

@@ -5,9 +5,9 @@
 //
 // Every pixel has two independent sequences, and the picture is the mean of both. A sequence is
 // Sobol's in two dimensions after Owen's nested scrambling ("Randomly permuted (t,m,s)-nets and
-// (t,s)-sequences", 1995), whose mean is an unbiased estimate. The random numbers of pixels and
-// sequences are independent, so regular scenes do not alias. The ladder of --error scrambles the
-// same sequence by another hash (kernels/ladder.cl), so its errors do not depend on the
+// (t,s)-sequences", 1995). Its mean is an unbiased estimate. The random numbers of pixels and
+// sequences are independent, so regular scenes do not alias. The ladder of --error scrambles
+// Sobol's sequence by another hash (kernels/ladder.cl), so its errors are independent of the
 // reference's.
 #include "image/image_file.h"
 #include "image/rendered.h"

@@ -20,7 +20,7 @@ typedef struct {
     bool has_last_tree;     // keeps the tree of the last request, which had the same `scene`
     uint32_t view;          // from 1
     uint32_t width, height; // 0: the scene's
-    uint32_t samples;       // per pixel and axis
+    uint32_t samples;       // N of the N x N samples per pixel
     float contrast;         // refines adaptively down to this contrast; 0: no refinement
     double error_goal;      // refines until the error bound is at most this; 0: no goal
     uint32_t threads;       // of the host, for refined pictures

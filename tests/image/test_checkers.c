@@ -54,8 +54,8 @@ static void write_scene(const Floor *floor, const char *mesh, char path[TEMPORAR
     temporary_close(scene);
 }
 
-// Returns the number of the cube at a coordinate. A line between cubes belongs to the higher
-// number.
+// Returns the number of the cube at a coordinate. A line between cubes belongs to the cube with the
+// higher number.
 static long cube_of(double coordinate, double size)
 {
     return lround(floor(coordinate / (double)(float)size + 1e-6));

@@ -66,7 +66,7 @@ TEST(straight_rays_leak_through_no_turned_cube)
         }
         unlink(path);
     }
-    assert_true(most >= 6); // a ray crosses two meshes, and its light crosses a cube
+    assert_true(most >= 6); // a ray crosses two meshes, and its shadow ray crosses a cube
 }
 
 // Expects each ray that hits no glass to be outside: the rays before it must cross an even number

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes with features that no scene of the course has: open two-sided meshes, a mirror seen from
-// inside, a huge sphere far away, distant lights, orthographic cameras, suns, and checkers.
+// Scenes with features that no scene of the course has: open two-sided meshes, a mirror ball seen
+// from inside, a huge sphere far away, distant lights, orthographic cameras, suns, and checkers.
 #pragma once
 
 #define UNUSUAL(name) CLRT_SOURCE_FOLDER "/tests/image/" name ".scn"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens a renderer on the device that CLRT_DEVICE names, otherwise with default settings. All tests
-// of a program share it.
+// Opens a renderer with default settings on the device that CLRT_DEVICE names. All tests of a
+// program share it.
 #pragma once
 
 #include "library/program.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests requests beyond a plain picture: goals, crops, turns, levels, statistics, channels,
-// certainty and references. Their pixels must equal the program's, bit for bit.
+// certainty and references. Most of them are compared with the program's, bit for bit.
 #include "base/error.h"
 #include "image/image_read.h"
 #include "library/faults.h"

@@ -143,7 +143,7 @@ static void expect_none_wrong(ClrtKernel kernel)
 
 TEST(rays_that_start_beside_a_vertex_hit_the_triangles_ahead_and_no_others)
 {
-    expect_none_wrong(CLRT_KERNEL_AUTO); // packets, but not on GPUs, which compile them for minutes
+    expect_none_wrong(CLRT_KERNEL_AUTO); // packets, except on GPUs
     expect_none_wrong(CLRT_KERNEL_WIDE);
     expect_none_wrong(CLRT_KERNEL_PAIR);
 }

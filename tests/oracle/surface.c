@@ -15,7 +15,8 @@ static Vec3 diffuse_of(const Scene *scene, uint32_t material)
     return vec3((double)diffuse[0], (double)diffuse[1], (double)diffuse[2]);
 }
 
-// A surface is parallel to an axis if its unit normal's component on the axis is at most this.
+// A surface is parallel to an axis if the size of its unit normal's component on the axis is at
+// most this.
 #define LEAN 0x1p-10
 
 // The layers of cubes perpendicular to an axis. A coordinate's place is rate * coordinate + shift.
@@ -42,8 +43,7 @@ static double layer_at(Layers layers, double coordinate, double lean)
     return floor(lean > LEAN ? place - layers.step : place + layers.step);
 }
 
-// Colors a surface of a material with a checker by its cube. Neighbors have different colors.
-// `side` points away from the cube.
+// If the material has a checker, colors the surface by its cube. `side` points away from the cube.
 static void check(OracleSurface *surface, const Scene *scene, Vec3 side)
 {
     const Material *material = &scene->materials.data[surface->material];

@@ -17,7 +17,7 @@ unshare --mount --pid --fork true 2>/dev/null || skip "this machine does not per
 
 roots=()
 namespaces=
-# When the first process of a namespace dies, the kernel ends the other processes and the mounts.
+# When the first process of a namespace dies, Linux ends the other processes and the mounts.
 clean_up() {
     [ -z "$namespaces" ] || { kill -KILL "$namespaces" && wait; } 2>/dev/null || true
     rm -rf "${roots[@]}" || { sleep 1 && rm -rf "${roots[@]}"; }

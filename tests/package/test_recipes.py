@@ -34,8 +34,8 @@ def names_of(requirements):
 
 
 class Action(unittest.TestCase):
-    """The tests imitate a user's checkout, with clrt in its folder clrt. tools/render starts the built
-    program."""
+    """The tests imitate a user's checkout, with clrt in its folder clrt. Instead of building clrt,
+    tools/render starts the program CLRT."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -29,7 +29,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 from pictures import read_exr  # noqa: E402 pylint: disable=wrong-import-position
 
 CLRT, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
-# This scene needs no model that the build makes, because builds under sanitizers make no models.
+# This scene needs no models, because builds under sanitizers make none.
 REFLECTIONS = SCENES / "reflections.scn"
 CUBE = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], float)
 SIDES = np.array([(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4),

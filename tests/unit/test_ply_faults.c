@@ -153,7 +153,7 @@ TEST(coordinates_and_normals_must_be_finite_numbers)
                               "ny is -inf, not a finite single precision number");
 }
 
-// Messages about a binary body give the byte offset of the first invalid element.
+// Messages about a binary body give the byte offset of the fault.
 #define VERTEX  BINARY "element vertex 1\n" XYZ "end_header\n"
 #define POINT   "\0\0\0\0\0\0\0\0\0\0\0\0"
 #define FACE    BINARY "element vertex 1\n" XYZ FACES "end_header\n" POINT

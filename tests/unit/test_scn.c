@@ -126,7 +126,7 @@ TEST(glass_has_a_color_and_an_index_of_refraction)
     assert_true(plain->ior == 1.5f && plain->diffuse[1] == 1 && plain->diffuse[2] == 1);
     assert_true(green->ior == 2.4f && green->diffuse[0] == 0.5f);
     assert_true(green->reflectivity == 1);
-    // Glass needs no light. As it absorbs nothing, no max_level bounds the error.
+    // Glass needs no light. Glass need not absorb light, so no max_level bounds the error.
     assert_null(scene_missing(&scene).kind);
     assert_true(truncation_bound(&scene, 9) == 1);
     assert_int_equal(truncation_level(&scene, 0.01), GLASS_LEVELS);

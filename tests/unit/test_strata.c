@@ -111,7 +111,7 @@ TEST(flat_strata_get_controls_for_any_aim)
     assert_int_equal(strata_raise(&strata, &aim), STRATA_REACHED);
 }
 
-// Returns the estimate for a picture whose flat pixels are all on one rung.
+// Returns the estimate for a picture of flat pixels, which are all on one rung.
 static double flat_estimate(uint32_t rung, double reflectivity)
 {
     Strata strata = {.pixels = PIXELS, .reflectivity = reflectivity};

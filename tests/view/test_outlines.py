@@ -136,7 +136,7 @@ def light_falls_on_the_same_side_of_a_convex_mesh(screen, folder):
 
 
 def expect_similar(traced, drawn, most):
-    """Fewer than 300 pixels, those at edges, may differ by more than `most` of 255."""
+    """Expects that fewer than 300 pixels, such as those at edges, differ by more than `most` of 255."""
     apart = [sum(abs(a - b) > most for a, b in zip(traced[channel::4], drawn[channel::4]))
              for channel in range(3)]
     print(f"         {apart} of {SIZE[0] * SIZE[1]} pixels differ by more than {most} of 255")

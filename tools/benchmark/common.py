@@ -23,7 +23,7 @@ def compile_ahead():
 
 
 def draw(scene, options, folder, frames=1):
-    """Draws a scene several times in one run of clrt. Returns the seconds of each picture."""
+    """Draws a scene `frames` times in one run of clrt. Returns the seconds of each picture."""
     frames = ["--repeat", str(frames)] if frames > 1 else []
     done = subprocess.run([CLRT, str(scene), "-v", "-o", f"{folder}/clrt.pfm", *frames,
                            *options], capture_output=True, text=True, check=False)

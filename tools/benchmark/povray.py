@@ -44,7 +44,8 @@ def settings_of(text):
 
 def finish_of(words, ambient):
     """Returns the texture of a define statement. Ambient and diffuse light are scaled by 1 -
-    reflectivity, as in clrt. In both renderers, a checker's first color starts at 0 0 0."""
+    reflectivity, as in clrt. In both renderers, a cube of a checker's first color begins at the
+    origin."""
     figures = {"diffuse": ["1", "1", "1"], "kd": ["1"], "reflectivity": ["0"], "checker": None}
     if words[0] != "matte":
         refuse(words[0])

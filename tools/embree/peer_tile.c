@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces and shades a tile like kernels/trace.cl, with LANES rays per SIMD packet. Each call of
 // Embree traces PACKETS packets. CMakeLists.txt compiles this file once for each mode. Unlike in
-// clrt, triangles are visible from both sides, and rays start or end at a fixed distance from the
-// surface. Most users of Embree do this, because filter functions are slower.
+// clrt, all triangles are visible from both sides, and rays start or end at a fixed distance from
+// the surface. Most users of Embree do this, because filter functions are slower.
 #include "calls.h"
 #include "peer_draw.h"
 
@@ -72,8 +72,7 @@ static inline void set_rays(Rays *rays, Points origin, Points direction, float n
 
 typedef float Quad __attribute__((vector_size(16)));
 
-// Looks up the materials and interpolates the normals, which may have any length. Loads each
-// corner's normal at once, then stores its components in their lanes.
+// Looks up the materials and interpolates the normals, which may have any length.
 static inline void look_up(const PeerScene *scene, const RayHits *hits, Mask hit,
                            Surfaces *surfaces)
 {

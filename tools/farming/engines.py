@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs stages one after another. A stage is a script and the numbers of its tasks."""
+"""Runs stages one after another."""
 
 import collections
 import shlex

@@ -26,8 +26,7 @@ TASK = """\
 task=${1:-$SLURM_ARRAY_TASK_ID}
 """
 
-# A requeued task reads its number from the same variable. The part gets its final name last, so
-# that a file with this name is complete.
+# The part gets its final name last, so that a file with this name is complete.
 PART = """\
 part=$folder/part.$task.exr
 [ ! -e "$part" ] || exit 0
@@ -41,7 +40,8 @@ status=0
 "$CLRT" {words} --frames "{frames}$task/{parts}" --resume -o {output} || status=$?
 """
 
-# Slurm starts the task again later, on any host. The script sleeps until Slurm ends it.
+# After `scontrol requeue`, Slurm ends the script, and later starts the task again on any host. The
+# script sleeps until Slurm ends it.
 END = """\
 # Status 75: another host, perhaps one cut off from the cluster, still draws this task.
 if [ $status = 75 ] && [ -n "${SLURM_JOB_ID-}" ]; then

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Signed distance fields of simple shapes, and blends of fields. Values approximate the distance to
 // the surface and are negative inside. Blends use Quilez's polynomial smooth minimum ("smooth
-// minimum", 2013). It changes a field only where the two fields differ by less than the blend
-// width.
+// minimum", 2013). It differs from the minimum only where the two fields differ by less than the
+// blend width.
 #pragma once
 
 #include "base/vec.h"
@@ -95,7 +95,8 @@ static inline double shape_ellipsoid(Vec3 p, Vec3 center, Vec3 radii)
     return reach * (reach - 1) / steepness;
 }
 
-// The volume of a ball that moves from a to b while its radius changes from radius_a to radius_b.
+// The region swept by a ball that moves from a to b while its radius changes from radius_a to
+// radius_b.
 static inline double shape_capsule(Vec3 p, Vec3 a, Vec3 b, double radius_a, double radius_b)
 {
     const Vec3 along = vec3_sub(b, a), from = vec3_sub(p, a);

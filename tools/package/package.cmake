@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The other files of an installation, and the Debian packages. `cmake --workflow --preset package`
-# builds them. Installing compiles the general kernels for all users. Other kernels are compiled on
-# first use.
+# builds the packages. Installing the package clrt compiles the general kernels for all users. Other
+# kernels are compiled on first use.
 set(folder ${CMAKE_BINARY_DIR}/package)
 file(MAKE_DIRECTORY ${folder})
 foreach(pair "CHANGELOG.md:changelog" "tools/package/changelog:changelog.Debian")

@@ -29,7 +29,7 @@ def fastest(row, rows):
 
 def doubling(row, rows):
     """Returns the uniform settings 1 x 1, 2 x 2, 4 x 4 and so on, up to the first that meets the
-    row's goal. Returns none if rows lack one of these settings."""
+    row's goal. Returns an empty list if rows lack one of these settings."""
     by_side = {uniform.side_of(other): other for other in rows}
     trials, side = [], 1
     while side in by_side:

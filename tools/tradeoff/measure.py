@@ -17,8 +17,8 @@ from tradeoff import front, goals, grid, uniform
 # late initialization, so only the others are timed.
 FRAMES = 3
 
-# With --processor-time, a process draws enough frames that those after the first take this number
-# of seconds, but at most MOST_FRAMES.
+# With --processor-time, a process draws enough frames that those after the first take at least this
+# number of seconds, but draws at most MOST_FRAMES.
 PROCESSOR_SECONDS = 0.5
 MOST_FRAMES = 1000
 
