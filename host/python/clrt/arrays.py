@@ -17,7 +17,7 @@ class Picture(np.ndarray):
     """A picture: a float32 array of shape (height, width, 3), R G B in [0, 1], top row first.
 
     channels maps the names of the requested channels to arrays of shape (height, width) or
-    (height, width, components). result is a dict of ClrtResult in clrt.h.
+    (height, width, components). result has the members of ClrtResult in clrt.h.
     """
 
     channels: Mapping[str, np.ndarray] = {}
@@ -27,7 +27,7 @@ class Picture(np.ndarray):
         return array.view(Picture) if array.ndim else array[()]
 
     def _repr_png_(self) -> bytes | None:
-        """PNG bytes for notebooks, with the values that `clrt -o FILE.png` writes."""
+        """PNG bytes for notebooks, with 8 bits per channel."""
         if self.ndim != 3 or self.shape[2] != 3:
             return None
         height, width, _ = self.shape
@@ -76,16 +76,16 @@ def compare(picture: ArrayLike, other: ArrayLike) -> dict[str, float]:
 
 @dataclass
 class Hits:
-    """What rays hit. Arrays have one element per ray, or per crossing of trace_all.
+    """The hits of rays. Arrays have one element per ray, or per crossing of trace_all.
 
     distance: float64, in lengths of the ray's direction; infinity without a hit. primitive, mesh,
-    face: uint32. primitive is the number that `starts` and the channel of this name take: first
-    all spheres, then all faces but those with two corners at one place. mesh and face count from 0,
-    in the given order. Without a hit, and for the mesh and face of spheres, they are clrt.NOTHING.
-    weights: float64 (n, 2), of the face's second and third corner; u and v are its columns. normal:
-    float64 (n, 3), the unit normal of the front. front: bool, whether the ray comes from the front.
-    certain: bool, whether rounding cannot have changed the primitive; only on request, and not of
-    trace_all. ray: the rays' numbers, of trace_all only. Arrays that were not requested are None.
+    face: uint32, clrt.NOTHING without a hit. primitive is an id, as in `starts` and in the channel
+    "primitive": first all spheres, then all faces except those with two corners at one place. mesh
+    and face count from 0, in the given order, and are clrt.NOTHING for spheres. weights: float64
+    (n, 2), of the face's second and third corner; u and v are its columns. normal: float64 (n, 3),
+    the unit normal of the front. front: bool, whether the ray comes from the front. certain: bool,
+    whether rounding cannot have changed the primitive; only on request, and not from trace_all.
+    ray: the rays' numbers, only from trace_all. Arrays that were not requested are None.
     """
 
     distance: np.ndarray | None = field(default=None, metadata={"distances": "f8"})
@@ -100,7 +100,7 @@ class Hits:
 
     @property
     def hit(self) -> np.ndarray:
-        """Which rays hit something, as bools, from distance or primitive."""
+        """Whether each ray hits something, as bools."""
         if self.primitive is None and self.distance is None:
             raise ArgumentError("neither 'distance' nor 'primitive' was requested")
         return np.isfinite(self.distance) if self.primitive is None else self.primitive != NOTHING
@@ -131,7 +131,7 @@ def rays(origins, directions, *, near=None, far=None, starts=None, **settings):
 
 
 def hit_arrays(results, count, room=1):
-    """Arrays for the results of `count` rays with `room` hits each: ClrtHits, name -> array."""
+    """A ClrtHits for `count` rays with `room` hits each, and a dict of its arrays."""
     for unknown in set(results) - set(_ARRAYS):
         raise ArgumentError(f"{unknown!r} is not one of {', '.join(_ARRAYS)}")
     arrays = {name: np.empty(count * room, _ARRAYS[name][1]) for name in results}
@@ -140,7 +140,7 @@ def hit_arrays(results, count, room=1):
 
 
 def rows(values, dtype, what, is_dense=False):
-    """An array of the shape (n, 3), each row in one place. Copies only if it must."""
+    """An array of the shape (n, 3) with contiguous rows. Copies only if it must."""
     made = threes(numbers(values, dtype, what), what, "n")
     size, (row, column) = made.itemsize, made.strides
     is_in_rows = column == size and row >= 3 * size and made.flags.aligned

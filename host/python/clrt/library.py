@@ -45,7 +45,7 @@ _FAULTS = {1: Stopped, 2: ArgumentError, 3: SceneError, 4: DeviceError}
 
 
 def _declarations():
-    """clrt.h, which lies beside this file or in host/library, without what cffi cannot read."""
+    """The text of clrt.h, which is beside this file or in host/library, as cffi can read it."""
     places = (_FOLDER / "clrt.h", _FOLDER.parents[1] / "library" / "clrt.h")
     header = next(place for place in places if place.exists()).read_text(encoding="utf-8")
     return re.sub(r'//.*|^#.*|^extern "C" {|^}$|CLRT_API ', "", header, flags=re.MULTILINE)
@@ -66,7 +66,7 @@ lib = _open()
 
 
 def call(name, *arguments):
-    """Calls clrt_NAME with a ClrtError at the end. Raises the library's error."""
+    """Calls clrt_NAME with a ClrtError as the last argument. Raises the library's error."""
     error = ffi.new("ClrtError *")
     result = getattr(lib, "clrt_" + name)(*arguments, error)
     if not result:
@@ -76,7 +76,7 @@ def call(name, *arguments):
 
 
 def struct(kind, **members):
-    """Makes a struct of clrt.h. Arrays in it live as long as the struct. None is the default."""
+    """Makes a struct of clrt.h. Its arrays live as long as the struct. None means the default."""
     types = {name: field.type for name, field in ffi.typeof(kind).fields}
     if unknown := set(members) - set(types):
         raise TypeError(f"there is no setting {', '.join(map(repr, unknown))}")
@@ -98,7 +98,7 @@ def _c_value(value, kind, what):
 
 
 def value_of(value, kind):
-    """A C value. Structs become dicts without size, arrays str or tuples, enumerations str."""
+    """Converts structs to dicts without size, arrays to str or tuples, and enumerations to str."""
     if kind.kind == "struct":
         return {name: value_of(getattr(value, name), field.type) for name, field in kind.fields[1:]}
     if kind.kind == "array":
@@ -114,7 +114,7 @@ def _names(enumeration):
 
 
 def result_of(name, *arguments):
-    """Calls clrt_NAME, which fills its last argument, and returns that number or struct."""
+    """Calls clrt_NAME, and returns the number or struct that the call fills."""
     kind = ffi.typeof(getattr(lib, "clrt_" + name)).args[-2]
     made = struct(kind.item.cname) if kind.item.kind == "struct" else ffi.new(kind)
     call(name, *arguments, made)
@@ -122,7 +122,7 @@ def result_of(name, *arguments):
 
 
 def numbers(values, dtype, what):
-    """An array of this dtype. Copies only if it must. Raises if integers change."""
+    """An array of this dtype. Copies only if it must. Raises if uint32 cannot hold a value."""
     values = np.asarray(values)
     made = values.astype(dtype, copy=False)
     if dtype == np.uint32 and (made != values).any():
@@ -131,7 +131,7 @@ def numbers(values, dtype, what):
 
 
 def threes(array, what, *axes):
-    """The array. Raises unless its shape is that of the named axes, followed by 3."""
+    """Returns the array. Raises unless it has the named axes and a last axis of length 3."""
     if array.shape[len(axes):] != (3,):
         raise ArgumentError(f"{what}: the shape is {array.shape}, not ({', '.join((*axes, '3'))})")
     return array
@@ -143,7 +143,7 @@ def vector(values, what):
 
 
 def choice(names, given, what):
-    """The place of a name among the names of an enumeration of clrt.h."""
+    """The index of a name among the names of an enumeration of clrt.h."""
     if given not in names:
         raise ArgumentError(f"{what} is {given!r}, not one of {', '.join(names)}")
     return names.index(given)
@@ -151,7 +151,7 @@ def choice(names, given, what):
 
 @contextlib.contextmanager
 def progress_of(progress):
-    """Yields a ClrtProgress: a function of (done, all), a bar by tqdm for True, otherwise NULL."""
+    """Yields a ClrtProgress that calls progress or, for True, shows a bar by tqdm; or NULL."""
     faults, advance = [], _bar() if progress is True else progress
     callback = advance and ffi.callback(
         "ClrtProgress", lambda _, *parts: advance(*parts) is not False, error=False,
@@ -163,7 +163,7 @@ def progress_of(progress):
 
 
 def _bar():
-    """A progress function that shows a bar while it lives, or None without tqdm."""
+    """A progress function that shows a bar by tqdm, or None if tqdm is missing."""
     with contextlib.suppress(ImportError):
         from tqdm.auto import tqdm
         bar = tqdm(unit="part")

@@ -18,10 +18,11 @@ Progress = bool | Callable[[int, int], bool | None] | None
 class Renderer:
     """A device that draws pictures and casts rays. Keeps the last scene's tree between calls.
 
-    device: as `clrt --device`: "cpu", "gpu", a part of a name or PLATFORM:DEVICE. threads build
-    trees; PoCL's own threads follow POCL_MAX_PTHREAD_COUNT. precision: "fp32" or "fp64". Threads
-    may share a renderer, but then wait for each other. Calls take `progress`: a function of
-    (done, all) that may return False to stop the call, or True for a bar by tqdm.
+    device: as `clrt --device`: "cpu", "gpu", a part of a name or PLATFORM:DEVICE. threads: their
+    number for trees and refining; PoCL's own threads follow POCL_MAX_PTHREAD_COUNT. precision:
+    "fp32" or "fp64". Python's threads may share a renderer, but wait for each other. Most calls
+    take `progress`: a function of (done, all) that may return False to stop the call, or True for
+    a bar by tqdm.
     """
 
     def __init__(self, device: str | None = None, threads: int = 0, precision: str = "fp32"):
@@ -67,10 +68,10 @@ class Renderer:
         """Finds the nearest hit of each ray and returns Hits.
 
         origins, directions: (n, 3) numbers, or three for all rays; float64 arrays are not copied.
-        results: what to compute; fewer take less time, and "certain" takes the longest. Limits:
-        near and far limit the distance, one number or n. starts: the primitive on which each ray
-        starts (Hits.primitive), so that it is not hit again, or clrt.NOTHING; without near.
-        one_sided: only two_sided meshes stop rays from behind; otherwise, all faces do.
+        results: names of arrays of Hits; "certain" takes the longest. Limits: near and far limit
+        the distance, one number or n. starts: the primitive on which each ray starts
+        (Hits.primitive), or clrt.NOTHING; the ray does not hit this primitive again. one_sided:
+        rays pass through the backs of faces that are not two_sided.
         """
         given = rays(origins, directions, **limits)
         target, arrays = hit_arrays({*results}, given.count)
@@ -82,7 +83,8 @@ class Renderer:
                   **limits: Any) -> Hits:
         """Finds all faces, but no spheres, that rays cross. Orders Hits by ray, then by distance.
 
-        A ray through an edge or vertex of a closed mesh crosses it in one face.
+        A ray that enters or leaves a closed mesh through an edge or vertex crosses an odd number of
+        faces there, usually one.
         """
         given = rays(origins, directions, **limits)
         counts = np.zeros(given.count, np.uint32)

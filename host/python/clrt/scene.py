@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes: what is drawn, and what rays are cast at."""
+"""Scenes for pictures and rays."""
 
 import dataclasses
 import os
@@ -48,8 +48,8 @@ class Scene:
         """Adds a material and returns its number. clrt.h has the formula of its colors.
 
         shading: "silhouette", "matte", "blinn_phong" or "glass", which uses only diffuse, the
-        color of refracted light, and ior. Colors are R G B in [0, 1]. checker: the
-        size of cubes and their two colors, instead of diffuse. The cube at the origin has the first.
+        color of refracted light, and ior. Colors are R G B in [0, 1]. checker: the size of cubes
+        and their two colors, instead of diffuse. The cube from (0, 0, 0) has the first color.
         """
         size, even, odd = checker or (0.0, None, None)
         given = struct("ClrtMaterial", shading=shading, diffuse=diffuse, specular=specular, kd=kd,

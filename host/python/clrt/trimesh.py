@@ -11,8 +11,9 @@ from .scene import Scene
 class RayMeshIntersector:
     """Has the methods and results of trimesh.ray's intersectors, by exact rays.
 
-    A ray through an edge or vertex hits one face: the first hit has the lowest number, and of all
-    hits each crossing of the surface counts once. Hits of one ray are ordered by distance.
+    Of several faces at one distance, the first hit is the one with the lowest number. If a ray
+    crosses a closed surface at an edge or vertex, an odd number of faces counts as hit, usually
+    one. Hits of one ray are ordered by distance.
     """
 
     def __init__(self, geometry, renderer=None):
