@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Measures the difference of two pictures, compares it with limits, and splits it by cause. Squares
-// are first summed within each row, so that sums of millions of squares keep 12 correct digits.
+// Measures the difference of two pictures, compares it with limits, and splits it by cause.
+// difference_measure first sums squares within each row, so that sums of millions of squares keep
+// 12 correct digits.
 #include "compare/difference.h"
 
 #include "base/number.h"
@@ -127,8 +128,7 @@ bool difference_picture_make(Framebuffer *picture, const ComparedImages *compare
     return true;
 }
 
-// The following functions parse limits, and compare a difference with them. --fail and reports use
-// the same names of limits.
+// The following functions parse limits, and compare a difference with them.
 
 const char *const limit_names[LIMIT_KINDS] = {"rmse", "max", "psnr", "share1", "share4", "hits"};
 
@@ -193,10 +193,10 @@ bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *diffe
 }
 
 // The following functions find the cause of each pixel's difference. The channels primitive, shadow
-// and bounces describe only the ray through a pixel's center. The first of them that differs
-// determines the cause. If they agree and both pictures have the same samples, the cause is
-// rounding. The difference may be large, because rounding can change a sample's hit. If the samples
-// differ, every difference above ROUNDING_MOST counts as coverage.
+// and bounces describe only the ray through a pixel's center. The first of these channels that
+// differs determines the cause. If all three agree and both pictures have the same samples, the
+// cause is rounding. The difference may be large, because rounding can change a sample's hit. If
+// the samples differ, every difference above ROUNDING_MOST counts as coverage.
 
 // If rounding changes no hit and no shadow, it changes a color in [0, 1] by at most this.
 #define ROUNDING_MOST 1e-5

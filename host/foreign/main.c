@@ -13,7 +13,7 @@
 #ifdef CLRT_WITH_ASSIMP
 #include "foreign/model.h"
 
-// Sends the model. Adds the folder "." to a path without a folder, so that Assimp searches the
+// Sends the model. Puts "./" in front of a relative path, so that Assimp searches the model's
 // folder for companion files.
 static bool send_model(FILE *stream, const char *name, Error *error)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a picture with the module that contains OpenImageIO, and sends it as a StoredImage and its
+// Reads a picture with the module that calls OpenImageIO, and sends it as a StoredImage and its
 // values. 8-bit values are converted to float.
 #include "foreign/picture.h"
 

@@ -9,7 +9,7 @@
 
 typedef struct {
     double steps;
-    unsigned most; // corners of one polygon
+    unsigned most; // largest number of corners of a polygon
 } Polygons;
 
 static void add_polygon(Polygons *polygons, unsigned corners)

@@ -14,7 +14,7 @@
 #define EXR_TILE 64
 
 typedef struct {
-    exr_context_t context; // NULL if closed; refers to this ExrFile
+    exr_context_t context; // NULL if closed; points to this struct, so the struct must not move
     FILE *stream;          // NULL if closed
     uint64_t most;         // reads may begin up to this offset
     StoredImage head;      // size, texts, and channels in the file's order; no values
@@ -31,19 +31,20 @@ void exr_file_close(ExrFile *file);
 bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk_info_t *tile);
 
 // Reads tile->packed_size bytes and verifies the checksum. A tile stored without compression has no
-// checksum. scratch has room for tile->unpacked_size bytes. Returns false if the tile is damaged.
+// checksum. scratch has room for tile->unpacked_size bytes. Returns false if the tile cannot be
+// read or is damaged.
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
                    unsigned char *scratch);
 
 // Copies the values of a tile into framebuffer and layers. position is X and Y of the tile's upper
-// left pixel in both. Skips channels that are in neither. Returns false if the tile is damaged.
+// left pixel in both. Skips channels that are in neither. Returns false on failure.
 bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const Framebuffer *framebuffer, const Layers *layers,
                      const size_t position[2]);
 
 // Sets the pointers of a tile's channels to their values in framebuffer and layers. position is X
-// and Y of the tile's upper left pixel in both. layers may be NULL. Channels that are in neither of
-// them keep their pointers.
+// and Y of the tile's upper left pixel in both. layers may be NULL. Channels that are in neither
+// keep their pointers.
 void exr_place_channels(exr_coding_channel_info_t *channels, int count,
                         const Framebuffer *framebuffer, const Layers *layers,
                         const size_t position[2]);

@@ -107,7 +107,7 @@ static unsigned char *encode_bytes(const Framebuffer *framebuffer, const ImageSe
     return bytes;
 }
 
-// The functions below store the reason for a failure in cause. image_write adds the file name.
+// The next two functions store the reason for a failure in cause. image_write adds the file name.
 static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
                             const ImageSettings *settings, Error *cause)
 {

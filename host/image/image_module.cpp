@@ -63,7 +63,7 @@ bool write_frames(OIIO::ImageOutput &output, const OIIO::ImageSpec &whole,
     return ok;
 }
 
-// Writes the picture. Closes the writer even after a failure, while its target still exists.
+// Writes the picture. Closes the writer while its target exists, even after a failure.
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {

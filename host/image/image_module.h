@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The C interface of the module that contains OpenImageIO and all C++. */
+/* The C interface of the module that contains all C++ and calls OpenImageIO. */
 #pragma once
 
 #include "image/stored_image.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opens the module that contains OpenImageIO. Picture files may be hostile, so clrt-foreign reads
-// them with this module in a separate process.
+// Opens the module that calls OpenImageIO. Picture files may be hostile, so clrt-foreign reads them
+// with this module in a separate process.
 #pragma once
 
 #include "image/image_module.h"

@@ -26,8 +26,8 @@ typedef struct {
     uint32_t frames;    // of a GIF, below each other in the framebuffer; 0 counts as 1
     const ImageText *texts;
     size_t text_count;
-    // A crop's position in the whole picture, and the size of the whole picture. Some formats store
-    // them. All are 0 without a crop.
+    // A crop's position in the whole picture, and the size of the whole picture. Only EXR files
+    // store them. All are 0 without a crop.
     uint32_t left, top, whole_width, whole_height;
     const ImagePart *part; // EXR only; NULL for a whole picture
     const Layers *layers;  // channels other than colors, for formats that store them; may be NULL

@@ -12,7 +12,7 @@
 bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *settings, FILE *stream,
                     Error *error);
 
-// Reads the colors of any PNG with up to 16 bits per channel, and ignores transparency. Rejects
-// pictures of more than `most` values. On failure, returns false and stores the reason without the
-// file name in *cause. The caller frees the image in both cases.
+// Reads the colors of any PNG, and ignores transparency. Rejects pictures of more than `most`
+// values. On failure, returns false and stores the reason without the file name in *cause. The
+// caller frees the image in both cases.
 bool png_file_read(StoredImage *image, FILE *stream, uint64_t most, Error *cause);

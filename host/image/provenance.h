@@ -13,7 +13,7 @@
 typedef struct {
     char texts[STORED_TEXTS][STORED_TEXT_SIZE]; // described in tools/manual/clrt.1.in
     char software[64], date[24];
-    ImageText list[PROVENANCE_TEXTS]; // points into the arrays above
+    ImageText list[PROVENANCE_TEXTS]; // its values point into the arrays above
     size_t count;
 } Provenance;
 
@@ -24,5 +24,5 @@ bool provenance_check_date(Error *error);
 void provenance_write_settings(char text[STORED_TEXT_SIZE], const json_t *settings);
 
 // Fills list with software, date and texts. The caller must have filled texts. The list has a date
-// only if SOURCE_DATE_EPOCH is set.
+// only if SOURCE_DATE_EPOCH is set and valid.
 void provenance_list(Provenance *provenance);

@@ -55,7 +55,7 @@ bool stored_image_allocate(StoredImage *image, Error *cause);
 int stored_image_channel(const StoredImage *image, const char *name);
 
 // Stores the channel indices of red, green and blue. Channel Y replaces missing colors. Returns
-// false if a color and Y are missing.
+// false if a color is missing and there is no Y.
 bool stored_image_colors(const StoredImage *image, uint32_t places[3]);
 
 // Converts each 8-bit value v to v / 255.

@@ -99,10 +99,10 @@ typedef enum {
 // * ks * S, where S sums light * (normal . half vector) ^ shininess. shaded is limited to 1. GLASS
 // refracts and reflects rays. It uses only diffuse, the color of refracted light, and ior.
 //
-// If check_size is above 0, cubes of this size have the colors that replace diffuse. Even and odd
-// cubes alternate along each axis, and a cube has a corner at 0 0 0. A point of a triangle shows
-// the color of the cube behind the triangle. A point of a sphere shows the color of the cube just
-// inside the sphere. Solids then look as if they were cut out of a block of cubes.
+// If check_size is above 0, the colors even and odd replace diffuse in cubes of this size. Even and
+// odd cubes alternate along each axis, and a cube has a corner at 0 0 0. A point of a triangle
+// shows the color of the cube behind the triangle. A point of a sphere shows the color of the cube
+// just inside the sphere. Solids then look as if they were cut out of a block of cubes.
 typedef struct {
     size_t size;
     ClrtShading shading;
@@ -155,7 +155,8 @@ CLRT_API bool clrt_scene_add_colored_light(ClrtScene *scene, const double positi
 CLRT_API bool clrt_scene_add_sun(ClrtScene *scene, const double direction[3], double intensity,
                                  const double color[3], ClrtError *error);
 
-// A parallelogram that emits light, divided into cells * cells cells. Each has one point light.
+// A parallelogram that emits light, divided into cells * cells cells. Each cell has one point
+// light.
 typedef struct {
     size_t size;
     double position[3]; // of the center
@@ -310,7 +311,8 @@ typedef struct {
     char help[192];      // the meaning of the values
 } ClrtChannelInfo;
 
-// Return the number of kinds of channels, and store facts about one. Kinds are numbered from 0.
+// clrt_channel_count returns the number of kinds of channels. clrt_channel_get stores facts about
+// one kind. Kinds are numbered from 0.
 CLRT_API uint32_t clrt_channel_count(void);
 CLRT_API bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError *error);
 
@@ -321,9 +323,11 @@ typedef struct {
     uint32_t samples;       // per pixel and axis; 1 with a goal
     uint32_t max_level;     // rays of this level see only the background
     double truncation;      // bound on the error that max_level causes in any color; with glass,
-                            // bound on its root mean square, from the weights of the cut rays
+                            // bound on this error's root mean square, from the weights of the cut
+                            // rays
     bool goal_missed; // the error is above its goal, or the first pass took longer than `seconds`
-    double error, error_bound; // with a goal: estimate of the RMSE, and its 95 % upper bound
+    double error, error_bound; // for goals of error and time: estimate of the RMSE, and its 95 %
+                               // upper bound
     uint64_t sample_count;     // samples taken
     double smallest_feature;   // in pixels: samples hit 95 % of disks of this diameter
     uint64_t pixels_open, pixels_repaired, pixels_certified; // with the channel certainty
@@ -339,9 +343,9 @@ typedef struct {
 enum { CLRT_LEVEL_NONE = -1 };
 
 // A request for a picture. The zero value draws the scene's first view as `clrt SCENE -o FILE`
-// does. At most one of contrast, error and seconds may be above 0. It is the picture's goal. A goal
-// decides where to take samples, so it excludes `samples`, a crop, a tile size and the channels
-// boxtests, tritests and certainty.
+// does. At most one of contrast, error and seconds may be above 0. The one above 0 is the picture's
+// goal. A goal decides where to take samples, so it excludes `samples`, a crop, a tile size and the
+// channels boxtests, tritests and certainty.
 typedef struct {
     size_t size;
     uint32_t width, height;                      // in pixels, each at most 131072; 0: the scene's
@@ -404,7 +408,7 @@ CLRT_API void clrt_hash(const float *rgb, uint32_t width, uint32_t height, char 
 // `starts` names the primitive on which each ray starts. The ray does not hit this primitive again,
 // except a sphere from inside. If the ray's near is 0, clrt also moves its origin onto the plane of
 // the triangle, and the ray passes neighbors that only rounding puts in its way. The call then
-// fails if the origin is farther than 2^-15 from the plane, in the units of clrt_trace.
+// fails if the origin is farther than 2^-15 from the plane, in the units that clrt_trace describes.
 typedef struct {
     size_t size;
     size_t count;
@@ -418,7 +422,8 @@ typedef struct {
     void *user;             // passed to progress
 } ClrtRays;
 
-// Arrays for the results, one entry per ray unless stated otherwise. NULL omits a result.
+// Arrays for the results, one entry per ray unless stated otherwise. NULL omits a result. A failed
+// call may have stored the results of some rays.
 typedef struct {
     size_t size;
     double *distances;    // t of the hit, INFINITY without one
@@ -514,7 +519,8 @@ typedef struct {
     char text[320]; // one message without a final period
 } ClrtFinding;
 
-// Store facts of the check, of a mesh, or of a finding. Meshes and findings are numbered from 0.
+// These functions store facts of the check, of a mesh, or of a finding. Meshes and findings are
+// numbered from 0.
 CLRT_API bool clrt_check_get_info(const ClrtCheck *check, ClrtCheckInfo *info, ClrtError *error);
 CLRT_API bool clrt_check_get_mesh(const ClrtCheck *check, uint32_t number, ClrtCheckedMesh *mesh,
                                   ClrtError *error);
@@ -551,8 +557,8 @@ typedef struct {
     uint32_t ray_count;       // the camera ray and the rays that leave surfaces
 } ClrtExplainedSample;
 
-// Scenes with glass have a ray for each branch of the path. The refracted ray and all rays after it
-// come before the reflected ray.
+// Scenes with glass have a ray for each branch of the path. The refracted ray and all its
+// descendants come before the reflected ray.
 typedef struct {
     size_t size;
     double origin[3], direction[3];  // direction has length 1

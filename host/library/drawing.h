@@ -26,8 +26,8 @@ typedef struct {
 bool drawing_begin(Drawing *drawing, const ClrtPicture *picture, ClrtError *error);
 void drawing_end(Drawing *drawing);
 
-// Gives the session the scene. Fails if its coordinates differ too much in size, or if the camera
-// is too far away.
+// Gives the session the scene. Fails if the scene's coordinates differ too much in size, or if the
+// camera is too far away.
 bool drawing_take_scene(Drawing *drawing, ClrtError *error);
 
 // The observer of all passes. It calls the caller's progress function.

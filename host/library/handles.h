@@ -21,8 +21,8 @@ __attribute__((format(printf, 3, 4))) bool check_fail(ClrtError *error, ClrtFaul
 // Calls check_fail with the message of cause.
 bool check_fail_for(ClrtError *error, ClrtFault fault, const Error *cause);
 
-// Return false with CLRT_ARGUMENT if the argument is invalid. `what` is its name in messages.
-// Vector components must be in [-most, most], and colors in [0, 1].
+// These functions return false with CLRT_ARGUMENT if the argument is invalid. `what` is its name in
+// messages. Vector components must be in [-most, most], and colors in [0, 1].
 bool check_given(ClrtError *error, const char *what, const void *pointer);
 bool check_number(ClrtError *error, const char *what, double number, double low, double high);
 bool check_vector(ClrtError *error, const char *what, const double vector[3], double most);
@@ -59,7 +59,7 @@ struct ClrtRenderer {
     Session session;
     RayCaster casters[RAY_QUERIES]; // open after the first rays that need them
     RayScene rays[2];               // by NodeLayout; empty until rays are cast
-    atomic_bool is_busy;            // true while a picture is drawn or rays are cast
+    atomic_bool is_busy;            // true while a call uses the renderer
     uint64_t state;                 // ClrtScene::state of the session's scene; 0 without a scene
 };
 

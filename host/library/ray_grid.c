@@ -13,7 +13,8 @@ static Vec3 step_after(const ClrtRays *rays, size_t index)
     return vec3_sub(vec3_add(b.origin, b.direction), vec3_add(a.origin, a.direction));
 }
 
-// Returns whether a row ends at the ray. `step` leads from the first ray of the row to the second.
+// Returns whether a row ends at the ray. `step` leads from the first ray of the first row to the
+// second ray.
 static bool ends_row(const ClrtRays *rays, size_t index, Vec3 step)
 {
     return vec3_dot(step_after(rays, index), step) < 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads the caller's rays, and orders rays in rows so that beams trace them faster. Beams have at
-// most 64 rays. Programs list the rays of a picture row by row, but 64 rays of a square share more
-// nodes than 64 rays of a row. The order changes no bit of the hits.
+// Reads the caller's rays, and orders rays that form rows so that beams trace them faster. Beams
+// have at most 64 rays. Programs list the rays of a picture row by row, but 64 rays of a square
+// share more nodes than 64 rays of a row. The order changes no bit of the hits.
 #pragma once
 
 #include "base/vec.h"
@@ -37,6 +37,6 @@ static inline GivenRay given_ray(const ClrtRays *rays, size_t index)
 // one direction and jump back at the end of each row. Returns 0 for other rays.
 size_t ray_grid_width(const ClrtRays *rays);
 
-// Fills order with the numbers 0 to count - 1, in blocks of 64 rays of the grid. Rows too few for a
+// Fills order with the numbers 0 to count - 1, in blocks of 64 rays of the grid. Rows that fill no
 // block come last. If width is 0, the numbers ascend.
 void ray_grid_order(uint32_t *order, size_t count, size_t width);

@@ -110,8 +110,8 @@ static Vec3 convert(RayPart *part, const GivenRay *given)
     return origin;
 }
 
-// Moves the start of a ray onto the plane of its triangle. Returns the signed distance of the start
-// from the plane.
+// Moves the start of a ray onto the plane of its triangle. Returns the former signed distance of
+// the start from the plane.
 static double move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle)
 {
     const FaceCorners corners = corners_of(&scene->triangles, triangle);

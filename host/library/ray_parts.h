@@ -14,7 +14,8 @@ typedef struct {
     Vec3 center; // of the scene's normalization, like scale
     double scale, inverse_scale;
     size_t room;                  // hits stored for each ray
-    size_t first, size;           // of the batch's rays
+    size_t first, size;           // index of the part's first ray in the batch; number of the
+                                  // part's rays
     uint32_t sequence[PART_RAYS]; // order in which the rays are traced (ray_grid_order)
     RayStart start;               // the entries are the rays with this start
     size_t count;                 // of entries
@@ -35,8 +36,9 @@ static inline size_t ray_part_number(const RayPart *part, size_t entry)
 // does not exist or is too far from the ray's origin.
 bool ray_part_fill(RayPart *part, const ClrtRays *rays, ClrtError *error);
 
-// Stores the indices of the triangles on which rays start in the arrays of the scene.
+// Stores in each ray the index of the triangle on which the ray starts. The index refers to the
+// device's arrays.
 void ray_part_index(RayPart *part, const RayScene *scene);
 
-// Stores the hits, part->room of each entry, in the caller's arrays.
+// Stores the hits, part->room for each entry, in the caller's arrays.
 void ray_part_store(const RayPart *part, const HitData *found, const ClrtHits *hits);

@@ -58,7 +58,7 @@ static bool cast(Batch *batch, RayQuery query, HitData *hits, ClrtError *error)
            check_fail_for(error, CLRT_DEVICE, &cause);
 }
 
-// Stores the results that a ray has only once.
+// Stores the results of which each ray has only one.
 static void store_ray(const Batch *batch, size_t entry)
 {
     const RayResults *results = &batch->results;

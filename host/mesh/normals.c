@@ -103,7 +103,7 @@ typedef struct {
 
 typedef struct {
     Vec3 normal;
-    uint32_t old; // a vertex at the same position
+    uint32_t old; // a vertex of the original mesh at this position
 } FanVertex;
 
 typedef struct {

@@ -18,7 +18,7 @@ bool mesh_has_all_normals(const Mesh *mesh);
 //
 // Edges stay sharp if the normals of their faces differ by more than crease_degrees. This angle is
 // in [0, 180] or CREASE_BY_SHAPE. No computed normal differs by more than crease_degrees from the
-// normal of its triangle. Corners of triangles that are nearly lines get no normal.
+// normal of its triangle. Corners of triangles that are nearly lines get no computed normal.
 //
 // If a normal is missing, new vertices replace all vertices. The triangles keep their order. Equal
 // arguments give equal bits. On failure, the mesh is unchanged.
@@ -42,7 +42,7 @@ void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b);
 // Adds all edges of the mesh that have two faces.
 bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error);
 
-// Returns 70 degrees if the angles indicate a smooth shape, such as a scan. Coarse places of smooth
-// shapes have larger angles than CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose
+// Returns 70 degrees if the angles indicate a smooth shape, such as a scan, because coarse parts of
+// such shapes have angles above CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose
 // edges may be meant to be sharp.
 double crease_of_angles(const EdgeAngles *angles);

@@ -58,7 +58,7 @@ size_t ply_reader_value_size(const PlyReader *reader, PlyType type);
 // each count from the file before they allocate memory or loop.
 bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size);
 
-// Read the next value. ply_reader_read_integer requires an integer type.
+// Both functions read the next value. ply_reader_read_integer requires an integer type.
 bool ply_reader_read_number(PlyReader *reader, PlyType type, double *value);
 bool ply_reader_read_integer(PlyReader *reader, PlyType type, int64_t *value);
 
