@@ -21,8 +21,8 @@
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 
-// An aim divides its edge at this fraction, measured from the point with the lower index. The
-// coordinates of such an aim need rounding. With 1/2, they might be exact.
+// An aim at an edge divides the edge at this fraction, measured from the point with the lower
+// index. The coordinates of such an aim need rounding. With 1/2, they might be exact.
 #define EDGE_PART 0.4
 
 // The distance between an open edge and the aim beyond it, in radii of the mesh. Rounding errors

@@ -26,7 +26,7 @@ typedef struct {
     Vec3 point;        // in normalized coordinates
     Vec3 outward;      // mean of the normals around the aim; unit length
     double facing;     // least cosine between outward and a normal around the aim
-    double size;       // each triangle around the aim reaches at least this far from it
+    double size;       // each triangle around the aim reaches at least this far from the aim
     uint32_t triangle; // one of the triangles around the aim
     float tolerance;   // error bound of t for the latest ray
     AimState state;

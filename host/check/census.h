@@ -38,8 +38,8 @@ typedef struct {
     size_t empty_meshes;      // objects without a triangle
     size_t duplicate_meshes;  // objects with the triangles of an earlier object
     size_t duplicate_spheres; // spheres with the center and radius of an earlier sphere
-    size_t duplicate_lights;  // lights at the position of an earlier light
-    size_t unused_materials;  // materials that the file defines, but no object uses
+    size_t duplicate_lights;  // lights at the position, or suns in the direction, of an earlier one
+    size_t unused_materials;  // materials that the file defines, but nothing uses
 } Census;
 
 // Counts the faulty and unused parts of a scene. `normalization` must be the scene's.

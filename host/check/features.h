@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Mesh -> the sizes of its finest details, measured in steps between floats. Rounding distorts a
-// detail of few steps. The sizes are measured both in the file's coordinates and in normalized
+// detail of few steps. Edges are measured both in the file's coordinates and in normalized
 // coordinates.
 #pragma once
 

@@ -30,7 +30,7 @@ static json_t *leaks_json(const Check *check, size_t object)
                 FIELD("hidden", leaks->hidden), FIELD("cap", json_count(LEAKS_AIMS)));
 }
 
-// Returns the counts of an object's faults. The member "leak_test" has the leaks instead.
+// Returns the counts of an object's faults. The leaks are in the member "leak_test" instead.
 static json_t *faults_json(const Check *check, size_t object)
 {
     MeshFault counts[FAULT_KINDS];

@@ -35,7 +35,7 @@ static PrimitiveName name_primitive(const Scene *scene, uint32_t id)
                            .path = scene->inputs.data[found->input]};
 }
 
-// Returns the name of a defined or imported material, or the number of a material of the course.
+// Returns the name of a defined or imported material, or the number of a predefined material.
 static const char *name_material(const Scene *scene, uint32_t material)
 {
     static const char *const courses[] = {"0", "1", "2", "3"};
@@ -314,7 +314,8 @@ static void print_sample(const ExplainReport *report, const ExplainedSample *sam
     print(report, json, "  the sample's color {color .6v}\n", "", stream);
 }
 
-// Traces the samples and adds their JSON to list. Prints the samples unless stream is NULL.
+// Traces the samples and adds their JSON to list. Unless stream is NULL, prints the samples, or
+// only the first in brief reports.
 static bool explain_samples(const ExplainReport *report, Explainer *explainer, json_t *list,
                             FILE *stream, Error *error)
 {

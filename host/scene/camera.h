@@ -7,9 +7,8 @@
 #include "scene/scene.h"
 
 // Returns a pinhole or an orthographic camera with square pixels. The pinhole camera's image plane
-// has distance 1 and height 2 tan(fov / 2), as in the course. In a narrow picture, the plane is
-// larger, so that it spans the viewpoint's least width. samples is the number of sub-pixels per
-// pixel and axis.
+// has distance 1 and height 2 tan(fov / 2). In a narrow picture, the plane is larger, so that it
+// spans the viewpoint's least width. samples is the number of sub-pixels per pixel and axis.
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
                        uint32_t width, uint32_t height, uint32_t samples);
 

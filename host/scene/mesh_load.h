@@ -9,8 +9,8 @@
 
 #define NO_CREASE (-2)
 
-// The outputs of clrt-foreign for the files of a scene, kept so that each file is read once. If all
-// outputs together would exceed FOREIGN_KEPT_MOST bytes, an output is not kept, and each statement
+// The outputs of clrt-foreign for the files of a scene, kept so that each file is read once. An
+// output that would bring their sum above FOREIGN_KEPT_MOST bytes is not kept, so each statement
 // reads its file again.
 #define FOREIGN_KEPT_MOST ((size_t)256 << 20)
 typedef struct {
@@ -30,7 +30,7 @@ typedef struct {
     double crease_degrees;     // for missing normals: an angle, CREASE_BY_SHAPE or NO_CREASE
     bool takes_own_materials;  // shows the materials and colors of the file if it has any
     uint32_t colored_material; // the material of meshes whose files define colors, but no material
-    bool is_plain_ply;         // PLY only, without transforms
+    bool is_plain_ply;         // for `ply_file`, which reads only PLY and has no transforms
     PlyParse *parse;           // the reader of PLY files
     ForeignFiles *kept;        // outputs for other formats; borrowed; NULL keeps none
 } MeshLoadOptions;

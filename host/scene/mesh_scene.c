@@ -147,9 +147,9 @@ static double touch(const Framing *framing, Vec3 axis, Vec3 back, double *middle
     return next;
 }
 
-// Returns the field of view, in degrees, of a picture in which planes of the given slope span the
-// fraction FILLED of the picture. Newton's method starts above the result and stays above it,
-// because tan is convex there.
+// Returns the field of view, in degrees, at which planes of the given slope span the fraction
+// FILLED of the picture. Newton's method starts above the result and stays above it, because tan is
+// convex there.
 static double field_of_view(double slope)
 {
     double half = 45;

@@ -82,8 +82,8 @@ typedef struct {
     ARRAY(char *) notes;  // messages about the files, such as omitted parts; owned
     double mesh_seconds;  // time spent on loading meshes
     // hash combines the XXH3 hashes of the scene's text, of its mesh files and, for a lone mesh, of
-    // the up axis and the choice of normals. mesh_hash combines only the mesh files, and is zero
-    // without meshes.
+    // the up axis and the choice of normals. mesh_hash combines only the hashes of the mesh files,
+    // and is zero without meshes.
     uint64_t hash[2], mesh_hash[2];
 } Scene;
 
@@ -97,7 +97,7 @@ bool scene_complete(Scene *scene, Error *error);
 // intensity of `light`, which is not added itself.
 bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error);
 
-// Combine a hash of the bytes with scene->hash. scene_hash_mesh also combines it with
+// Both functions combine a hash of the bytes with scene->hash. scene_hash_mesh also changes
 // scene->mesh_hash.
 void scene_hash_input(Scene *scene, const void *bytes, size_t size);
 void scene_hash_mesh(Scene *scene, const void *bytes, size_t size);

@@ -45,7 +45,8 @@ static bool read_color(Tokens *tokens, Vec3 *color)
            tokens_number_within(tokens, &color->z, 0, 1);
 }
 
-// Reads a light or sun up to its color. A sun's position is a vector toward the sun.
+// Reads the position, intensity and color of a light or sun. A sun's position is a vector toward
+// the sun.
 static bool read_light_or_sun(Tokens *tokens, Light *light)
 {
     double position[3];

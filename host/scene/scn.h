@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses scene text into a Scene. The table in scn.c defines the grammar: the course's four
-// statements and clrt's extensions.
+// Parses scene text into a Scene. The table in scn.c defines the grammar.
 #pragma once
 
 #include "scene/mesh_scene.h"

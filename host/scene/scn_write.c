@@ -32,7 +32,7 @@ static bool allocate(Mesh *mesh, const Scene *scene, Error *error)
     return mesh->triangles != NULL && mesh_allocate_vertices(mesh, has_normals, has_colors, error);
 }
 
-// Copies an object's vertices and triangles to the indices `vertex` and `triangle` of mesh.
+// Copies an object's vertices and triangles into mesh, from the indices `vertex` and `triangle` on.
 static void copy(Mesh *mesh, const MeshObject *object, const float diffuse[3], size_t vertex,
                  size_t triangle)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The longer statements of scene text. `define` adds a material to the course's four, and
-// `material` selects one. `mesh` and `ply_file` add a mesh file, and `mesh` also transforms it.
+// The longer statements of scene text. `define` adds a material, and `material` selects one. `mesh`
+// and `ply_file` add a mesh file, and `mesh` also transforms it.
 #pragma once
 
 #include "scene/mesh_load.h"
@@ -19,9 +19,9 @@ typedef struct {
 // The choice of `material own`, which is also the choice before the first `material` statement.
 extern const MaterialChoice material_own;
 
-// Reads the arguments of `material`: the number of a course material, a defined name, or the word
-// `own`. After `own`, a second material may follow for spheres, and for meshes whose files define
-// no material. As in the course, numbers outside 0 to 3 select material 0, the silhouette.
+// Reads the arguments of `material`: the number of a predefined material, a defined name, or the
+// word `own`. After `own`, a second material may follow for spheres, and for meshes whose files
+// define no material. Numbers outside 0 to 3 select material 0, the silhouette.
 bool materials_select(const Scene *scene, Tokens *tokens, MaterialChoice *choice);
 
 // Reads the rest of a mesh or ply_file statement and adds the file's objects. Paths are relative to

@@ -23,7 +23,7 @@
 // specialize=never.
 #define SPECIALIZED_SAVES 0.03
 
-// The rays that one core traces per second in a medium scene, and the rays of one sample.
+// The rays that one core traces per second in a scene of medium size, and the rays of one sample.
 // Measure: rays.total / trace / cores and rays.total / samples.total of `clrt SCENE --json`.
 #define RAYS_PER_SECOND 3e6
 #define RAYS_PER_SAMPLE 2.0

@@ -25,7 +25,7 @@ static size_t scalar_size(const Explainer *explainer)
     return explainer->is_fp64 ? sizeof(double) : sizeof(float);
 }
 
-// Return the sizes of the head and of `records` records, in bytes.
+// Both functions return the size of the head and of `records` records, in bytes.
 static size_t value_bytes(const Explainer *explainer, size_t records)
 {
     return (HEAD_VALUES + records * level_values(explainer)) * scalar_size(explainer);

@@ -9,7 +9,7 @@
 
 #define PROBABILITY 0.95
 
-// The last interval of diameters is smaller than the spacing of floats.
+// The last interval of diameters is smaller than the spacing of floats near 1.
 #define BISECTIONS 32
 
 // A disk of this diameter always contains a point of a lattice with spacing 1.

@@ -84,8 +84,8 @@ bool session_prepare(Session *session, const SessionPicture *request, PictureRes
     return open_renderer(session, request, &renderer, result, error);
 }
 
-// In scenes with glass, replaces the bound on the error of max_level by the root mean square of the
-// samples' cut weights. The samples so far must be spread evenly.
+// In scenes with glass, replaces the bound on the error of max_level by the root mean square, over
+// the samples, of the weight that max_level cuts off. The samples so far must be spread evenly.
 static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
 {
     const Renderer *renderer = &drawing->renderer;

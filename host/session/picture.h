@@ -44,12 +44,14 @@ typedef struct {
     RenderProgress progress;
     bool is_complete;
     bool goal_missed;
-    double estimate;         // of the RMSE with PictureGoal::truncated; for error and time goals
+    double estimate;         // of the RMSE, including PictureGoal::truncated; for error and time
+                             // goals
     double bound;            // upper bound of the RMSE with 95 % confidence
     double feature;          // the smallest diameter that the samples find (session/feature.h)
     uint64_t pixels;         // drawn by this call
     uint64_t samples;        // total of these pixels
-    uint32_t *pixel_samples; // by pixel; NULL without a goal or keeps_samples; the caller frees it
+    uint32_t *pixel_samples; // by pixel; NULL unless a goal and keeps_samples are given; the caller
+                             // frees it
 } PictureResult;
 
 // Returns the kernel that draws the colors.

@@ -24,7 +24,7 @@ void ray_caster_close(RayCaster *caster);
 // Where rays start. The values equal RAY_CAMERA and RAY_REFLECTED of the kernels' RayKind.
 typedef enum {
     RAYS_FREE,      // anywhere
-    RAYS_ON_SURFACE // on the primitives that they name
+    RAYS_ON_SURFACE // on the primitives that the rays name
 } RayStart;
 
 typedef struct {

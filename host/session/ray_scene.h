@@ -9,7 +9,7 @@
 typedef struct {
     uint32_t index;  // in the device's arrays
     uint32_t mesh;   // number of the mesh
-    uint32_t number; // in the mesh as given, with the triangles that clrt drops
+    uint32_t number; // in the mesh as given, counting the triangles that clrt drops
 } TrianglePlace;
 
 typedef struct {
