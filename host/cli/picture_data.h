@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The data of a picture that clrt renders to a file. cli/picture.c fills the data for reports.
+// The data of a picture that clrt renders to a file.
 #pragma once
 
 #include "cli/stages.h"

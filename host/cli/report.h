@@ -11,7 +11,7 @@ void report_write_error(const MeasuredReference *reference, FILE *stream);
 // Prints the scene, the tree, the device and the kernels, before the picture is drawn.
 void report_write_setup(const Picture *picture, FILE *stream);
 
-// Prints time, samples, rays and tests, like the course's program.
+// Prints time, samples, rays and tests.
 void report_write_text(const Picture *picture, FILE *stream);
 
 // Writes versioned JSON with sorted keys to path ("-": standard output).
@@ -20,5 +20,6 @@ bool report_write_json(const Picture *picture, const char *path, Error *error);
 // Fills the texts that the picture's file stores.
 void report_fill_provenance(Provenance *provenance, const Picture *picture);
 
-// Prints the hash of the pixels if the options request it. Fails if it is not the expected hash.
+// Prints the hash of the pixels if the options request it without an expected hash. Fails if the
+// hash is not the expected one.
 bool report_print_hash(const Options *options, const char *hash, Error *error);

@@ -2,7 +2,7 @@
 // Applies keys and mouse actions to the state. status_text_help lists these actions for users.
 #include "view/controls.h"
 
-// All these constants except the last come from the course's viewer.
+// All these constants except the last come from the viewer of the UvA course (scene/scene.c).
 
 #define DEGREES_PER_PIXEL  0.25
 #define LENGTH_PER_PIXEL   0.15
@@ -82,7 +82,7 @@ static double limited(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// Turns the camera by a mouse drag, within the course's limits.
+// Turns the camera by a mouse drag, and limits the azimuth.
 static void orbit_turn(Orbit *orbit, double right, double down)
 {
     orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);
@@ -121,8 +121,8 @@ static void orbit_zoom(Orbit *orbit, double down)
     set_shown_distance(orbit, shown_distance(orbit) + LENGTH_PER_PIXEL * orbit->unit * down);
 }
 
-// Moves camera and pivot sideways by a mouse drag. In a window of the course's height, the pivot
-// moves exactly as far as the pointer.
+// Moves camera and pivot sideways by a mouse drag. In a window that is COURSE_HEIGHT pixels high,
+// the pivot moves exactly as far as the pointer.
 static void orbit_pan(Orbit *orbit, double right, double down)
 {
     const Viewpoint view = orbit_viewpoint(orbit);

@@ -5,23 +5,24 @@
 
 #include "scene/scene.h"
 
-// An orbiting camera, as in the course's viewer: two angles and a distance.
+// An orbiting camera: two angles and a distance.
 typedef struct {
     Vec3 pivot;       // the center of the orbit
     Vec3 look_at, up; // of the camera
     Vec3 axes[3];     // unit length; the last is up
     // The eye's angle in degrees below the plane that contains the pivot and is perpendicular to
-    // up. It is negative if the eye is above this plane. The course uses this name.
+    // up. It is negative if the eye is above this plane. The UvA course (scene/scene.c) uses this
+    // name.
     double azimuth;
     double rotation; // degrees around up
     double distance; // from the eye to the pivot
-    double unit;     // length unit of steps and limits; 1 for the course's cameras
+    double unit;     // length unit of steps and limits; 1 for the six default cameras
     double fov_degrees, width_degrees; // of perspective
     double height, width;              // as in Viewpoint
 } Orbit;
 
-// Returns the orbit of a camera. The course's cameras orbit the origin. Other cameras orbit their
-// look_at point.
+// Returns the orbit of a camera. If is_course, the camera is one of the six default cameras, which
+// orbit the origin. Other cameras orbit their look_at point.
 Orbit orbit_of(const Viewpoint *viewpoint, bool is_course);
 
 // Returns the camera at the orbit's current position.
@@ -61,7 +62,7 @@ enum {
 typedef struct {
     const Viewpoint *viewpoints;
     size_t viewpoint_count;
-    bool is_course;   // the viewpoints are the course's
+    bool is_course;   // the viewpoints are the six default ones
     uint32_t deepest; // depth of the deepest inner nodes; 0 without a tree
 } StateScene;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes the window's texts. A text depends only on the figures, so callers can compare texts to
+// Writes the window's texts. A text depends only on its Figures, so callers can compare texts to
 // detect changes.
 #include "view/status_text.h"
 

@@ -31,7 +31,7 @@ typedef void StatusText(const Figures *figures, FILE *stream);
 // Writes the state as one line without a line end, for saved pictures and -v.
 StatusText status_text_state;
 
-// Writes the line at the top: messages, state and figures, in the order of importance.
+// Writes the line at the top: messages, state and measurements, in the order of importance.
 StatusText status_text_line;
 
 // Writes the panel: failure, explanation and help.
@@ -42,7 +42,7 @@ StatusText status_text_title;
 // Stores one of these texts in `size` bytes. Longer texts are truncated.
 void status_text_store(StatusText *write, const Figures *figures, char *text, size_t size);
 
-// Writes the course's angles and distance, and then the camera as statements of a scene file.
+// Writes the orbit's angles and distance, and then the camera as statements of a scene file.
 void status_text_camera(const State *state, FILE *stream);
 
 // Returns the list of keys and mouse actions, one per line. Two blanks separate each key or action

@@ -32,8 +32,8 @@ BvhSettings tracer_tree(const ViewTracer *tracer);
 // instead of using the model's tree. On failure, the tracer keeps the previous model.
 bool tracer_take(ViewTracer *tracer, Model *model, bool uses_bvh, Error *error);
 
-// Compiles the kernels again from the kernel folder. On failure, the tracer keeps the previous
-// kernels.
+// Compiles the kernels again, from the kernel folder if there is one. On failure, the tracer keeps
+// the previous kernels.
 bool tracer_renew(ViewTracer *tracer, Error *error);
 
 // A picture to draw: a camera and a pass.

@@ -19,7 +19,7 @@ typedef struct {
     uint32_t quit_after; // number of frames to show; 0: until the user quits
     bool statistics;     // print frame times at the end
     bool verbose;        // print the state whenever it changes
-    double patience;     // seconds to wait for the device at the end
+    double patience;     // seconds to wait for the worker thread at the end
 } ViewerSettings;
 
 typedef enum { VIEWER_CLOSED, VIEWER_NO_WINDOW, VIEWER_NO_SCENE, VIEWER_NO_DEVICE } ViewerEnd;

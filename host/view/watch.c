@@ -25,7 +25,7 @@ static uint64_t signature_of_folder(const char *folder)
         return 0;
     for (struct dirent *entry = readdir(entries); entry != NULL; entry = readdir(entries)) {
         struct stat status;
-        // The sum does not depend on the order of entries, which may change.
+        // The sum does not depend on the order of the entries.
         if (fstatat(dirfd(entries), entry->d_name, &status, 0) == 0 && S_ISREG(status.st_mode))
             signature += signature_of_status(&status);
     }

@@ -109,7 +109,7 @@ typedef enum {
 
 // The treatment of triangles without area.
 typedef enum {
-    BAD_GEOMETRY_DROP, // drop those with two equal corners; rays hit the others only by rounding
+    BAD_GEOMETRY_DROP, // drop those with two equal corners, and keep the others
     BAD_GEOMETRY_FAIL
 } BadGeometry;
 

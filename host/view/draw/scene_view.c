@@ -127,8 +127,8 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
 // is computed in fp64. In fp32, rounding would lose the eye's height above a ground sphere of
 // radius 1e9.
 
-// Floats per sphere: center, radius, and the material's vectors. The material's unused float, at
-// HEIGHT_PLACE, holds the eye's height above the sphere.
+// Floats per sphere: center, radius, and the material's vectors. An unused float of the material,
+// at HEIGHT_PLACE, holds the eye's height above the sphere.
 #define SPHERE_NUMBERS (4 + 4 * MATERIAL_VECTORS)
 #define HEIGHT_PLACE   13
 
@@ -268,8 +268,7 @@ void boxes_free(Boxes *boxes)
     *boxes = (Boxes){0};
 }
 
-// The length of a normal. It is half of the course's 0.15, because normalization halves the
-// course's scenes.
+// The length of a drawn normal, in normalized coordinates.
 #define LINE_LENGTH 0.075
 
 static bool add_line(Boxes *lines, Vec3 start, Vec3 normal, Error *error)

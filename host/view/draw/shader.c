@@ -185,8 +185,8 @@ void lens_apply(const Lens *lens, GLuint program)
 
 // The following functions convert a scene's lights and materials to the shaders' layout.
 
-// Returns the mean of the scene's lights [first, end) with their whole intensity, and with a
-// normalized position.
+// Returns the mean of the scene's lights [first, end) with their total intensity and a normalized
+// position.
 static Light mean_light(const Scene *scene, size_t first, size_t end,
                         const Normalization *normalization)
 {
@@ -203,7 +203,8 @@ static Light mean_light(const Scene *scene, size_t first, size_t end,
     return mean;
 }
 
-// Above the limit, neighbors in the list become one light. They are mostly points of one area.
+// If there are more than LIGHT_LIMIT lights, neighbors in the list become one light. Neighbors are
+// mostly points of one area light.
 static int store_lights(float lights[LIGHT_LIMIT][4], float colors[LIGHT_LIMIT][3],
                         const Scene *scene, const Normalization *normalization)
 {

@@ -52,15 +52,14 @@ void shader_set_vector(GLuint program, const char *name, const float v[3]);
 #define CUBE_FACE_VERTICES 36
 #define CUBE_EDGE_VERTICES 24 // followed by two vertices of a diagonal
 
-// Fill buffer 0 with triangles or lines, three floats per vertex.
+// These functions fill buffer 0 with triangles or lines, three floats per vertex.
 void cube_fill_faces(const Drawing *drawing);
 void cube_fill_edges(const Drawing *drawing);
 
 // The following declarations convert the scene's lights and materials to the uniforms of
 // shaders/light.glsl.
 
-// The largest number of lights that OpenGL shows. The course's viewer shows eight, the limit of
-// OpenGL's fixed pipeline.
+// The largest number of lights that OpenGL shows.
 #define LIGHT_LIMIT 64
 
 // The conversion of colors for the window.
@@ -69,7 +68,8 @@ typedef struct {
     bool is_srgb;
 } Tone;
 
-// Sets the uniforms that objects share: lights, background, tone. `program` must be current.
+// Sets the uniforms that objects share: lights, ambient light, background and tone. `program` must
+// be current.
 void light_apply(const Scene *scene, const Normalization *normalization, const Tone *tone,
                  GLuint program);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An offscreen picture. An anti-aliased picture is larger than the window. The window's own buffer
-// is not used, because its pixels are undefined where other windows cover it.
+// An offscreen picture. An anti-aliased picture is larger than the window. clrt does not read the
+// window's own buffer, because its pixels are undefined where other windows cover the window.
 #pragma once
 
 #include "image/framebuffer.h"

@@ -29,7 +29,6 @@ typedef struct {
     ARRAY(TextVertex) corners; // of the text to draw
 } TextView;
 
-// The view shortens the line.
 typedef struct {
     char *line;             // shortened at commas until it fits the window
     const char *panel;      // made smaller to fit the window; two blanks start a second column

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shades the scene's materials under its lights, without shadows. Mirrors reflect the background.
-// Glass covers every second pixel with its color, so that what is behind it stays visible.
-// As in the traced picture, a light counts only if the shading normal and the face both point
-// toward it.
+// Glass covers every second pixel with its color, so that objects behind the glass stay visible. As
+// in the traced picture, a light counts only if the shading normal and the face both point toward
+// it.
 #define LIGHTS       64
 #define SILHOUETTE   0.5 // shader numbers below this are silhouettes
 #define BLINN_PHONG  1.5
