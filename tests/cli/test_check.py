@@ -112,7 +112,7 @@ class Check(Meshes):
             found = self.mesh("knot.ply", *form.split())[1]
             self.expect(found, closed=True, leak_test__leaks__count=0, leak_test__aimed_at=720 + 240,
                         leak_test__hidden=0)
-            self.assertGreater(found["leak_test"]["rays"], 960)  # hidden edges and points need several
+            self.assertGreater(found["leak_test"]["rays"], 960)  # hidden edges and points need several rays
             for name in "gap", "crack":
                 found = self.mesh(f"{name}.ply", *form.split())[1]
                 self.expect(found, closed=False, faults__open_edges__count=3)

@@ -141,7 +141,7 @@ class Farm(unittest.TestCase):
     def test_a_controller_that_restarts(self):
         job = self.submit_slow()
         wait_for(lambda: self.host_with_tiles(job))
-        # Slurm stores its state every few seconds. A restart loses jobs that were submitted later,
+        # Slurm stores its state every few seconds. A restart loses jobs submitted after that,
         # and the tool cannot detect this.
         submitted, state = time.time(), self.home / "state/job_state"
         wait_for(lambda: state.exists() and state.stat().st_mtime > submitted)

@@ -92,8 +92,8 @@ class Clrt:
 
 
 def draw_reference(options, scene, path, wanted):
-    """Draws a reference with an own error of at most `wanted`, or with the most samples (see
-    reference.c). Returns its figures."""
+    """Draws a reference with an own error of at most `wanted`, or with REFERENCE_SAMPLES samples per
+    pixel. Returns its figures."""
     words = [options.reference, scene, *options.size.split("x"), wanted, REFERENCE_SAMPLES, path]
     done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False)
     if done.returncode != 0:

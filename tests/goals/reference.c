@@ -23,7 +23,7 @@
 #define FIRST_SAMPLES 16
 #define LIST_SAMPLES  (1u << 20)
 
-// Rays follow more reflections than a float can show in the generated scenes.
+// In the generated scenes, further reflections add less to a color than a float can show.
 #define LEVELS 200
 
 typedef struct {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Paths into the course's folder.
 #include "image/course.h"
 
 #include "unit/cmocka_all.h"

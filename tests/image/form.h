@@ -16,7 +16,7 @@ extern const KernelChoice form_all[FORMS];
 #define FORMS_FEW 4
 extern const KernelChoice form_few[FORMS_FEW];
 
-// Returns the form, or single rays for packets on a GPU. NVIDIA's compiler takes minutes for
+// Returns the form. On a GPU, single rays replace packets: NVIDIA's compiler takes minutes for
 // packets, and several processes at once run out of memory.
 KernelChoice form_on_device(const KernelChoice *form, const Device *device);
 

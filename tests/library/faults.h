@@ -16,7 +16,7 @@ static inline ClrtError faults_blank(void)
     return error;
 }
 
-// Fails the test unless ok is false, error has the fault, and its message contains `words`.
+// Fails the test unless ok is false and error has the fault and a message that contains `words`.
 static inline void faults_assert(bool ok, const ClrtError *error, ClrtFault fault,
                                  const char *words)
 {

@@ -128,8 +128,8 @@ static int sign(Integer a)
 
 typedef enum { PASSES, CROSSES, TOUCHES, CONTAINS_POINT } Crossing;
 
-// Returns how a ray from the origin meets a triangle. TOUCHES means through the outline or in the
-// plane.
+// Returns how a ray from the origin meets a triangle. TOUCHES: the ray's line meets the outline or
+// lies in the triangle's plane.
 static Crossing cross(const Integer at[3][3], const Integer direction[3])
 {
     const int sides[3] = {sign(determinant(direction, at[1], at[2])),

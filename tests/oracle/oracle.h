@@ -31,7 +31,7 @@ typedef struct {
 OracleView oracle_view(const Oracle *oracle, const Viewpoint *viewpoint, uint32_t width,
                        uint32_t height, uint32_t max_level);
 
-// The decisions of a ray tree. For each ray but shadow rays, they are the hit object, its side,
+// The decisions of a ray tree. For each ray except shadow rays, they are the hit object, its side,
 // whether its cube is odd, and the lights that reach the point.
 typedef struct {
     uint64_t signature; // a hash of all decisions
