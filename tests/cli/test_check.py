@@ -44,7 +44,7 @@ SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine 
           "glass": "camera 0 -9 0 0 0 0 45\ndefine clear glass\nmaterial clear\nmesh closed.ply\n"
                    "mesh open.ply translate 3 0 0\n",
           "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n"}
-# Each row has a file, its exit status, and words of its report.
+# Each row has a file, the exit status of clrt check, and words of the report.
 FINDINGS = [
     ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed", "10 edges and points: 0 hidden", "\nfine\n"]),
     ("open.ply", 0, ["note: 3 edges of a single triangle", "triangle 0", "not closed\n", "\nno faults, 1 note\n"]),

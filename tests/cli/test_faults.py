@@ -34,7 +34,7 @@ class Faults(Work):
         for name in os.listdir(self.target):
             os.remove(self.target / name)
 
-    # Runs clrt with a new disk at `target`, which no other process sees. Then lists the disk's files.
+    # Runs clrt with a private disk at `target`, and then lists the disk's files.
     def clrt_on_disk(self, options, *words):
         script = 'mount -t tmpfs -o "$1" clrt-test target && shift && echo old >target/old && \
             { [ "$1" != ro ] || mount -o remount,ro target; } && shift && "$@"; code=$?; \

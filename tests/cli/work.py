@@ -92,8 +92,8 @@ class Work(unittest.TestCase):
                               capture_output=True, timeout=600)
 
     def run_within(self, seconds, megabytes, *words, **settings):
-        """Runs clrt and returns its exit status and standard error. Fails if clrt or a process that it
-        starts exceeds the limit of processor time or memory."""
+        """Runs clrt and returns its exit status and standard error. Fails if clrt and its child
+        processes exceed the processor time together, or if one of them exceeds the memory."""
         process = self.start(*words, **settings)
         text = process.stderr.read()
         _, status, usage = os.wait4(process.pid, 0)

@@ -17,7 +17,7 @@ typedef struct {
     enum RTCIntersectContextFlags flags[RAY_KINDS];
     Framebuffer *framebuffer;
     uint32_t x, y, width, height;
-    PeerCounts counts; // of all tiles so far
+    PeerCounts counts; // of all tiles of the thread so far
 } PeerTile;
 
 // A way to call Embree. draw_tile is the function of peer_tile.c, compiled for the mode.
