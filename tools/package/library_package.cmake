@@ -15,7 +15,8 @@ bits on every device.")
 file(WRITE ${folder}/triggers "activate-noawait ldconfig\n")
 file(WRITE ${folder}/shlibs "libclrt 0 libclrt0 (>= ${PROJECT_VERSION})\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${folder}/triggers;${folder}/shlibs")
-# With SHLIBDEPS, CPack would add scripts that run ldconfig, although the file triggers already makes dpkg run it.
+# With SHLIBDEPS, CPack would add scripts that run ldconfig, although the file triggers already makes
+# dpkg run it.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_SOURCE_DIR}/tools/package/library_depends.cmake)
 set(CPACK_CLRT_LIBRARY ${CMAKE_BINARY_DIR}/libclrt.so.${PROJECT_VERSION})

@@ -101,7 +101,7 @@ def holding_settings(rows, scene, options, folder):
 
 
 def processor_seconds():
-    """Returns the processor time of all processes that this program has started."""
+    """Returns the processor time of this program's ended child processes."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 
