@@ -4,8 +4,8 @@
 // triangles, and then calls accept_triangle for the ray's lane.
 //
 // Two rare cases are doubtful: a triangle within rounding of the ray's start (stops_on_neighbor),
-// and triangles whose distances differ only by rounding (triangle_is_nearer). Their code is out of
-// line.
+// and triangles whose distances differ only by rounding (triangle_is_nearer). On CPUs, their code
+// is out of line.
 //
 // Invariant: the decision depends only on the ray, the limit of its search, the triangle and the
 // best hit so far. The best of several triangles does not depend on the order of the tests.

@@ -5,8 +5,8 @@
 // once. Each stack entry stores which packets have rays inside its parent's box. Only these packets
 // test their lanes against the entry's own box.
 //
-// Rays of a beam separate as they descend. If only few lanes enter a subtree, it is searched ray by
-// ray (wide.cl).
+// Rays of a beam separate as they descend. If only few lanes enter a subtree, their rays search it
+// one by one (wide.cl).
 #ifndef CLRT_BEAM_CL
 #define CLRT_BEAM_CL
 #include "bounds.cl"
@@ -18,8 +18,8 @@
 // A subtree is searched ray by ray if at most this many lanes of a beam enter it. The limit is
 // higher for DENSE or more triangles, because rays then separate more. Exchanging the two limits
 // makes scenes of 6 thousand triangles 9 % slower, and scenes of a million 10 % slower. Arrays of
-// free rays keep the lower limit: a million camera rays at 1.3 million triangles then take 16 %
-// less time, although 65 thousand take 9 % more.
+// rays that start on no surface keep the lower limit. A million of these rays at 1.3 million
+// triangles then take 16 % less time, although 65 thousand rays take 9 % more.
 #define MOST_LANES_LEAVING       (3 * BEAM_LANES / 16)
 #define MOST_LANES_LEAVING_DENSE (5 * BEAM_LANES / 8)
 #define DENSE                    300000
@@ -43,8 +43,8 @@ typedef struct {
     uint inside[WIDE_STACK_SIZE]; // for each child on the stack: the packets inside its parent
 } Beam;
 
-// Returns bounds over the packets whose bits are set. At least one bit must be set. The bounds of
-// several packets are the whole beam's.
+// Returns bounds over the packets whose bits are set. At least one bit must be set. For several
+// packets, these are the bounds of the whole beam.
 static inline const BeamBounds *bounds_of(Beam *beam, uint packets)
 {
     if ((packets & (packets - 1)) != 0 || beam->count == 1)
@@ -80,7 +80,7 @@ static inline void expand_node(Beam *beam, uint number, uint packets)
         children_near(node, bounds_of(beam, packets), reach_of(beam, packets), &entry);
     vstore8((uint8)(packets), 0, beam->inside + beam->stack.count);
     push_children(&beam->stack, entry, near, number * WIDE + (uint8)(0, 1, 2, 3, 4, 5, 6, 7));
-    // Arrays of camera rays take 3 % less time.
+    // Prefetching saves arrays of camera rays 3 % of their time.
     if (CLRT_RAYS && exceeds_cache(beam->tracer))
         for (uint bits = lane_bits(near); bits != 0; bits &= bits - 1)
             prefetch_child(beam->tracer, node->child[lowest_bit(bits)]);
@@ -121,8 +121,8 @@ static inline uint packets_entering(Beam *beam, uint child, uint packets, uint b
     return entering;
 }
 
-// If rays of the beam's kind end at any hit, beam->live keeps only the packet's lanes without a
-// hit. Otherwise, updates the packet's reach.
+// If the beam's rays end at any hit, removes the packet's lanes with a hit from beam->live.
+// Otherwise, updates the packet's reach.
 static inline void update_packet(Beam *beam, uint number)
 {
     const Hit *hit = &beam->hits[number];
@@ -170,7 +170,7 @@ static inline uint packets_searching(const Beam *beam)
     return packets;
 }
 
-// Returns the number of lanes of the given packets whose bits are set.
+// Returns how many bits are set for the given packets.
 static inline uint lanes_in(uint packets, const uint bits[PACKETS])
 {
     uint count = 0;
@@ -232,8 +232,7 @@ static inline void test_all_blocks(Beam *beam)
             packets = packets_searching(beam);
 }
 
-// Returns the index of the triangle that all rays start on, or NOTHING if there is none. No ray
-// hits this triangle.
+// Returns the index of the triangle that all rays start on, or NOTHING if there is none.
 static inline uint shared_own(const Beam *beam, const Ray *rays)
 {
     const uint own = lane_uint(&rays->own_index, 0);
@@ -309,9 +308,9 @@ static inline void beam_prepare(Beam *beam, const Ray *rays)
     beam->sheared = false;
 }
 
-// Finds the hits of rays whose directions share their signs: any hits if ends_at_any_hit returns
-// true, else the nearest hits. The beam's count and hits must be set, and at least one lane must
-// search. If the scene has a tree and `alone` is set, searches ray by ray.
+// Finds the hits of rays: any hits if ends_at_any_hit returns true, else the nearest hits. If the
+// scene has a tree and `alone` is set, each ray searches alone. Otherwise, the rays' directions
+// must share their signs. The beam's count and hits must be set, and at least one lane must search.
 static NOT_INLINE void search_beam(Beam *beam, const Tracer *tracer, const Ray *rays, bool alone)
 {
     if (!beam_start(beam, tracer, rays))

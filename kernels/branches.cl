@@ -122,8 +122,8 @@ static inline void end_branch(const Tracer *tracer, Path *path, Mask lanes, cons
     path->color = choose3(lanes, sum3(path->color, seen), path->color);
 }
 
-// Ends branches that max_level cuts off. Each causes an error of at most its weight, because colors
-// are at most 1.
+// Ends branches that max_level cuts off. Each causes an error of at most its weight times its tint,
+// because colors are at most 1.
 static inline void cut_branch(const Tracer *tracer, Path *path, Mask lanes, const Branch *branch)
 {
     end_branch(tracer, path, lanes, branch);

@@ -158,10 +158,10 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 // a lower bound of their distance from the point, exceeds 64u / sine. Otherwise, it may move the
 // start by up to 256u / sine along the surface, on each axis (B14).
 //
-// A reflected ray is lifted only if its line misses the triangle from the last start. This start is
-// the point moved by 256u / sine toward the triangle's middle, or the middle itself if it is
-// nearer. As a fraction of the distance to the middle, the move is at least the smaller of 1 and
-// 500u / (sine * edge). At this start, each weight is at least a third of the fraction.
+// A reflected or refracted ray is lifted only if its line misses the triangle from the last start.
+// This start is the point moved by 256u / sine toward the triangle's middle, or the middle itself
+// if it is nearer. As a fraction of the distance to the middle, the move is at least the smaller of
+// 1 and 500u / (sine * edge). At this start, each weight is at least a third of the fraction.
 static inline UncertainPoint start_of(const UncertainSurface *surface, Real3 direction, Real doubt,
                                       Real u, bool *may_be_lifted)
 {
@@ -183,7 +183,7 @@ static inline RayCone shadow_cone(const UncertainSurface *surface, Real3 light, 
     const Real3 apart = difference(light, surface->end.point);
     const Real length = length_of(apart), rounding = (u + 8.0f * OWN_ROUNDOFF) * length;
     const Real turn = turn_of(radius_of(&surface->end) + rounding, length) + 8.0f * u;
-    bool may_be_lifted; // ignored, because only reflected rays are lifted
+    bool may_be_lifted; // ignored, because shadow rays are never lifted
     const UncertainPoint start =
         start_of(surface, unit_vector(apart), turn, u + OWN_ROUNDOFF, &may_be_lifted);
     RayCone ray = {.origin = start.point,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads the scene's data for the hits of a packet, lane by lane. If all lanes need the same record,
-// it is read only once. This is the common case for large triangles and for materials.
+// which is common for large triangles and for materials, it is read only once.
 #ifndef CLRT_FETCH_CL
 #define CLRT_FETCH_CL
 #include "ray.cl"
@@ -92,7 +92,7 @@ static inline Corners fetch_corners(const Tracer *tracer, UInt index)
                      record_real3(&record, 2 * corner, stride)};
 }
 
-// Returns the corners of one triangle for all lanes.
+// Returns the corners of one triangle, equal in all lanes.
 static inline Corners triangle_corners(const Tracer *tracer, uint index)
 {
 #if CLRT_WIDE_NODES
@@ -120,7 +120,7 @@ static inline Mask fetch_reversed(const Tracer *tracer, UInt index)
 #endif
 }
 
-// Finds the indices that a shading word stands for (TRIANGLE_COLORED in shared.h).
+// Decodes a shading word (TRIANGLE_COLORED in shared.h).
 static inline Look look_of(const Tracer *tracer, UInt material, UInt shading)
 {
     Look look = {material, shading, (UInt)(NOTHING)};

@@ -30,7 +30,7 @@ static inline Real3 product3(Real3 a, Real3 b)
 
 // A ray's refraction at a surface.
 typedef struct {
-    Real ratio;       // the index of refraction on the ray's side, divided by the other
+    Real ratio;       // the index of refraction on the ray's side, divided by the other index
     Real cosine;      // between the normal and the ray, from 0 to 1
     Real beyond;      // the cosine of the refracted ray; 0 for total reflection
     Real reflectance; // the part of the light that is reflected
@@ -47,9 +47,10 @@ static inline Real reflectance_of(const Refraction *at)
     return at->ratio == 1.0f ? 0.0f : mean;
 }
 
-// Returns the refraction of a ray at the given cosine. A normal that is turned away from the ray
-// counts as perpendicular to it, and then reflects all light. For a ratio of 1, `square` is the
-// rounded square of the cosine. Its square root is the cosine itself, so the ray stays straight.
+// Returns the refraction of a ray at the given cosine. A negative cosine, from a normal that is
+// turned away from the ray, counts as 0. The surface then reflects all light, unless the ratio is
+// 1. For a ratio of 1, `square` is the rounded square of the cosine. Its square root is the cosine
+// itself, so the ray stays straight.
 static inline Refraction refraction_at(Real ratio, Real cosine)
 {
     Refraction at = {ratio, clamp_to_one(cosine), 0.0f, 1.0f};
@@ -115,7 +116,7 @@ static inline Ray ray_refracted(const Tracer *tracer, const Surface *surface, co
 
 // The results of following shadow rays to a light.
 typedef struct {
-    Hit blockers[PACKETS]; // primitives that block the light; without glass, any of several
+    Hit blockers[PACKETS]; // primitives that block the light; without glass, any one of several
 #if CLRT_GLASS
     Real3 place;          // of the light
     Real3 tints[PACKETS]; // products of the colors of the glass
@@ -135,8 +136,8 @@ static inline Ray ray_onward(const Tracer *tracer, const Surface *surface, Real3
                  active};
 }
 
-// Multiplies the tints of a packet's rays by the color of the glass that blocks them, and continues
-// these rays. Returns whether any ray continues.
+// Multiplies the tints of a packet's rays by the color of the glass that the rays hit, and
+// continues these rays. Returns whether any ray continues.
 static inline bool cross_glass(const Tracer *tracer, Ray *ray, LightPath *light, uint number)
 {
     const Mask met = ray->active && light->blockers[number].id != NOTHING;

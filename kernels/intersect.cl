@@ -2,8 +2,8 @@
 // Finds the nearest hit of a ray, or any primitive that blocks a shadow ray. All spheres are tested
 // first. The program's kind of nodes then selects the search for triangles (pair.cl or regroup.cl).
 //
-// Invariant: the primitive with the smallest pair (distance, id) is hit. order.cl compares the
-// distances of triangles. The hit does not depend on the tree or on the other rays.
+// Invariant: the primitive with the smallest pair (distance, id) is hit. order.cl decides between
+// triangles at almost equal distances. The hit does not depend on the tree or on the other rays.
 #ifndef CLRT_INTERSECT_CL
 #define CLRT_INTERSECT_CL
 #include "pair.cl"
@@ -52,7 +52,7 @@ static inline Mask is_searchable(const Ray *ray)
     return ray->active && reach < 0x1p46f && size > 0x1p-80f && size < 0x1p80f;
 }
 
-// Finds the hits of triangles in the lanes of `active`, by the search for which the program is
+// Finds the hits on triangles in the lanes of `active`, by the search for which the program is
 // compiled.
 static inline void intersect_triangles(const Tracer *tracer, const Ray *rays,
                                        const Mask active[PACKETS], uint count, Hit *hits)
@@ -93,10 +93,10 @@ static inline void nearest_hits(const Tracer *tracer, const Ray *rays, uint coun
         intersect_triangles(tracer, rays, searching, count, hits);
 }
 
-// Finds for each shadow ray whether a primitive is between the shaded point and the light. If
-// nothing blocks a ray, its hit has the id NOTHING, and t is the limit of the search. If the light
-// is within rounding of a primitive, this primitive does not block the ray. With glass, the hit is
-// the nearest one.
+// Finds whether a primitive is between each shadow ray's start and the light. If nothing blocks a
+// ray, its hit has the id NOTHING, and t is the limit of the search. If the light is within
+// rounding of a primitive, this primitive does not block the ray. With glass, the hit is the
+// nearest one.
 static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint count, Hit *hits)
 {
     Mask searching[PACKETS];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel of error and time goals: requests for samples of pixels -> the sums of these samples.
-// It is compiled after render.cl, and only if requested.
+// The kernel of error and time goals. It answers requests for samples of pixels with the sums of
+// these samples. It is compiled after render.cl, and only if requested.
 //
 // A pixel's samples are points of Sobol's two-dimensional sequence ("On the distribution of points
 // in a cube and the approximate evaluation of integrals", 1967). If a pixel is divided into 2^k
@@ -180,9 +180,9 @@ static inline void add_packet(global PixelSums *sums, PixelSums *sum, Real3 colo
 }
 
 // Stores the sums of the requests `first` to `end` - 1 at the same indices of `sums`. All requests
-// have the same number of samples. A work-item serves requests for ITEM_SAMPLES samples in total,
-// or one larger request. With CLRT_TALLIES, the work-item stores its tally at the index of its
-// first request.
+// have the same number of samples. A work-item serves requests for up to ITEM_SAMPLES samples in
+// total, or one larger request. With CLRT_TALLIES, the work-item stores its tally at the index of
+// its first request.
 kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
                          uint end, global PixelSums *sums, global uint *tallies)
 {

@@ -16,9 +16,9 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// Clang warns that vectors wider than the processor's registers are passed in memory. Only
-// functions of this program call each other, so the calling convention does not matter. NVIDIA's
-// compiler is an older clang without this warning.
+// Clang warns that vectors wider than the processor's registers are passed in memory. All callers
+// are compiled with the program, so the calling convention does not matter. NVIDIA's compiler is an
+// older clang without this warning.
 #ifdef __has_warning
 #if __has_warning("-Wpsabi")
 #pragma clang diagnostic ignored "-Wpsabi"
@@ -66,7 +66,8 @@ typedef float Scalar;
 #endif
 
 // Files that are included for several types (*.inc.cl) overload functions by their arguments.
-// Overloading needs an attribute of clang. With binary nodes, each file is included only once.
+// Overloading needs an attribute of clang. With binary nodes, each file is included only once, so
+// nothing is overloaded.
 #if CLRT_WIDE_NODES
 #define OVERLOAD __attribute__((overloadable))
 #else
@@ -169,7 +170,8 @@ static inline uint OVERLOAD lane_bits(int16 mask)
 #endif
 
 // The number of packets that a work-item traces in lock step, as a beam. With 8 or 16 lanes, a beam
-// has 64 rays. With 4 lanes, it has 16, because 64 rays would take 1.7 times as long.
+// has 64 rays. With 4 lanes, a beam has 16 rays, because pictures would take 1.7 times as long with
+// 64.
 #if CLRT_PACKET
 #define PACKETS (CLRT_LANES == 8 ? 8 : 4)
 #else

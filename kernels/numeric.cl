@@ -3,7 +3,7 @@
 // logarithms and exponentials may differ in their last bits between devices.
 //
 // Invariant: contraction is off, and every fma is explicit. A picture depends only on + - * / sqrt
-// fma rint, conversions, comparisons and integers. Every device that rounds these correctly
+// fma rint floor, conversions, comparisons and integers. Every device that rounds these correctly
 // computes the same bits.
 #ifndef CLRT_NUMERIC_CL
 #define CLRT_NUMERIC_CL
@@ -51,8 +51,8 @@ static inline Real3 real3_of(Real x, Real y, Real z)
     return (Real3){x, y, z};
 }
 
-// Returns *v, read component by component. PoCL copies a whole struct in pieces smaller than a
-// register. If a register is loaded soon afterwards, it waits for all its pieces.
+// Returns *v, read component by component. PoCL would copy a whole struct in pieces smaller than a
+// register, and a load of the register soon afterwards would wait for all its pieces.
 static inline Real3 read3(const Real3 *v)
 {
     return real3_of(v->x, v->y, v->z);

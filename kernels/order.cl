@@ -171,7 +171,7 @@ static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index
 // hit must also be a triangle. If the nearnesses are equal, both triangles get the lesser t,
 // because their own t differ by rounding. The id then decides only which triangle is hit. On GPUs,
 // storing the common nearness as t would take 15 more registers, and a separate test for equality
-// would take 9.
+// would take 9 more.
 static NOT_INLINE Mask triangle_is_nearer(const Search *search, Hit *triangle, Hit *best,
                                           Mask lanes)
 {

@@ -151,7 +151,7 @@ static inline bool pop_place(global const Node *nodes, Real reach, const PairSta
     return false;
 }
 
-// Enters the children whose boxes the ray enters before `reach`. Returns the same as
+// Tests the boxes of a node's children, and enters the children within `reach`. Returns the same as
 // enter_children.
 static inline bool descend(const Search *search, Real reach, PairStack *stack, PairPlace *place)
 {

@@ -12,7 +12,8 @@ static inline RayKind plain_kind(RayKind kind)
     return CLRT_RAYS ? (RayKind)(kind & ~RAY_ANY_HIT) : kind;
 }
 
-// Returns whether rays of this kind end at any hit. With glass, shadow rays end at the nearest hit.
+// Returns whether rays of this kind end at any hit. With glass, shadow rays search for the nearest
+// hit.
 static inline bool ends_at_any_hit(RayKind kind)
 {
     return (!CLRT_GLASS && kind == RAY_SHADOW) || kind != plain_kind(kind);
@@ -45,7 +46,7 @@ typedef struct {
     ulong cut; // stored as TALLY_CUT and TALLY_CUT_HIGH
 #endif
 #if CLRT_SIGNATURES
-    UInt signatures[PACKETS]; // hashes of the surfaces hit and the lights that reach them
+    UInt signatures[PACKETS]; // hashes, as in SampleData
 #endif
 } Tally;
 
@@ -84,7 +85,7 @@ typedef struct {
 } Tracer;
 
 // The first arguments of all kernels that trace rays, in the order in which the host sets them.
-// TRACER makes a Tracer of these arguments.
+// TRACER makes a Tracer from these arguments.
 #define TRACER_ARGUMENTS                                                                           \
     const FrameData frame, global const PointLight *lights, global const Material *materials,      \
         global const SphereData *spheres, global const Node *nodes,                                \

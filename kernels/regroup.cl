@@ -3,10 +3,10 @@
 // distribution ray tracing", 2007).
 //
 // Camera rays fill their packets. After a reflection or at the edge of a shadow, only some lanes of
-// a packet are active, and neighbors may point into different octants. But a packet takes as long
-// with one active lane as with all lanes, and bounds cull only if all rays point into one octant.
-// The rays of each octant are therefore collected from partly filled packets into full packets,
-// which form a beam. Afterwards, the hits are copied back to the original lanes.
+// a packet are active, and neighboring rays may point into different octants. However, a packet
+// takes as long with one active lane as with all lanes, and bounds cull only if all rays point into
+// one octant. The rays of each octant are therefore collected from partly filled packets into full
+// packets, which form a beam. Afterwards, the hits are copied back to the original lanes.
 //
 // Invariant: a ray's hit does not depend on the other rays, because beams only cull, and every lane
 // accepts triangles by the same operations. Grouping therefore changes no bit of the picture.
@@ -53,8 +53,7 @@ static inline UInt expanded(UInt v, uint bits, UInt rest)
 }
 #endif
 
-// The words of a ray in a list: its origin, its direction, the id and index of the primitive on
-// which it starts, and the distance, id and index of its hit.
+// The words of a ray in a list: the ray, the primitive on which it starts, and its hit.
 enum {
     WORD_ORIGIN = 0,
     WORD_DIRECTION = 3,

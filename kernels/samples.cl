@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel of adaptive anti-aliasing: a list of places in the picture -> their colors and
-// signatures. It is compiled after render.cl, and only if requested.
+// The kernel of adaptive anti-aliasing. It computes colors and signatures for a list of places in
+// the picture. It is compiled after render.cl, and only if requested.
 
 static inline void store_sample(global SampleData *sample, const Real3 *color, UInt signature,
                                 uint lane)

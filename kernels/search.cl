@@ -49,9 +49,9 @@ typedef struct {
     Real3 inverse, near_offset, far_offset;
 } Slabs;
 
-// Raises the magnitude of a direction's component to `smallest`, which is 2^-30 of the largest one
-// (docs/numerics.md, B8). The inverses are then finite if the largest component exceeds 2^-96.
-// is_searchable rejects shorter directions.
+// Raises the magnitude of a direction's component to at least `smallest`, which is 2^-30 of the
+// largest one (docs/numerics.md, B8). The inverses are then finite if the largest component exceeds
+// 2^-96. is_searchable rejects shorter directions.
 static inline Real slab_direction(Real direction, Real smallest)
 {
     return fabs(direction) < smallest ? copysign(smallest, direction) : direction;
@@ -93,7 +93,7 @@ static inline void search_boxes(Search *search, const Tracer *tracer, const Ray 
     search->slabs = slabs_of(ray->origin, ray->direction);
     search->limit = limit;
     // triangle_depth_error is at most 54 u (o + 1) for the origin's largest coordinate o, because
-    // corners are at most 1 (B4). The axis z of the shear has the smallest inverse.
+    // coordinates of corners are at most 1 (B4). The axis z of the shear has the smallest inverse.
     const Real3 inverse = magnitudes(search->slabs.inverse);
     const Real unit = UNIT_ROUNDOFF * min(min(inverse.x, inverse.y), inverse.z);
     search->tie = 128.0f * unit * (largest_component(ray->origin) + 1.0f);

@@ -43,9 +43,9 @@ typedef struct {
     Mask faces; // the shading normal and the face both face the light
 } LightSample;
 
-// Returns whether the light is in front of the face. Over a triangle, the light's height is
-// measured from a corner, because corners are exact. All points of a triangle therefore agree about
-// a light that is nearly in its plane.
+// Returns whether the light is in front of the face. The light's height over a triangle is measured
+// from a corner, because corners are exact. All points of a triangle therefore agree about a light
+// that is nearly in the triangle's plane.
 static inline Mask is_before_face(const Surface *surface, Real3 light)
 {
     return dot_product(surface->face, difference(light, surface->a)) > 0.0f;

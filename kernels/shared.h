@@ -19,26 +19,26 @@ typedef uint64_t ulong;
 #define CLRT_SAME_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type);
 #endif
 
-// The id that stands for no primitive. Spheres have the first ids and triangles the following ids,
-// both in file order.
+// The id that stands for no primitive. Ids number the spheres first and then the triangles, each in
+// file order.
 #define NOTHING 0xffffffffu
 
-// The number of entries in the traversal stack. Depth-first descent keeps one pending sibling per
-// level, and also pushes the child that it enters next. Builders limit trees to BVH_MAX_DEPTH
-// levels.
+// The number of entries in the traversal stack of a binary tree. Depth-first descent keeps one
+// pending sibling per level, and also pushes the child that it enters next. Builders limit trees to
+// BVH_MAX_DEPTH levels.
 #define BVH_MAX_DEPTH  62
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
-// Boxes grow and origins move by this factor of their largest coordinate. The factor is 256 units
-// of 2^-24. A triangle that triangle.inc.cl accepts is within 22 units of the ray (B8 of
+// Boxes grow and origins move by this fraction of their largest coordinate. The fraction is 256
+// units of 2^-24. A triangle that triangle.inc.cl accepts is within 22 units of the ray (B8 of
 // docs/numerics.md), and the slab arithmetic adds 4 (B9). If division is only accurate to 2.5 ulp,
-// these numbers become 34 and 8.
+// 22 and 4 become 34 and 8.
 //
 // The error of a hit's distance can put the hit up to 54 units behind the ray's start, and
-// search_behind allows 256 more. A box at the start has the origin's coordinates. The box and the
-// origin both move, so each needs only 128 of the 256 units. The sum is at most 34 + 8 + 54 + 128 =
-// 224. search_reach (search.cl) covers hits beyond the best one. In measurements, doubling the
-// slack costs no time.
+// search_behind allows 256 more. A box at the start has the origin's coordinates. The box grows and
+// the origin moves, so each needs only 128 of the 256 units. The sum is at most 34 + 8 + 54 + 128 =
+// 224. search_reach (search.cl) covers hits beyond the best one. Doubling the slack costs no
+// measurable time.
 #define BVH_SLACK 0x1p-16f
 
 // The margin of the box around all primitives, as a fraction of its largest coordinate. Kernels add
@@ -114,8 +114,8 @@ CLRT_SAME_SIZE(TriangleData, 48)
 #define TRIANGLE_MARKS     (TRIANGLE_TWO_SIDED | TRIANGLE_REVERSED)
 
 // A triangle's shading word is the index of its CornerNormals, or NOTHING if the triangle is flat.
-// If any other word has this flag, its other bits are the index of the triangle's CornerColors.
-// These contain a second shading word, which is an index of CornerNormals or NOTHING.
+// If a word other than NOTHING has this flag, its other bits are the index of the triangle's
+// CornerColors. These contain a second shading word: an index of CornerNormals, or NOTHING.
 #define TRIANGLE_COLORED 0x80000000u
 
 // Vertex normals of a smooth triangle, in the stored order of its corners. Their lengths weight the
@@ -132,10 +132,10 @@ typedef struct {
 } CornerColors;
 CLRT_SAME_SIZE(CornerColors, 40)
 
-// An inner node. It contains the boxes of both children, axis by axis as {low, high} planes, so one
-// read serves the tests of both. If a child's count is above 0, the child is a leaf with the
-// triangles [first, first + count). Otherwise, it is the inner node `first`. A missing child has an
-// inverted box, which no ray enters.
+// An inner node. It contains the boxes of both children, so one read serves both tests. If a
+// child's count is above 0, the child is a leaf with the triangles [first, first + count).
+// Otherwise, it is the inner node `first`. A missing child has an inverted box, which no ray
+// enters.
 typedef struct {
     float planes[3][2][2]; // [axis][low, high][child], grown by BVH_SLACK
     uint first[2];
@@ -149,8 +149,8 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // Refinement lists the pixels' centers in squares of this side, so that neighbors share packets.
 #define PACKET_SIDE 4
 
-// The largest number of children in a wide node, and of triangles in a block. One float for each
-// fills a vector of 256 bits.
+// The largest number of children in a wide node, and of triangles in a block. WIDE floats fill a
+// vector of 256 bits.
 #define WIDE 8
 
 // An inner node of the wide tree, with its children's boxes side by side. One instruction tests a
@@ -165,8 +165,8 @@ typedef struct {
 CLRT_SAME_SIZE(BvhWide, 256)
 #define WIDE_LEAF 0x80000000u
 
-// A leaf of the wide tree: up to WIDE triangles, component by component. Empty slots hold three
-// corners at the origin, which no ray hits, and the id NOTHING.
+// A leaf of the wide tree: up to WIDE triangles, component by component. An empty slot holds the id
+// NOTHING and three corners at the origin. No ray hits such a triangle.
 typedef struct {
     float corners[3][3][WIDE]; // [corner][axis][triangle]
     uint id[WIDE];             // and flags
@@ -209,8 +209,8 @@ typedef struct {
 CLRT_SAME_SIZE(FrameData, 152)
 
 // The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
-// that the ray, its reflections and refractions hit, of the lights that reach these surfaces, and
-// of the glass on their way.
+// that the ray and its reflected and refracted rays hit, of the lights that reach these surfaces,
+// and of the glass that this light crosses.
 typedef struct {
     float color[3];
     uint signature;
@@ -218,7 +218,7 @@ typedef struct {
 CLRT_SAME_SIZE(SampleData, 16)
 
 // Sub-pixels along a side of a pixel in ladder.cl's pictures. Because this is a power of two, the
-// sample at the center has the bits of a picture with one sample per pixel.
+// sample at a pixel's center has the same bits as in a picture with one sample per pixel.
 #define LADDER_GRID 1024
 
 // The most samples in a request. A pixel's requests together have up to LADDER_GRID samples.
@@ -294,13 +294,13 @@ typedef struct {
     float origin[3];
     float limit; // the largest t of a hit; below 0 for no ray
     float direction[3];
-    uint own;       // id of the primitive it starts on, or NOTHING
+    uint own;       // id of the primitive on which the ray starts, or NOTHING
     uint own_index; // index of that primitive if it is a triangle, else NOTHING
     float doubt;    // for certify_rays.cl: bound on the distance from origin to the exact start
 } RayData;
 CLRT_SAME_SIZE(RayData, 40)
 
-// Rays whose kind has this bit end at any hit, like shadow rays.
+// Rays whose kind has this bit end at any hit.
 #define RAY_ANY_HIT 4
 
 typedef struct {
@@ -325,7 +325,7 @@ typedef enum {
     LEVEL_ORIGIN = 0,
     LEVEL_DIRECTION = 3,
     LEVEL_WEIGHT = 6,  // of the ray's color in the sample's color
-    LEVEL_TINT = 7,    // the color of the glass on the path; multiplies both weights
+    LEVEL_TINT = 7,    // color of the glass on the path; multiplies LEVEL_WEIGHT and LEVEL_SHARE
     LEVEL_SHADED = 10, // the surface's own color or, without a hit, the background
     LEVEL_SHARE = 13,  // of LEVEL_SHADED in the sample's color
     LEVEL_T = 14,      // the entries from here on are invalid without a hit

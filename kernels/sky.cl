@@ -5,7 +5,7 @@
 //
 // Invariant: a block with a ray that may hit something is never sky (docs/numerics.md, B17).
 
-// The range of a block's rays, in half samples from the picture's center (camera.cl).
+// The range of a block's rays, in half sub-pixels from the picture's center (camera.cl).
 typedef struct {
     float left, right, top, bottom;
 } RayRange;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Intersects rays and spheres in two-float arithmetic. A value is an unevaluated sum high + low of
 // 48 bits (106 if Real is double). In single floats, the discriminant of far, small and huge
-// spheres would be lost to cancellation. For a ground sphere of radius 1e7, the error would be 18
-// %. Two-float arithmetic avoids this without fp64.
+// spheres would be lost to cancellation. A ground sphere of radius 1e7 would have an error of 18 %.
+// Two-float arithmetic avoids this without fp64.
 //
 // The roots follow Haines, Guenther and Akenine-Moeller (Ray Tracing Gems, chapter 7). The sums and
 // products follow Knuth and Dekker.
@@ -154,8 +154,8 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 
 // Returns whether plain Reals already prove that the line misses the sphere. The error of this test
 // is at most 16u times the sum of all squared lengths (B15), and the test allows 64u. Most spheres
-// then need no exact test. In a scene with three spheres, exact tests for all rays would take half
-// of the rendering time.
+// then need no two-float test. In a scene with three spheres, two-float tests for all rays would
+// take half of the rendering time.
 static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center =
@@ -208,8 +208,8 @@ static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Re
 }
 
 // Returns the distance to the far wall for a ray that starts on this sphere. The direction's length
-// must be about 1. The near root is zero. The result is INFINITY unless the chord is longer than
-// the origin's error and than 128u times the radius.
+// must be about 1. The near root is zero. Returns INFINITY for chords up to the origin's error or
+// 128u times the radius, whichever is larger.
 static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;

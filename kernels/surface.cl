@@ -238,7 +238,7 @@ static inline Surface surface_at(const Tracer *tracer, const Ray *ray, const Hit
     }
     const Mask on_sphere = met && hit->id < tracer->frame->sphere_count;
     const Mask on_triangle = met && hit->id >= tracer->frame->sphere_count;
-    if (CLRT_LANES == 1) { // on GPUs, this takes 14 fewer registers than both surfaces
+    if (CLRT_LANES == 1) { // on GPUs, this takes 14 fewer registers than making both surfaces
         if (CLRT_SPHERES && any_lane(on_sphere))
             return sphere_surface(tracer, ray, hit);
         return triangle_surface(tracer, ray, hit);
@@ -312,8 +312,8 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
 // triangle, beyond the neighbor that should stop the ray. The point may also be a corner. While the
 // ray's line does not pass through the triangle, the start moves toward the triangle's middle. On
 // each axis, the start's distance from the surface point is at most UNIT_ROUNDOFF / sine times 1,
-// 2, 4 and so on to 256, but at most the middle's distance. If a reflected ray still does not pass,
-// the ray is lifted.
+// 2, 4 and so on to 256, but at most the middle's distance. A reflected or refracted ray that still
+// does not pass is lifted.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
                                      Real sine, Mask near_edge)
 {

@@ -46,7 +46,8 @@ static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 
 }
 #endif
 
-// Stores the colors of the lanes inside the tile, and the tally at the first lane.
+// Stores the colors of the lanes inside the tile. With CLRT_TALLIES, stores the tally at the first
+// lane.
 static inline void store_packet(const FrameData *frame, uint2 corner, const Real3 *color,
                                 const Tally *tally, const Output *output)
 {

@@ -34,7 +34,7 @@ typedef struct {
 #if CLRT_GLASS
     Real3 tint; // multiplies the weight
     UInt level; // of the last ray; 0 for camera rays
-    Real cut;   // sum of the weights of rays that max_level cuts off
+    Real cut;   // sum over the rays that max_level cuts off: weight times tint
 #endif
 } Path;
 

@@ -52,8 +52,8 @@ static inline Edges OVERLOAD edges_of(const Corners *sheared)
     return edges;
 }
 
-// Returns whether the ray passes inside all edges. A zero counts as either sign, so a ray through
-// an edge hits both triangles.
+// Returns whether the ray passes inside all edges. A zero edge function counts as either sign, so a
+// ray through an edge hits both triangles.
 static inline Mask OVERLOAD edges_contain(const Edges *edges)
 {
     const Real smallest = min(min(edges->u, edges->v), edges->w);
@@ -140,8 +140,8 @@ typedef struct {
 
 // Returns the distances, and whether surface_ray_distance must decide. `marks` contains the
 // triangles' flags. One-sided triangles do not stop rays on their inner side. For rays that leave a
-// surface, all triangles up to `reach` count as near. For rays from the eye, triangles are near
-// only if they are within rounding of the eye.
+// surface, all triangles ahead up to `reach` are near, and so are triangles within rounding of the
+// start. For rays from the eye, triangles are near only if they are within rounding of the eye.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {
@@ -186,11 +186,11 @@ static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, flo
 // A ray that leaves a surface, and its relation to a triangle.
 typedef struct {
     Real3 point;  // of the surface
-    Mask front;   // it comes from the triangle's stored front
-    Mask inner;   // it comes from the back of the mesh's triangle
+    Mask front;   // the ray comes from the triangle's stored front
+    Mask inner;   // the ray comes from the back of the mesh's triangle
     Real behind;  // rounding may put the start this far beyond a triangle that stops the ray
     float length; // as a distance t: 1 up to a light, else INFINITY
-    float blur;   // error of the point, as in height_over: 0 for the eye, which is stored
+    float blur;   // error of the point, as in height_over; 0 for the eye, which is exact
 } SurfaceRay;
 
 // Returns the distance at which the ray stops on a triangle, or INFINITY if it passes. t is the

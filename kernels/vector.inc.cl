@@ -6,9 +6,9 @@ typedef struct {
     Real x, y, z;
 } Real3;
 
-// Returns a * b - c * d by Kahan's algorithm, with an error of at most 1.5 ulp and therefore with
-// the exact sign (Jeannerod, Louvet and Muller, "Further analysis of Kahan's algorithm for the
-// accurate computation of 2x2 determinants", 2013).
+// Returns a * b - c * d by Kahan's algorithm. Unless products underflow, the error is at most 1.5
+// ulp, so the sign is exact (Jeannerod, Louvet and Muller, "Further analysis of Kahan's algorithm
+// for the accurate computation of 2x2 determinants", 2013).
 static inline Real OVERLOAD difference_of_products(Real a, Real b, Real c, Real d)
 {
     const Real cd = c * d;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Traces single rays through the tree of wide nodes. One vector operation tests all children of a
-// node, or all triangles of a block (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The
-// rays of a packet's lanes take turns, one step each: while one ray waits for memory, the others
-// advance.
+// Traces single rays through the tree of wide nodes. Vector operations test all children of a node,
+// or all triangles of a block, at once (Wald, Benthin and Boulos, "Getting rid of packets", 2008).
+// The rays of a packet's lanes take turns, one step each: while one ray waits for memory, the
+// others advance.
 //
 // Invariant: boxes are culled as in pair.cl, and accept.cl accepts hits, so both searches find the
 // same hits.
@@ -140,7 +140,8 @@ static NOT_INLINE int8 block_neighbors(const Search *search, uint lane, uint fir
     return stops;
 }
 
-// Returns the same as stop_distances (accept.cl), for a lane's ray and all triangles of a block.
+// Returns the distances at which a lane's ray stops on the triangles of a block, as stop_distances
+// (accept.cl) does for one triangle.
 static inline float8 block_distances(const BlockPlace *start, const Search *search, uint lane,
                                      const WideTriangleTest *test, float reach)
 {

@@ -33,8 +33,8 @@ static inline uint lowest_bit(uint bits)
 }
 
 // Returns the entry distances as integers that sort in reverse order. The bits of nonnegative
-// floats sort like the floats. Children that are not hit come last. The lowest bits hold the
-// child's index. This shortens the distance by less than 2^-20 of its value.
+// floats sort like the floats. Children that are not hit come last. The lowest three bits encode
+// the child's index, which shortens the distance by less than 2^-20 of its value.
 static inline uint8 entry_order(float8 entry, int8 met)
 {
     const uint8 place = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
@@ -99,8 +99,8 @@ static inline uint4 sorted_four(uint4 v)
     return (uint4)(low.s0, high.s1, low.s2, high.s3);
 }
 
-// Sorts the children that are hit. They first move to the front, so that half a network can sort up
-// to four of them. Only one node in twenty has more.
+// Sorts the children that are hit. These children first move to the front, so that half a network
+// can sort up to four of them. In only one node of twenty, more children are hit.
 static inline uint8 orders_sorted(uint8 order, uint met)
 {
     typedef int Register __attribute__((vector_size(32)));
