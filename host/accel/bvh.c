@@ -3,7 +3,7 @@
 // build the remaining subtrees, one per thread at a time.
 //
 // Invariant: a subtree's range of triangles determines the indices of its nodes. The tree therefore
-// does not depend on the schedule.
+// does not depend on the schedule of the threads.
 #include "accel/bvh.h"
 
 #include "accel/build.h"

@@ -54,8 +54,8 @@ typedef struct {
     bool spheres, triangles;
     bool bvh;        // rays find triangles with a tree
     bool mirrors;    // a used material reflects
-    bool shaded;     // a used material is more than a silhouette
-    bool colors;     // a mesh has colors of vertices
+    bool shaded;     // a used material is shaded by lights
+    bool colors;     // a mesh has vertex colors
     bool checkers;   // a used material has a checker
     bool glass;      // a used material is glass
     bool statistics; // the kernels count rays and tests
@@ -66,7 +66,7 @@ typedef struct {
     const char *name;             // in explanations
     const char *option;           // the switch
     size_t offset;                // of the member
-    const char *absent, *present; // reasons in explanations; NULL if the reasons have numbers
+    const char *absent, *present; // reasons in explanations; NULL if they contain numbers
     bool is_rare;                 // general programs have it only if the scene needs it
 } Trait;
 
@@ -81,7 +81,7 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics);
 float flat_reflectivity(const FlatScene *flat);
 
 // Returns the traits of the general program for scenes with the needed traits. General programs
-// have all traits, but rare traits only if they are needed. Glass comes with checkers.
+// have all traits, but rare traits only if they are needed. A program with glass also has checkers.
 SceneTraits traits_general(SceneTraits needed);
 
 #define TRAITS_OPTIONS_SIZE 192

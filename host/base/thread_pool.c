@@ -17,7 +17,7 @@
 #define LOOKS_FOR_WORK 200 // polls before a thread sleeps, about 0.1 ms
 
 // The number of the generation in the upper 32 bits, and the number of its tasks that no thread has
-// taken yet. A single number, so that a late worker cannot take a task of a later generation.
+// taken yet. Both change at once, so a late worker cannot take a task of a later generation.
 typedef uint64_t PoolState;
 
 struct ThreadPool {

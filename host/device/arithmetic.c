@@ -26,7 +26,7 @@ static const float cases[][3] = {
     {0x1.000002p+0f, 0x1.000002p+0f, -0x1.000004p+0f},   // the product's error, 2^-46
     {0x1.fffffep+0f, 0x1.fffffep+0f, -0x1.fffffcp+1f},   // a product's largest error
     {0x1.000002p+0f, 0x1.fffffcp-1f, -1.0f},             // a product next to 1
-    {0x1.000002p+0f, 0x1.fffffep-1f, 0x1p-60f},          // a sum far below the product
+    {0x1.000002p+0f, 0x1.fffffep-1f, 0x1p-60f},          // an addend far below the product
     {0x1p+0f, 0x1p-24f, 0x1p-50f},                       // halfway to the next float: to even
     {0x1.000002p+0f, 0x1p-24f, -0x1p-50f},               // halfway, upward
     {-0x1.000002p+0f, -0x1.000002p-24f, 0x1p+0f},        // just beyond halfway

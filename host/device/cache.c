@@ -86,8 +86,8 @@ static void binary_path(char path[BINARY_PATH_SIZE], const char *folder, const c
     snprintf(path, BINARY_PATH_SIZE, "%s/%s.bin", folder, key);
 }
 
-// The key is the seed of the checksum. A file that was renamed to another program's key therefore
-// counts as damaged.
+// The key seeds the checksum. A file that was renamed to another program's key therefore counts as
+// damaged.
 static uint64_t checksum_of(const char *key, const void *bytes, size_t size)
 {
     return XXH3_64bits_withSeed(bytes, size, XXH3_64bits(key, strlen(key)));

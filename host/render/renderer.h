@@ -8,8 +8,9 @@
 
 typedef struct {
     uint64_t tiles_done, tiles;
-    uint64_t tiles_ready;          // tiles that existed before the run
-    uint64_t tallies[TALLY_KINDS]; // zeros without statistics, except for TALLY_CUT with glass
+    uint64_t tiles_ready; // tiles that existed before the run
+    // Zeros without statistics. TALLY_CUT and TALLY_CUT_HIGH, however, are valid only with glass.
+    uint64_t tallies[TALLY_KINDS];
 } RenderProgress;
 
 // tile_done is called after every tile, and by sampler_trace after every launch. If tile_done

@@ -3,8 +3,8 @@
 // result is its color and signature. With ladder_entry, a request is a set of a pixel's samples,
 // and the result has the sums of their colors and of the squares of the colors.
 //
-// Two samples have different signatures if their rays hit different surfaces, or if different
-// lights reach their hit points.
+// Except for rare collisions of hashes, two samples have different signatures if their rays hit
+// different surfaces, or if different lights reach their hit points.
 #pragma once
 
 #include "render/renderer.h"

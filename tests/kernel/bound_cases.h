@@ -9,7 +9,7 @@ typedef struct {
 } Line;
 
 // Makes a random ray and triangle. Some rays hit the triangle, some have directions near (1, 1, 1),
-// and some have coordinates so small that products underflow.
+// and some have coordinates so small that errors of products underflow.
 void bound_case_make(Line *line, TriangleData *triangle);
 
 // Changes one to four numbers of a case.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Measures the errors that docs/numerics.md bounds, with numbers of 113 bits, whose own errors are
-// below 2^-60 of any bound. Prints the largest share of each bound that an error reaches, which
-// must not exceed 1. The search starts with random rays, and then changes the worst ones. With
+// below 2^-60 of any bound. Prints the largest share of each bound that an error reaches. No share
+// may exceed 1. The search starts with random rays, and then changes the worst ones. With
 // CLRT_TEST_TIER, the search is longer.
 #include "kernel/bound_cases.h"
 #include "kernel/probe.h"
@@ -122,7 +122,7 @@ static void make_cases(bool first)
     }
 }
 
-// Skips tiny bounds, because underflow adds errors of up to some 2^-149.
+// Skips tiny bounds, because underflow adds errors of up to a few 2^-149.
 static void note(int i, Bound bound, Quad error, Quad most)
 {
     if (most < 0x1p-100)

@@ -43,8 +43,8 @@ TEST(host_and_device_agree_on_the_layout)
 }
 
 // Each squaring doubles the relative error and adds one rounding, so the error is 2^-24 per unit of
-// the exponent. The other path rounds the argument x of exp(-x) a few times. This changes the
-// result by x exp(-x) times the rounding, which is below 1e-6 for any exponent.
+// the exponent. The other path rounds the argument x of exp(-x) a few times. The result then
+// changes by x exp(-x) times the rounding. This change is below 1e-6 for any exponent.
 TEST(powers_are_close_to_exact_ones)
 {
     static const float exponents[] = {0, 1, 2, 7, 50, 200, 1000, 1024};

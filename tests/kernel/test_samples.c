@@ -67,7 +67,7 @@ TEST(a_single_sample_is_at_the_center)
     assert_true(place[0][0] == LADDER_GRID && place[0][1] == LADDER_GRID);
 }
 
-// The test compares the first COUNT samples of PIXELS pixels.
+// The last test compares the first COUNT samples of PIXELS pixels.
 #define PIXELS 4096
 #define COUNT  4
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays at points well inside an open shape's outline must hit it, also at edges that two triangles
-// share.
+// Rays at points well inside an open shape's outline must hit the shape, also at edges that two
+// triangles share.
 #include "support/rig.h"
 #include "support/shapes.h"
 

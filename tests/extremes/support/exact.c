@@ -10,8 +10,8 @@
 // Sheared::reach.
 #define DOUBT (34 * 0x1p-24L)
 
-// The largest error of depth, relative to Sheared::reach. This is triangle_depth_error's bound
-// (kernels/triangle.inc.cl) with the least accurate division that OpenCL allows.
+// Bounds the error of a depth, relative to Sheared::reach. With the least accurate division that
+// OpenCL allows, the error is at most 22 units (docs/numerics.md, B8).
 #define DEPTH_DOUBT (27 * 0x1p-24L)
 
 typedef struct {

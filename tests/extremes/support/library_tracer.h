@@ -9,8 +9,8 @@ typedef struct {
     struct ClrtScene *scene; // NULL if the library does not trace the stage
 } LibraryTracer;
 
-// Gives the library the stage's triangles. Does nothing if the stage has spheres or the batch has
-// changed kernels.
+// Gives the library the stage's triangles. Does nothing if the stage has spheres or
+// batch->is_changed is set.
 void library_tracer_open(LibraryTracer *tracer, const Stage *stage, const RayBatch *batch);
 void library_tracer_close(LibraryTracer *tracer);
 

@@ -11,8 +11,8 @@ typedef struct {
     Device device;
 } Studio;
 
-// Fixtures of a group of tests. *state is the studio, whose device is the one that CLRT_DEVICE
-// names, or else the best one.
+// Fixtures of a group of tests. *state is the studio. Its device is the one that CLRT_DEVICE names
+// or, without this variable, device_open's default.
 int picture_setup(void **state);
 int picture_teardown(void **state);
 

@@ -45,8 +45,9 @@ typedef struct {
     KernelChoice choice; // form_choice; with wide nodes, lanes is not 0
 } RayBatch;
 
-// Opens the device that CLRT_DEVICE names, or the best one. If kernel_folder is NULL, uses the
-// kernels in CLRT_KERNEL_DIR, or else the built-in kernels. options for the compiler may be NULL.
+// Opens the device that CLRT_DEVICE names or, without this variable, device_open's default. If
+// kernel_folder is NULL, uses the kernels in CLRT_KERNEL_DIR, or else the built-in kernels. options
+// for the compiler may be NULL.
 void ray_batch_open(RayBatch *batch, const char *kernel_folder, const char *options);
 void ray_batch_close(RayBatch *batch);
 

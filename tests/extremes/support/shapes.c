@@ -65,7 +65,8 @@ Vec3 shape_center(int exponent)
     return vec3(s, -0.75 * s, 0.5 * s);
 }
 
-// Vertex 0 is the pole at +z, and the last vertex the pole at -z. rings - 1 circles lie between.
+// Vertex 0 is the pole at +z, and the last vertex is the pole at -z. rings - 1 circles of vertices
+// lie between the poles.
 static void connect_globe(Mesh *mesh, uint32_t rings, uint32_t segments)
 {
     size_t triangle = 0;

@@ -10,8 +10,9 @@ typedef enum {
     TREE_NONE,
     TREE_KINDS,
     // Valid trees that no builder makes, because they ignore where triangles are. The first four
-    // halve the triangles in file order down to leaves of at most 1, 2, 4 or 8. The deepest tree
-    // has up to BVH_MAX_DEPTH levels. Each level but the last separates one triangle from the rest.
+    // halve the triangles in file order down to leaves of at most 1, 2, 4 or 8 triangles. The
+    // deepest tree has up to BVH_MAX_DEPTH levels. Each level but the last separates one triangle
+    // from the rest.
     TREE_LEAVES_1 = TREE_KINDS,
     TREE_LEAVES_2,
     TREE_LEAVES_4,

@@ -11,8 +11,8 @@ const char *const tree_scene_names[TREE_SCENES] = {
 
 enum { SLIVERS = 7, COINCIDENT, NESTED, SPIRAL, MIXED, ONE_TRIANGLE };
 
-// Moves the third corner of each triangle to the middle of the others, plus 1e-5 of its old
-// position.
+// Moves the third corner of each triangle to the middle of the other two corners, plus 1e-5 of its
+// old position.
 static Mesh slivers(Random *random)
 {
     Mesh mesh = shape_soup(random, 500, 0.5);

@@ -9,7 +9,7 @@ typedef enum {
     TUBE_RIDGES, // folds along the tube
     TUBE_BUMPS,  // vertices at random distances from the middle of the tube
     TUBE_SADDLES,
-    TUBE_WALLS, // fins that are a thousandth as thick as they are high
+    TUBE_WALLS, // fins, about 200 times as high as thick
     TUBE_KINDS
 } TubeKind;
 

@@ -8,9 +8,10 @@
 
 #include "device/kernel_choice.h"
 
-// With division of 2.5 ulp, the triangle test accepts triangles up to 34 units of rounding beside
-// the ray, plus 25 if t may be zero. The slabs' errors add 8 units. The margin is relative to the
-// box's largest coordinate.
+// A part of the margin that culling needs, relative to the box's largest coordinate. With division
+// of 2.5 ulp, the triangle test accepts triangles up to 34 units of rounding beside the ray, and
+// the slabs' errors add 8 units. 25 more units cover only some hits behind the ray's start. B9 of
+// docs/numerics.md adds up all errors: 224 units.
 #define NEEDED_MARGIN (67 * 0x1p-24)
 
 typedef struct {
