@@ -127,7 +127,7 @@ static inline bool decide_ray(const Tracer *tracer, ConePath *path, Decisions *d
     const MaterialLanes material = fetch_material(tracer, surface.material);
     const bool glass = CLRT_GLASS && is_glass(&material);
     Decisions here = {nearest.id, 0, decisions->signature};
-    if (material.shader != SHADER_SILHOUETTE && !glass &&
+    if (material.shader != SHADER_SILHOUETTE && material.shader != SHADER_GLASS &&
         !decide_lights(tracer, &surface, path->ray.u, &here))
         return false;
     *decisions =

@@ -284,17 +284,6 @@ TEST(every_size_of_gpu_launches_draws_the_same)
     rendered_expect_same(&usual, others, UNITS * TILES);
 }
 
-TEST(kernels_for_gpus_compile_without_warnings)
-{
-    for (size_t i = 0; i < FORMS; i += FORMS_FP32) {
-        PictureRequest usual = rendered_in_form(small_request(SCENE_COUNT - 1), &form_all[i]);
-        PictureRequest strict = usual;
-        strict.gpu_units = 1;
-        strict.extra_options = "-Werror";
-        rendered_expect_same(&usual, &strict, 1);
-    }
-}
-
 // Writes a scene with exactly the features of the mask, and returns its path.
 static const char *write_scene(unsigned mask)
 {
@@ -320,7 +309,6 @@ static void expect_special_same(unsigned mask, const KernelChoice *choice)
     general.uses_bvh = (mask & 16) != 0;
     PictureRequest special = general;
     special.specialization = CLRT_SPECIALIZE_ALWAYS;
-    special.extra_options = "-Werror";
     special.tallies = mask & 32 ? tallies : NULL;
     rendered_expect_same(&general, &special, 1);
     remove(general.scene_path);
