@@ -12,11 +12,7 @@
 #include <malloc.h>
 #include <string.h>
 
-#ifdef __SANITIZE_ADDRESS__
-#define CYCLES 200
-#else
-#define CYCLES 60 // enough to detect growth
-#endif
+#define CYCLES     60 // enough to detect growth
 #define WARMING_UP 20 // growth in these cycles does not count
 
 // The allowed growth of memory per cycle is three times the memory that PoCL keeps for each kernel.
