@@ -138,6 +138,19 @@ static void pretend_gpu(Device *device, uint32_t units)
     device->compute_units = units;
 }
 
+// Returns the choice with 0 lanes if it names as many lanes as the processor's registers have.
+// Programs for both choices are equal, but would be compiled twice.
+static KernelChoice without_usual_lanes(KernelChoice choice)
+{
+#ifdef __x86_64__
+    const bool is_usual =
+        __builtin_cpu_supports("avx512f") && getenv("POCL_KERNELLIB_NAME") == NULL;
+    if (choice.lanes == 16 && is_usual)
+        choice.lanes = 0;
+#endif
+    return choice;
+}
+
 // Opens the session at the first request, and whenever the compiler's options or the GPU change.
 // Specialized programs and programs with options are not saved, because saving takes longer than
 // drawing their pictures. The session stays open, because some implementations of OpenCL cannot be
@@ -165,7 +178,8 @@ static bool open_session(const PictureRequest *request, Error *error)
     units = request->gpu_units;
     if (units > 0)
         pretend_gpu(&session.device, units);
-    session.choice = form_on_device(&request->choice, &session.device);
+    const KernelChoice choice = without_usual_lanes(request->choice);
+    session.choice = form_on_device(&choice, &session.device);
     return ok;
 }
 

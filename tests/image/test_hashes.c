@@ -4,7 +4,8 @@
 // The first form checks the recorded pictures of views 1 to VIEWS (default: all) at SIZE x SIZE
 // pixels (default: 128). The second form checks refined pictures, with two settings each of
 // --aa-adaptive and --error. With `list`, the test prints the records with rendered hashes. A new
-// record starts with the hash 0. CLRT_TEST_SCENES limits the scenes to the listed ones.
+// record starts with the hash 0. CLRT_TEST_SCENES limits the scenes to the listed ones, and
+// CLRT_TEST_OMIT omits the scenes whose names contain it.
 // CLRT_TEST_OPTIONS contains options for the compiler of kernels.
 #include "image/course.h"
 #include "image/rendered.h"
@@ -89,11 +90,13 @@ static void picture_hash(const Record *record, char hash[FRAMEBUFFER_HASH_SIZE])
 static bool is_wanted(const Record *record)
 {
     char path[COURSE_PATH_SIZE];
-    const char *only = getenv("CLRT_TEST_SCENES");
+    const char *only = getenv("CLRT_TEST_SCENES"), *omitted = getenv("CLRT_TEST_OMIT");
     if (!is_refined && (record->size != wanted_size || record->number > most_views))
         return false;
     if (only != NULL &&
         strstr(only, is_refined ? strrchr(record->scene, '/') + 1 : record->scene) == NULL)
+        return false;
+    if (omitted != NULL && strstr(record->scene, omitted) != NULL)
         return false;
     scene_path(path, record->scene);
     return !is_course(record->scene) || course_has(path);
