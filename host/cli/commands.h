@@ -33,8 +33,8 @@ TracingCommand explain_scene;
 // clrt explain SCENE X,Y: prints how clrt computes a pixel's color.
 TracingCommand explain_pixel;
 
-// clrt check: reports faults of a scene's geometry. A missing device is an error only if the
-// options name a device or fp64.
+// clrt check: reports faults of a scene's geometry. A missing or failing device is an error only if
+// the options name a device or fp64.
 TracingCommand check_scene;
 
 // clrt devices: lists the OpenCL devices as `clinfo -l` does, as versioned JSON, or both.

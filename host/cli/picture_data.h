@@ -31,7 +31,7 @@ typedef struct {
     CertaintyMap certainty; // empty without --aov certainty
     Resume resume;          // empty without --resume
     int stopped_by;         // the signal that stopped the picture, or 0
-    double start, moment;   // when the command began, and when the previous frame ended (or start)
+    double start, moment;   // when the command began; when the previous frame ended, at first start
 
     // For reports.
     const SceneForm *form; // the scene for the picture's kernels

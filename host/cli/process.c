@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Handles SIGINT and SIGTERM, and makes stacks large enough for compilers. Each handler runs once.
-// Once tiles are traced, the handler only sets a flag, so the first signal never interrupts the
-// writing of traced tiles. The second signal ends the process. Before the first tile, the first
-// signal ends the process too, because compilation cannot be interrupted.
+// Handles SIGINT and SIGTERM, and makes stacks large enough for compilers. The handler of each
+// signal runs only once. After the first tile has begun, the handler only sets a flag, so the first
+// signal never interrupts the writing of traced tiles. The second signal ends the process. Before
+// the first tile, the first signal ends the process too, because compilation cannot be interrupted.
 #include "cli/process.h"
 
 #include <pthread.h>

@@ -272,7 +272,7 @@ static bool is_truncated(const Side sides[2], size_t pixel)
            bounces[shorter] >= (float)(sides[shorter].level - 1);
 }
 
-// Returns whether the settings of both pictures record the same samples.
+// Returns whether the settings of both pictures have the same entry "samples".
 static bool have_same_grid(const Side sides[2])
 {
     const char *words[2];

@@ -80,7 +80,7 @@ typedef enum {
     CAUSE_SHADOW,     // different lights reach the hit point
     CAUSE_TRUNCATION, // one picture's --max-level ends its reflections sooner
     CAUSE_REFLECTION, // the reflections differ for another reason
-    CAUSE_COVERAGE,   // the pixel has different samples
+    CAUSE_COVERAGE,   // the pictures have different samples of the pixel
     CAUSE_ROUNDING,   // no other cause: rounding, if both pictures show the same scene
     CAUSE_KINDS
 } CauseKind;

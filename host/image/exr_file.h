@@ -14,7 +14,7 @@
 #define EXR_TILE 64
 
 typedef struct {
-    exr_context_t context; // NULL if closed; points to this struct, so the struct must not move
+    exr_context_t context; // NULL if closed; stores a pointer to this struct, which must not move
     FILE *stream;          // NULL if closed
     uint64_t most;         // reads may begin up to this offset
     StoredImage head;      // size, texts, and channels in the file's order; no values

@@ -128,8 +128,8 @@ static bool encode(const TileWriter *writer, const size_t position[2],
     encoder->yield_until_ready_fn = encoder->write_fn = NULL;
     if (exr_encoding_run(writer->context, 0, encoder) != EXR_ERR_SUCCESS)
         return false;
-    // If compression does not change the size, readers expect uncompressed bytes. OpenEXRCore 3.1
-    // leaves compressed bytes.
+    // If compression does not change the size, readers expect uncompressed bytes. In this case,
+    // OpenEXRCore 3.1 provides compressed bytes.
     if (encoder->compressed_bytes == encoder->packed_bytes)
         memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
     return true;

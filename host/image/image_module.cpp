@@ -63,7 +63,8 @@ bool write_frames(OIIO::ImageOutput &output, const OIIO::ImageSpec &whole,
     return ok;
 }
 
-// Writes the picture. Closes the writer while its target exists, even after a failure.
+// Writes the picture. Closes the writer even after a failure, because the caller then frees the
+// memory to which it writes.
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {

@@ -11,7 +11,7 @@
 #include <jansson.h>
 
 typedef struct {
-    RenderSettings settings; // only sizes, left, top, tile size and part are set
+    RenderSettings settings; // only sizes, left, top, tile size, part and parts are set
     Encoding encoding;
     json_t *whole; // the settings text without `part` and `tile`; owned
 } StoredTiles;

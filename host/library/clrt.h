@@ -325,7 +325,8 @@ typedef struct {
     double truncation;      // bound on the error that max_level causes in any color; with glass,
                             // bound on this error's root mean square, from the weights of the cut
                             // rays
-    bool goal_missed; // the error is above its goal, or the first pass took longer than `seconds`
+    bool goal_missed;       // the error may be above its goal, or the first pass took longer than
+                            // `seconds`
     double error, error_bound; // for goals of error and time: estimate of the RMSE, and its 95 %
                                // upper bound
     uint64_t sample_count;     // samples taken

@@ -138,7 +138,7 @@ void mesh_free(Mesh *mesh)
 const char *const up_axis_names[UP_AXES] = {"auto", "x", "y", "z", "-x", "-y", "-z"};
 
 // The original axis for each axis of the turned mesh. 1, 2 and 3 stand for x, y and z. A negative
-// number stands for the opposite sign.
+// number means that the coordinate is negated.
 static const int sources[UP_AXES][3] = {
     [UP_X] = {-3, 2, 1},       [UP_Y] = {1, -3, 2},       [UP_Z] = {1, 2, 3},
     [UP_MINUS_X] = {3, 2, -1}, [UP_MINUS_Y] = {1, 3, -2}, [UP_MINUS_Z] = {-1, 2, -3}};

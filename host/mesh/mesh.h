@@ -11,7 +11,7 @@
 // The faults of one kind in a mesh.
 typedef struct {
     size_t count;
-    size_t first; // lowest index of a faulty triangle or vertex, from 0; unset if count is 0
+    size_t first; // lowest index of a faulty triangle or vertex, from 0; meaningless if count is 0
 } MeshFault;
 
 static inline void mesh_fault_add(MeshFault *fault, size_t place)
@@ -32,8 +32,8 @@ typedef struct {
     ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
     MeshFault equal_corners; // removed triangles with two equal corners
     MeshFault lost_corners;  // removed triangles with a bad position
-    // Vertices with a bad position, and with a bad component of the normal. These values are
-    // replaced by zero. Only tolerant readers accept such vertices.
+    // Vertices with a bad position, and vertices with a bad component of the normal. These values
+    // are replaced by zero. Only tolerant readers accept such vertices.
     MeshFault bad_positions, bad_normals;
 } Mesh;
 

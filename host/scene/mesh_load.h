@@ -10,7 +10,7 @@
 #define NO_CREASE (-2)
 
 // The outputs of clrt-foreign for the files of a scene, kept so that each file is read once. An
-// output that would bring their sum above FOREIGN_KEPT_MOST bytes is not kept, so each statement
+// output that would bring the total above FOREIGN_KEPT_MOST bytes is not kept, so each statement
 // reads its file again.
 #define FOREIGN_KEPT_MOST ((size_t)256 << 20)
 typedef struct {

@@ -14,7 +14,8 @@
 #define PICTURE_SIZE_MAX 131072
 #define MAX_LEVEL_LIMIT  1000
 
-#define COURSE_MATERIALS 4 // every scene begins with the course's materials (docs/scenes.md)
+// Every scene begins with the materials of the UvA course (docs/scenes.md).
+#define COURSE_MATERIALS 4
 #define COURSE_MATTE     1
 
 // If the scene's file is a lone mesh, two more materials follow, for meshes without materials and
@@ -93,7 +94,7 @@ bool scene_init(Scene *scene, Error *error);
 // Adds the course's six viewpoints if the scene has no viewpoint.
 bool scene_complete(Scene *scene, Error *error);
 
-// Adds a point light in each cell of the area to the scene. Together, the point lights have the
+// Adds to the scene a point light in each cell of the area. Together, the point lights have the
 // intensity of `light`, which is not added itself.
 bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error);
 

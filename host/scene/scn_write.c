@@ -209,7 +209,7 @@ static const char *name_of(const Writer *writer, size_t material)
     return writer->names.list.data[material - COURSE_MATERIALS].name;
 }
 
-// Omits the properties that the material's shader ignores, and the checker of plain materials.
+// Omits the properties that the material's shader ignores, and a checker of size 0.
 static void write_material(FILE *stream, const Material *material)
 {
     fputs(shader_names[material->shader], stream);

@@ -30,7 +30,7 @@
 
 // The seconds to compile packets, and to compile quick kernels.
 // Measure: "ready in" of `clrt SCENE --tune kernel=packet -v --hash`, and the same with
-// kernel=pair, both minus the half second that opening the device takes.
+// kernel=pair.
 #define PACKET_COMPILE_SECONDS 1.25
 #define QUICK_COMPILE_SECONDS  0.8
 
