@@ -4,7 +4,8 @@
 // CLRT_FP64, and only if requested.
 #include "certify_search.cl"
 
-// Returns the distance between a ray's start and the sphere that the ray leaves, or 0 without one.
+// Returns the distance between a ray's start and the sphere that the ray leaves, or 0 if it leaves
+// no sphere.
 static inline Real sphere_offset(const Tracer *tracer, Real3 origin, uint own)
 {
     if (own >= tracer->frame->sphere_count)
@@ -13,8 +14,8 @@ static inline Real sphere_offset(const Tracer *tracer, Real3 origin, uint own)
     return fabs(length_of(difference(origin, sphere.center)) - sphere.radius);
 }
 
-// Returns the cone of a caller's ray. The host has rounded each component of its direction, with a
-// relative error of at most 2^-24.
+// Returns the cone of a caller's ray. The host has rounded each component of the ray's direction,
+// with a relative error of at most 2^-24.
 static inline RayCone given_cone(const Tracer *tracer, global const RayData *data, uint kind)
 {
     const Real3 origin = load3(data->origin), along = unit_vector(load3(data->direction));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Decides whether a ray cone hits a sphere, and at which depths.
 //
-// sphere.cl computes with sums of two floats. For unit roundoff u, the error of its discriminant
-// radius^2 - distance^2 is below 64 u^2 (distance + radius) (|f| + radius + |center|), where f
-// leads from the sphere's center to the ray's origin. The error of the foot of the perpendicular
-// adds less than 64 u^3 |f|^2. Moving the ray aside by distance_doubt has a larger effect than both
-// errors together, and a larger effect than the error of sphere_power. All other terms of a
-// distance have a relative error below 8u (B15).
+// sphere.cl computes with sums of two floats. Let f lead from the sphere's center to the ray's
+// origin, and let u be the unit roundoff. The error of the discriminant radius^2 - distance^2 is
+// below 64 u^2 (distance + radius) (|f| + radius + |center|). The error of the foot of the
+// perpendicular adds less than 64 u^3 |f|^2. Moving the ray aside by distance_doubt has a larger
+// effect than both errors together, and a larger effect than the error of sphere_power. All other
+// terms of a distance have a relative error below 8u (B15).
 #ifndef CLRT_CERTIFY_SPHERE_CL
 #define CLRT_CERTIFY_SPHERE_CL
 #include "certify_triangle.cl"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The switches that specialize a program. The kernels test most of them with a plain `if`, and the
 // optimizer removes unused features. With the defaults, a program renders every scene without
-// glass. General programs have checkers only for scenes with checkers or glass, and glass only for
-// scenes with glass. The first group describes the scene and enables counting (host/accel/flat.c).
+// glass. General programs (traits_general in host/accel/flat.h) have checkers only for scenes with
+// checkers or glass, and glass only for scenes with glass. The first group describes the scene and
+// enables counting (host/accel/flat.c).
 #ifndef CLRT_CONFIG_H
 #define CLRT_CONFIG_H
 
@@ -16,19 +17,19 @@
 #define CLRT_BVH 1 // a tree finds triangles (0: every triangle is tested)
 #endif
 #ifndef CLRT_MIRRORS
-#define CLRT_MIRRORS 1 // some material reflects
+#define CLRT_MIRRORS 1 // a used material reflects
 #endif
 #ifndef CLRT_SHADED
-#define CLRT_SHADED 1 // some material is shaded by lights
+#define CLRT_SHADED 1 // a used material is shaded by lights
 #endif
 #ifndef CLRT_COLORS
-#define CLRT_COLORS 1 // some mesh has vertex colors
+#define CLRT_COLORS 1 // a mesh has vertex colors
 #endif
 #ifndef CLRT_CHECKERS
-#define CLRT_CHECKERS 1 // some material has a checker
+#define CLRT_CHECKERS 1 // a used material has a checker
 #endif
 #ifndef CLRT_GLASS
-#define CLRT_GLASS 0 // some material is glass
+#define CLRT_GLASS 0 // a used material is glass
 #endif
 #ifndef CLRT_STATISTICS
 #define CLRT_STATISTICS 0 // rays and tests are counted

@@ -37,7 +37,7 @@ typedef struct {
 } Refraction;
 
 // Returns Fresnel's reflectance, the mean of both polarizations. Equal indices reflect nothing.
-// They are a case of their own, because the denominators can then be zero.
+// This case is separate, because the denominators can be zero in it.
 static inline Real reflectance_of(const Refraction *at)
 {
     const Real near = at->ratio * at->cosine, far = at->ratio * at->beyond;

@@ -52,7 +52,7 @@ static inline Real3 real3_of(Real x, Real y, Real z)
 }
 
 // Returns *v, read component by component. PoCL would copy a whole struct in pieces smaller than a
-// register, and a load of the register soon afterwards would wait for all its pieces.
+// register. A load of a whole register soon afterwards would wait for all these pieces.
 static inline Real3 read3(const Real3 *v)
 {
     return real3_of(v->x, v->y, v->z);

@@ -153,9 +153,9 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // vector of 256 bits.
 #define WIDE 8
 
-// An inner node of the wide tree, with its children's boxes side by side. One instruction tests a
-// plane of all children. A child is the index of an inner node or, if WIDE_LEAF is set, of a
-// block. Present children come first; missing ones have inverted boxes.
+// An inner node of the wide tree. Its children's boxes are side by side, so one vector operation
+// reads or tests a plane of all children. A child is the index of an inner node or, if WIDE_LEAF is
+// set, of a block. Present children come first; missing ones have inverted boxes.
 typedef struct {
     float planes[3][2][WIDE]; // [axis][low, high][child], grown by BVH_SLACK
     uint child[WIDE];
@@ -209,8 +209,8 @@ typedef struct {
 CLRT_SAME_SIZE(FrameData, 152)
 
 // The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
-// that the ray and its reflected and refracted rays hit, of the lights that reach these surfaces,
-// and of the glass that this light crosses.
+// that the ray and its reflected and refracted rays hit. The hash includes the lights that reach
+// these surfaces, and the glass that this light crosses.
 typedef struct {
     float color[3];
     uint signature;
@@ -309,10 +309,10 @@ typedef struct {
 } HitData;
 CLRT_SAME_SIZE(HitData, 8)
 
-// clrt explain has a record for each ray of a path, in the order in which the kernels add the rays'
-// colors. It holds LEVEL_VALUES numbers of the kernel's precision and LEVEL_WORDS words. For each
-// light, LIGHT_VALUES numbers and LIGHT_WORDS words follow. Vectors take three entries. HEAD_VALUES
-// numbers and HEAD_WORDS words precede the records.
+// clrt explain stores a record for each ray of a path, in the order in which the kernels add the
+// rays' colors. A record holds LEVEL_VALUES numbers of the kernel's precision and LEVEL_WORDS
+// words. For each light, LIGHT_VALUES numbers and LIGHT_WORDS words follow. Vectors take three
+// entries. HEAD_VALUES numbers and HEAD_WORDS words precede the records.
 typedef enum {
     HEAD_COLOR = 0,      // of the sample, in steps of 2^-32
     HEAD_BACKGROUND = 3, // weight of the background that is added last

@@ -168,8 +168,8 @@ static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
     return apart > 64.0f * UNIT_ROUNDOFF * squares;
 }
 
-// Returns the smallest t > 0 at which origin + t * direction hits the sphere, or INFINITY if the
-// ray misses or its lane is not wanted. A ray from inside hits the far wall.
+// Returns the smallest t > 0 at which origin + t * direction hits the sphere. Returns INFINITY if
+// the ray misses or its lane is not wanted. A ray from inside hits the far wall.
 static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
 {
     const Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);

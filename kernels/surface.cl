@@ -311,9 +311,9 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
 // Returns the start of a ray near an edge. Rounding may have put the surface point outside its
 // triangle, beyond the neighbor that should stop the ray. The point may also be a corner. While the
 // ray's line does not pass through the triangle, the start moves toward the triangle's middle. On
-// each axis, the start's distance from the surface point is at most UNIT_ROUNDOFF / sine times 1,
-// 2, 4 and so on to 256, but at most the middle's distance. A reflected or refracted ray that still
-// does not pass is lifted.
+// the axis on which the start moves most, its distance from the surface point is UNIT_ROUNDOFF /
+// sine times 1, 2, 4 and so on to 256. The start never moves beyond the middle. A reflected or
+// refracted ray that still does not pass is lifted.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
                                      Real sine, Mask near_edge)
 {

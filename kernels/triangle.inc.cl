@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Watertight ray-triangle intersection. The triangle is sheared so that the ray becomes the axis z,
-// and the signs of three edge functions decide whether the ray passes inside (Woop, Benthin and
+// Watertight ray-triangle intersection. The triangle is sheared so that the ray becomes the axis z.
+// The signs of three edge functions then decide whether the ray passes inside (Woop, Benthin and
 // Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013).
 //
 // Invariant: no ray passes between two triangles that share an edge. Both compute the same bits for
@@ -62,8 +62,8 @@ static inline Mask OVERLOAD edges_contain(const Edges *edges)
 }
 
 // Returns whether an edge function counts as positive. If the ray meets the edge from p to q
-// exactly, the ray counts as moved by an infinitely small distance along x, and by an even smaller
-// one along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
+// exactly, it counts as moved by an infinitely small distance along x, and by an even smaller
+// distance along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
 static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
 {
     const Mask beside = p.y > q.y || (p.y == q.y && q.x > p.x);
@@ -200,8 +200,8 @@ typedef struct {
 // wrongly stop shadow and reflected rays. The ray therefore stops only if its surface point is
 // certainly on the side of the triangle from which the ray comes. On the inner side of two-sided
 // triangles, convex neighbors also meet this condition. There, t must also be certainly positive,
-// except for rays from the eye, which is on no surface. A triangle does not block the ray if its t
-// is within `error` of the light's.
+// except for rays from the eye, which is on no surface. A triangle does not block the ray if the
+// triangle's t is within `error` of the light's t.
 //
 // `in_doubt` receives the lanes whose rays may pass by mistake, because of rounding. In a valley,
 // rounding can also put the start beyond the neighbor that stops the ray.

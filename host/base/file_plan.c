@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Identifies existing files by device and inode, and new files by folder and name. Follows links
-// first. Sorting makes equal files adjacent, so checking a million frames is fast.
+// Identifies existing files by device and inode, and new files by folder and name. Follows symbolic
+// links first. Sorting makes equal files adjacent, so checking a million frames is fast.
 #include "base/file_plan.h"
 
 #include "base/file.h"

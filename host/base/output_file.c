@@ -4,8 +4,8 @@
 //
 // Killed runs leave temporary files, which later runs remove. A run locks its own temporary files,
 // and removes only files that it can lock. On a shared disk, other machines may not see these
-// locks. A temporary file's name therefore contains the start of the system's boot id, and on a
-// shared disk a run removes only files whose names contain its own boot id.
+// locks. A temporary file's name therefore contains the start of the system's boot id. On a shared
+// disk, a run removes only files whose names contain its own boot id.
 #include "base/output_file.h"
 
 #include "base/array.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Makes PoCL's private folder. The folder is named clrt-HOST-XXXXXX and contains a file that the
 // process keeps locked. A folder with an unlocked file belongs to a process that was killed. The
-// next process removes the folder. The name contains the host, because locks of other hosts can be
-// invisible on network file systems. The library does not link this file, because the library never
-// changes the environment.
+// next process removes the folder. The name contains the host's name, because locks of other hosts
+// can be invisible on network file systems. The library does not link this file, because the
+// library never changes the environment.
 #include "device/cache_private.h"
 
 #include <dirent.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // On CPUs, a launch is one tile, or CPU_ITEMS work-items of a list. A GPU needs more work-items
-// than a tile has, because each compute unit runs thousands at once. But a GPU cannot update its
-// display during a launch, and drivers end launches of several seconds. The size of a launch
+// than a tile has, because each compute unit runs thousands at once. However, a GPU cannot update
+// its display during a launch, and drivers end launches of several seconds. The size of a launch
 // therefore depends on the time of the previous launch.
 #include "device/launch.h"
 

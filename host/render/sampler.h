@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A list of requests -> their samples. With sample_entry, a request is a sample's position, and the
-// result is its color and signature. With ladder_entry, a request is a set of a pixel's samples,
-// and the result has the sums of their colors and of the squares of the colors.
+// result is its color and signature. With ladder_entry, a request is a set of a pixel's samples.
+// The result has the sums of these samples' colors and of the squares of the colors.
 //
-// Except for rare collisions of hashes, two samples have different signatures if their rays hit
-// different surfaces, or if different lights reach their hit points.
+// Two samples have different signatures if their rays hit different surfaces, or if different
+// lights reach their hit points. The only exceptions are rare collisions of hashes.
 #pragma once
 
 #include "render/renderer.h"

@@ -209,7 +209,7 @@ static Vec3 cow_inside(Random *random)
 
 // Makes 100 million reflections in the course's cow. The cow touches itself in a point, where rays
 // could change sides, so shape_apart removes this point. Rays can also escape where parts of the
-// cow cross. 3 rays escaped when this was measured.
+// cow cross. When this was measured, 3 rays escaped.
 EXTREME(no_ray_escapes_from_a_mirror_cow_t45)
 {
     char path[COURSE_PATH_SIZE];

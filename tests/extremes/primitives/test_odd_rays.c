@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Traces rays with directions of zeros and denormals, and unusual rays: without direction, with NaN
-// or infinity, or from very far. They must end in time and must not disturb the rays beside them.
+// or infinity, or from very far. Unusual rays must end in time and must not disturb the rays beside
+// them.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"
@@ -124,8 +125,8 @@ EXTREME(rays_without_direction_or_with_nan_hit_nothing_and_end_t23)
         judge_spoiled(*state, rays, values[i]);
 }
 
-// judge_exactly must accept the hit, and its distance must be above 0, which excludes NaN. clrt
-// does not follow rays from beyond 2^46, so they may hit nothing.
+// judge_exactly must accept the hit, and the hit's distance must be above 0, which excludes NaN.
+// clrt does not follow rays from beyond 2^46, so they may hit nothing.
 static bool judge_far(void *triangles, const Traced *traced)
 {
     const float *origin = traced->ray->origin;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traces rays at triangles that are a thousand to ten million times as long as high. 99 % of the
-// distances must be exact to ULPS_LIMIT units in the last place, and hits must be right except at
-// the outline.
+// Traces rays at triangles that are a thousand to ten million times as long as high. At least 99 %
+// of the distances must be exact to ULPS_LIMIT units in the last place, and hits must be right
+// except at the outline.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"

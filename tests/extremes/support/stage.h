@@ -9,8 +9,8 @@ typedef enum {
     TREE_MIDPOINT,
     TREE_NONE,
     TREE_KINDS,
-    // Valid trees that no builder makes, because they ignore where triangles are. The first four
-    // halve the triangles in file order down to leaves of at most 1, 2, 4 or 8 triangles. The
+    // Valid trees that no builder makes, because these trees ignore where triangles are. The first
+    // four halve the triangles in file order down to leaves of at most 1, 2, 4 or 8 triangles. The
     // deepest tree has up to BVH_MAX_DEPTH levels. Each level but the last separates one triangle
     // from the rest.
     TREE_LEAVES_1 = TREE_KINDS,

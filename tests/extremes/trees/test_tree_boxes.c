@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests that the boxes of the device's nodes contain all triangles below them, with the margin that
-// culling needs.
+// Tests that the boxes of the device's nodes contain all triangles below them, with a margin for
+// culling.
 #include "support/outcome.h"
 #include "support/shapes.h"
 #include "support/stage.h"
@@ -10,8 +10,8 @@
 
 // A part of the margin that culling needs, relative to the box's largest coordinate. With division
 // of 2.5 ulp, the triangle test accepts triangles up to 34 units of rounding beside the ray, and
-// the slabs' errors add 8 units. 25 more units cover only some hits behind the ray's start. B9 of
-// docs/numerics.md adds up all errors: 224 units.
+// the slabs' errors add 8 units. Another 25 units cover only some hits behind the ray's start. B9
+// of docs/numerics.md adds up all errors: 224 units.
 #define NEEDED_MARGIN (67 * 0x1p-24)
 
 typedef struct {
