@@ -10,8 +10,6 @@
 
 #include <stdio.h>
 
-// Casts rays to find leaks. A missing or failing device is an error only if the options name a
-// device or fp64. Otherwise, the report contains only the other checks.
 static bool find_leaks(Check *check, Session *session, const Options *options, Error *error)
 {
     Error cause = {0};

@@ -34,7 +34,7 @@ TracingCommand explain_scene;
 TracingCommand explain_pixel;
 
 // clrt check: reports faults of a scene's geometry. A missing or failing device is an error only if
-// the options name a device or fp64.
+// the options name a device or fp64. Otherwise, the report omits the leaks.
 TracingCommand check_scene;
 
 // clrt devices: lists the OpenCL devices as `clinfo -l` does, as versioned JSON, or both.

@@ -133,7 +133,6 @@ static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile
     return true;
 }
 
-// Reads the settings of a part from the header of its file.
 static bool read_settings(StoredTiles *tiles, const ExrFile *file, const char *path, Error *error)
 {
     return (stored_tiles_read(tiles, &file->head) &&

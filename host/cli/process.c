@@ -36,7 +36,6 @@ static void stop(int number)
 static void take_signal(int number)
 {
     struct sigaction before;
-    // With SA_RESETHAND, the second signal ends the process.
     struct sigaction action = {.sa_handler = stop, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     sigaction(number, NULL, &before);

@@ -54,7 +54,6 @@ bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, Cl
 // Fails with CLRT_ARGUMENT if the scene has no view with this number, from 1.
 bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *error);
 
-// The inside of a ClrtRenderer.
 struct ClrtRenderer {
     Session session;
     RayCaster casters[RAY_QUERIES]; // open after the first rays that need them

@@ -13,7 +13,6 @@ typedef struct {
     uint8_t *flags; // whether a ray is occluded, or starts inside of the meshes; may be NULL
 } RayResults;
 
-// A batch that is being traced.
 typedef struct {
     ClrtRenderer *renderer;
     ClrtRays rays;

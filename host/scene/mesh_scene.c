@@ -175,9 +175,8 @@ static Viewpoint view_from(const Framing *framing, Vec3 back, Vec3 up)
                        .width_degrees = field_of_view(width)};
 }
 
-// Adds the viewpoints three-quarter, front, right, back, left and top. In each, the meshes span 80
-// % of the picture's width or height, and at most 80 % of the other. The sphere with this center
-// and radius must contain all meshes.
+// Adds the six viewpoints. In each, the meshes span 80 % of the picture's width or height, and at
+// most 80 % of the other. The sphere with this center and radius must contain all meshes.
 static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},

@@ -14,7 +14,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-// A picture in progress.
 typedef struct {
     const Session *session;
     const SessionPicture *request;

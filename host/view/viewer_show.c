@@ -16,7 +16,6 @@
 
 #define NAME_SIZE 512
 
-// The strings for saving.
 typedef struct {
     const char *scene_path; // determines the files' names
     const char *state;      // stored in both files

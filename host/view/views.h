@@ -19,7 +19,6 @@ typedef struct {
     uint32_t boxes_depth;
 } Views;
 
-// The contents of a frame.
 typedef struct {
     const State *state;
     bool is_moving; // the camera moves, so OpenGL's picture is not anti-aliased

@@ -135,8 +135,6 @@ bool option_store(const Option *option, Options *options, const char *text, Erro
     return option->set(options, text, error);
 }
 
-// These setters serve options of kind OPTION_ODD, except set_pixel, which parses an operand.
-
 bool set_output(Options *options, const char *text, Error *error)
 {
     options->output_path = text;
