@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Follows camera rays through their reflections (Whitted, "An improved illumination model for
-// shaded display", CACM 23(6), 1980). OpenCL C has no recursion. A path therefore keeps its color
-// so far and the weight of its next ray, which a recursive tracer would keep on its stack.
+// Follows camera rays through their reflections and refractions (Whitted, "An improved illumination
+// model for shaded display", CACM 23(6), 1980). OpenCL C has no recursion. A path therefore keeps
+// its color so far and the weight of its next ray, which a recursive tracer would keep on its
+// stack.
 #ifndef CLRT_TRACE_CL
 #define CLRT_TRACE_CL
 #include "camera.cl"
@@ -23,7 +24,7 @@ static inline Real3 in_steps3(Real3 color)
     return real3_of(in_steps(color.x), in_steps(color.y), in_steps(color.z));
 }
 
-// The state of a camera ray's path through its reflections.
+// The state of a camera ray's path.
 typedef struct {
     Real3 color;   // so far
     Real weight;   // of the next ray's color in the sample's color

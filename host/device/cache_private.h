@@ -5,10 +5,10 @@
 #include "device/cache.h"
 
 // Opens the cache and sets POCL_CACHE_DIR to a private folder. The private folder is in the cache's
-// folder. If that folder is not writable or has too little free space, the private folder is in
-// $TMPDIR or /tmp. Without a private folder, PoCL lists no device. Also removes private folders of
-// processes that were killed. A program calls cache_open once, before its first OpenCL call. The
-// library must not call cache_open, because it must not change the environment.
+// folder or, if that folder is not writable or has too little free space, in $TMPDIR or /tmp.
+// Without a private folder, PoCL lists no device. Also removes private folders of processes that
+// were killed. A program calls cache_open once, before its first OpenCL call. The library must not
+// call cache_open, because it must not change the environment.
 void cache_open(Cache *cache);
 
 // Removes the private folder. No OpenCL object may be in use.
