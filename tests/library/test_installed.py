@@ -124,7 +124,7 @@ class Installed(unittest.TestCase):
 
     # This is one test, because compiling the example's kernels takes long. Not even root can create
     # a folder in /proc, so PoCL has no cache at first.
-    def test_kernels_lie_in_the_chosen_folder_and_damaged_ones_are_compiled_again(self):
+    def test_kernels_lie_in_the_chosen_folder_and_a_damaged_one_is_compiled_again(self):
         program, cache, home = (self.work / name for name in ("cached", "cache", "home"))
         self.build_by_pkg_config(program)
         hidden = ("POCL_CACHE_DIR", "XDG_CACHE_HOME")
@@ -140,11 +140,10 @@ class Installed(unittest.TestCase):
         self.assertGreater(len(sizes), 0)
         self.assertFalse((home / "clrt").exists())
 
-        for kernel in sizes:
-            os.truncate(kernel, 5000)
+        smallest = min(sizes, key=sizes.get)
+        os.truncate(smallest, 5000)
         self.assertEqual(run(program, env=environment), self.expected)
-        for kernel, size in sizes.items():
-            self.assertAlmostEqual(kernel.stat().st_size, size, delta=1000)  # binaries contain paths
+        self.assertAlmostEqual(smallest.stat().st_size, sizes[smallest], delta=1000)  # binaries contain paths
 
     def test_cmake_builds_the_example_and_its_picture_is_the_programs(self):
         source, build = self.work / "source", self.work / "build"
@@ -199,12 +198,15 @@ class Installed(unittest.TestCase):
         if shutil.which("valgrind") is None:
             self.skipTest("valgrind is not installed")
         program, source = self.work / "for-valgrind", self.work / "small.c"
-        source.write_text(EXAMPLE.read_text().replace("WIDTH = 320, HEIGHT = 240", "WIDTH = 80, HEIGHT = 60"))
+        text = EXAMPLE.read_text().replace("WIDTH = 320, HEIGHT = 240", "WIDTH = 80, HEIGHT = 60")
+        pairs = "&(ClrtSettings){.size = sizeof(ClrtSettings), .kernel = CLRT_KERNEL_PAIR}"
+        self.assertIn("clrt_renderer_create(NULL", text)
+        source.write_text(text.replace("clrt_renderer_create(NULL", f"clrt_renderer_create({pairs}"))
         self.build_by_pkg_config(program, "-g", source=source)
         expected = self.draw_with_the_program("80x60")
         # Valgrind's virtual processor has no AVX-512. Kernels for AVX2 or SSE2 are equal with and
         # without valgrind. The first run compiles them without valgrind, which is fifty times as
-        # fast.
+        # fast. Kernels with nodes of two compile in half the time.
         target = "avx2" if " avx2 " in pathlib.Path("/proc/cpuinfo").read_text() else "sse2"
         cache = pathlib.Path(os.environ["XDG_CACHE_HOME"]) / "valgrind"
         cache.mkdir(parents=True, exist_ok=True)
