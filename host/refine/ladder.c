@@ -168,6 +168,18 @@ static bool climb(Ladder *ladder, uint32_t pixel, uint32_t first, Error *error)
     return true;
 }
 
+// The number of pixels that climb_all prefetches ahead.
+#define PREFETCHED 8
+
+// Loads a pixel's memory into the cache. Without this, half of the time of climb would be cache
+// misses.
+static void prefetch_pixel(const Ladder *ladder, uint32_t pixel)
+{
+    __builtin_prefetch(ladder->picture->pixels[pixel], 1);
+    __builtin_prefetch(&ladder->places[pixel], 1);
+    __builtin_prefetch(&ladder->strata[pixel], 1);
+}
+
 // Traces the requests of the listed pixels, advances the pixels, and empties the list.
 static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Error *error)
 {
@@ -176,6 +188,8 @@ static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Erro
     bool ok = pixel_requests_trace(requests, error);
     for (size_t i = 0; i < count && ok && pixel_requests_are_whole(requests); i++) {
         const RungSamples next = samples_from(rung_of(ladder, pixels[i]));
+        if (i + PREFETCHED < count)
+            prefetch_pixel(ladder, pixels[i + PREFETCHED]);
         ok = climb(ladder, pixels[i], first, error);
         first += next.requests;
         ladder->samples += next.requests * next.samples;
