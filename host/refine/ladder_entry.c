@@ -39,6 +39,11 @@ typedef struct {
     float bends[AREA_HEIGHT + 2 * RADIUS][AREA_WIDTH + 2 * RADIUS];
 } Area;
 
+// A range of columns and rows.
+typedef struct {
+    uint32_t left, right, top, bottom;
+} PixelRange;
+
 static float larger(float one, float other)
 {
     return one > other ? one : other;
@@ -86,17 +91,40 @@ static void measure_row(const Framebuffer *picture, uint32_t y, uint32_t first, 
         measure_pixels(colors[width - 1], edge, 1, bends + (width - 1 - first));
 }
 
+// Returns the picture's pixels in the area and in a margin around it.
+static PixelRange pixels_of(const Framebuffer *picture, const Area *area, uint32_t margin)
+{
+    const uint32_t right = area->left + AREA_WIDTH + margin,
+                   bottom = area->top + AREA_HEIGHT + margin;
+    return (PixelRange){area->left < margin ? 0 : area->left - margin,
+                        right < picture->width ? right : picture->width,
+                        area->top < margin ? 0 : area->top - margin,
+                        bottom < picture->height ? bottom : picture->height};
+}
+
+// Returns whether all pixels in the range have the same color.
+static bool is_plain(const Framebuffer *picture, const PixelRange *range)
+{
+    const size_t color = sizeof *picture->pixels, row = color * picture->width;
+    const size_t size = color * (range->right - range->left - 1);
+    const char *left = (const char *)picture->pixels + range->top * row + range->left * color;
+    const char *first = left;
+    for (uint32_t y = range->top; y < range->bottom; y++, left += row)
+        if (memcmp(left, first, color) != 0 || memcmp(left, left + color, size) != 0)
+            return false;
+    return true;
+}
+
 static void measure_area(const Framebuffer *picture, Area *area)
 {
-    const uint32_t right = area->left + AREA_WIDTH + RADIUS,
-                   bottom = area->top + AREA_HEIGHT + RADIUS;
-    const uint32_t before = area->left < RADIUS ? area->left : RADIUS;
+    const PixelRange colors = pixels_of(picture, area, RADIUS + 1);
+    const PixelRange range = pixels_of(picture, area, RADIUS);
     memset(area->bends, 0, sizeof area->bends);
-    for (uint32_t y = area->top < RADIUS ? 0 : area->top - RADIUS;
-         y < bottom && y < picture->height; y++)
-        measure_row(picture, y, area->left - before,
-                    right < picture->width ? right : picture->width,
-                    &area->bends[y + RADIUS - area->top][RADIUS - before]);
+    if (is_plain(picture, &colors))
+        return;
+    for (uint32_t y = range.top; y < range.bottom; y++)
+        measure_row(picture, y, range.left, range.right,
+                    &area->bends[y + RADIUS - area->top][range.left + RADIUS - area->left]);
 }
 
 // Fills `nearby` with the largest bend among the 5 x 5 pixels around each pixel of a row.
@@ -141,11 +169,14 @@ static void enter_row(const Entering *entering, const Area *area, uint32_t row, 
     uint8_t *strata = &ladder->strata[(size_t)y * width + area->left];
     LadderPlace *places = &ladder->places[(size_t)y * width + area->left];
     float nearby[AREA_WIDTH];
+    uint32_t numbers[AREA_WIDTH]; // separate from `strata`, because compilers vectorize this loop
     spread_bends(area, row, nearby);
-    for (uint32_t x = 0; x < count; x++) {
-        strata[x] = (uint8_t)strata_of_bend(bends[x], nearby[x], false);
+    for (uint32_t x = 0; x < AREA_WIDTH; x++)
+        numbers[x] = strata_of_bend(bends[x], nearby[x], false);
+    for (uint32_t x = 0; x < count; x++)
+        strata[x] = (uint8_t)numbers[x];
+    for (uint32_t x = 0; x < count; x++)
         places[x].feature = bends[x] * bends[x];
-    }
     for (uint32_t x = 0; x < count && parts->count > 0; x++)
         if (thin_parts_touch(parts, y * width + area->left + x))
             strata[x] = (uint8_t)strata_of_bend(bends[x], nearby[x], true);

@@ -79,9 +79,10 @@ static inline uint32_t strata_octave(float value, uint32_t classes)
 static inline uint32_t strata_of_bend(float bend, float nearby, bool is_thin)
 {
     const uint32_t number = strata_octave(bend, NEAR_CLASS);
-    if (number < FLAT_CLASS)
-        return number;
-    return is_thin ? THIN_CLASS : number + (nearby >= CONTRAST ? NEAR_CLASS - FLAT_CLASS : 0);
+    const uint32_t is_flat = number >= FLAT_CLASS, is_near = nearby >= CONTRAST;
+    if (is_thin && is_flat)
+        return THIN_CLASS;
+    return number + (is_flat & is_near) * (NEAR_CLASS - FLAT_CLASS);
 }
 
 // Returns the stratum of a pixel above rung 0 from the standard deviation of its samples.
