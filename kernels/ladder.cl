@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The kernel of error and time goals. It answers requests for samples of pixels with the sums of
-// these samples. It is compiled after render.cl, and only if requested.
+// these samples, and renders tiles with one sample per pixel. It is compiled after render.cl, and
+// only if requested.
 //
 // A pixel's samples are points of Sobol's two-dimensional sequence ("On the distribution of points
 // in a cube and the approximate evaluation of integrals", 1967). If a pixel is divided into 2^k
@@ -11,6 +12,7 @@
 // 1995). Its random numbers are hashes of the pixel. If one random number per pixel were XORed with
 // all points instead, stripes about as fine as the samples would alias. Smooth waves would take 2.6
 // times as many samples for an error of 0.2 %.
+#include "pixels.cl"
 
 // The number of samples per work-item. If the number of requests were limited instead, a work-item
 // could take 1024 samples, and short lists would leave cores idle.
@@ -90,10 +92,9 @@ static inline PixelSamples samples_of(global const PixelRequest *requests, uint 
     const uint samples_log2 = 31 - clz(samples);
     const UInt word = (present >> samples_log2) * (uint)(sizeof(PixelRequest) / sizeof(uint));
     global const uint *words = (global const uint *)requests;
-    PixelSamples result = {gather(words, word), gather(words, word + 1), (UInt)(LADDER_GRID),
-                           (UInt)(LADDER_GRID), sample < end};
-    if (samples > 1)
-        place_samples(&result, gather(words, word + 2) + (present & (samples - 1)));
+    PixelSamples result = {
+        .pixel_x = gather(words, word), .pixel_y = gather(words, word + 1), .active = sample < end};
+    place_samples(&result, gather(words, word + 2) + (present & (samples - 1)));
     return result;
 }
 
@@ -155,56 +156,122 @@ static inline void store_sums(global PixelSums *sums, Real3 color, uint samples,
     }
 }
 
-// A packet's place: its first sample is number `start` of the work-item's `count` samples. A
-// request has `samples` samples.
+// The samples of a work-item: `samples` of each request, or the centers of a block of the tile.
 typedef struct {
-    uint samples, start, count;
-} Span;
+    global const PixelRequest *requests;
+    global PixelSums *sums; // of the requests
+    global float *pixels;   // of the tile; NULL without a tile
+    uint2 block;            // top left pixel
+    uint samples, count;    // of a request, and of all requests together
+} Item;
+
+// Returns the block with this number. Blocks are numbered row by row.
+static inline uint2 tile_block(const FrameData *frame, uint number)
+{
+    const uint columns = (frame->tile_width + BLOCK - 1) / BLOCK;
+    return BLOCK * (uint2)(number % columns, number / columns);
+}
+
+// Returns the top left pixel of the block's packet whose first sample has the number `start`.
+static inline uint2 corner_at(uint2 block, uint start)
+{
+    const uint beam = start / (PACKETS * CLRT_LANES), columns = BLOCK / BEAM_WIDTH;
+    const uint2 place = (uint2)(beam % columns * BEAM_WIDTH, beam / columns * BEAM_HEIGHT);
+    return packet_corner(block + place, start / CLRT_LANES % PACKETS);
+}
+
+// Returns the samples of a packet. Its first sample is number `start` of the item.
+static inline PixelSamples packet_samples(const FrameData *frame, const Item *item, uint start)
+{
+    if (item->pixels == NULL)
+        return samples_of(item->requests, item->samples, start, item->count);
+    const Places places = places_at(frame, corner_at(item->block, start));
+    return (PixelSamples){places.x, places.y, (UInt)(LADDER_GRID), (UInt)(LADDER_GRID),
+                          places.active};
+}
 
 // Adds a packet's colors to the sums of its requests. `sum` holds the partial sums of a request
 // that spans several packets.
-static inline void add_packet(global PixelSums *sums, PixelSums *sum, Real3 color, Span span)
+static inline void add_packet(const Item *item, uint start, Real3 color, PixelSums *sum)
 {
-    global PixelSums *place = sums + span.start / span.samples;
-    if (span.start >= span.count)
+    global PixelSums *place = item->sums + start / item->samples;
+    if (start >= item->count)
         return;
-    if (span.samples < CLRT_LANES) {
-        store_sums(place, color, span.samples, span.count - span.start);
+    if (item->samples < CLRT_LANES) {
+        store_sums(place, color, item->samples, item->count - start);
         return;
     }
     add_samples(sum, color);
-    if ((span.start + CLRT_LANES) % span.samples == 0) {
+    if ((start + CLRT_LANES) % item->samples == 0) {
         *place = *sum;
         *sum = (PixelSums){{0, 0, 0}, 0};
     }
 }
 
-// Stores the sums of the requests `first` to `end` - 1 at the same indices of `sums`. All requests
-// have the same number of samples. A work-item serves requests for up to ITEM_SAMPLES samples in
-// total, or one larger request. With CLRT_TALLIES, the work-item stores its tally at the index of
-// its first request.
-kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
-                         uint end, global PixelSums *sums, global uint *tallies)
+static inline void trace_item(const Tracer *tracer, const Item *item)
 {
-    const uint samples = requests[first].samples;
+    PixelSums sum = {{0, 0, 0}, 0};
+    for (uint begin = 0; begin < item->count; begin += PACKETS * CLRT_LANES) {
+        PixelSamples samples[PACKETS];
+        Real3 colors[PACKETS];
+        for (uint i = 0; i < PACKETS; i++)
+            samples[i] = packet_samples(tracer->frame, item, begin + i * CLRT_LANES);
+        pixel_sample_colors(tracer, samples, colors);
+        for (uint i = 0; i < PACKETS; i++) {
+            const uint start = begin + i * CLRT_LANES;
+            const Real3 color = scaled3(0x1p-32f, colors[i]);
+            if (item->pixels == NULL)
+                add_packet(item, start, colors[i], &sum);
+            else
+                store_colors(tracer->frame, corner_at(item->block, start), &color, item->pixels);
+        }
+    }
+}
+
+// Stores the colors of a block of sky.
+static NOT_INLINE void fill_block(const FrameData *frame, const Item *item)
+{
+    const Real3 sky = sky_color(frame);
+    for (uint start = 0; start < ITEM_SAMPLES; start += CLRT_LANES)
+        store_colors(frame, corner_at(item->block, start), &sky, item->pixels);
+}
+
+static inline bool is_block_of_sky(const FrameData *frame, const Item *item)
+{
+    return BLOCK > 1 && CLRT_STATISTICS == 0 && item->pixels != NULL &&
+           is_sky(frame, item->block.x, item->block.y);
+}
+
+// Stores the sums of the requests `first` to `end` - 1 at the same indices of `results`, which are
+// PixelSums. All requests have the same number of samples. A work-item serves requests for up to
+// ITEM_SAMPLES samples in total, or one larger request. With CLRT_TALLIES, the work-item stores its
+// tally at the index of its first request.
+//
+// If the frame has a tile, `requests` is not used. Each number from `first` to `end` - 1 then
+// stands for a pixel's center. A work-item renders the centers of a block, and stores them as in
+// render_tile. Numbers beyond the tile are padding.
+kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
+                         uint end, global float *results, global uint *tallies)
+{
+    const bool has_tile = frame.tile_width > 0;
+    const uint samples = has_tile ? 1 : requests[first].samples;
     const uint item_requests = max(ITEM_SAMPLES / samples, 1u);
     const uint begin = first + item_requests * (uint)get_global_id(0);
     if (begin >= end)
         return;
-    const uint count = samples * min(end - begin, item_requests);
+    const Item item = {requests + begin,
+                       (global PixelSums *)results + begin,
+                       has_tile ? results : NULL,
+                       has_tile ? tile_block(&frame, begin / ITEM_SAMPLES) : (uint2)(0),
+                       samples,
+                       samples * min(end - begin, item_requests)};
     Tally tally = {0};
     const Tracer tracer = TRACER(&tally);
-    PixelSums sum = {{0, 0, 0}, 0};
-    for (uint start = 0; start < count; start += PACKETS * CLRT_LANES) {
-        PixelSamples asked[PACKETS];
-        Real3 colors[PACKETS];
-        for (uint i = 0; i < PACKETS; i++)
-            asked[i] = samples_of(requests + begin, samples, start + i * CLRT_LANES, count);
-        pixel_sample_colors(&tracer, asked, colors);
-        for (uint i = 0; i < PACKETS; i++)
-            add_packet(sums + begin, &sum, colors[i],
-                       (Span){samples, start + i * CLRT_LANES, count});
+    if (is_block_of_sky(&frame, &item)) {
+        fill_block(&frame, &item);
+        return;
     }
+    trace_item(&tracer, &item);
     if (CLRT_TALLIES)
         store_tally(tallies + (size_t)begin * TALLY_KINDS, &tally);
 }

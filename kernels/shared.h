@@ -224,8 +224,7 @@ CLRT_SAME_SIZE(SampleData, 16)
 // The most samples in a request. A pixel's requests together have up to LADDER_GRID samples.
 #define REQUEST_SAMPLES 16
 
-// A request for samples of a pixel: 1 at its center, or 4 or REQUEST_SAMPLES consecutive points of
-// the pixel's sequence.
+// A request for 4 or REQUEST_SAMPLES consecutive points of a pixel's sequence.
 typedef struct {
     uint x, y;
     uint first; // number of the first point; a multiple of `samples`

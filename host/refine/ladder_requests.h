@@ -28,7 +28,7 @@ bool pixel_requests_are_whole(const PixelRequests *requests);
 bool pixel_requests_trace(PixelRequests *requests, Error *error);
 
 // Renders a picture of the frame's size with one sample at each pixel's center.
-bool pixel_requests_draw_centers(PixelRequests *requests, Framebuffer *picture, Error *error);
+bool pixel_requests_draw_centers(const PixelRequests *requests, Framebuffer *picture, Error *error);
 
 // Computes the mean color of the samples. `samples` must be a power of two.
 void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3]);

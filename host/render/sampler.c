@@ -4,6 +4,7 @@
 #include "render/sampler.h"
 
 #include "base/clock.h"
+#include "base/thread_pool.h"
 #include "device/buffer.h"
 
 #include <stdlib.h>
@@ -42,34 +43,54 @@ static bool is_ladder(const Renderer *renderer)
     return renderer->kernel->entry == &ladder_entry;
 }
 
-static size_t request_size(const Renderer *renderer)
+// Returns whether the requests are the centers of the tile's pixels.
+static bool has_tile(const FrameData *frame)
 {
-    return is_ladder(renderer) ? sizeof(PixelRequest) : sizeof(SamplePlace);
+    return frame->tile_width > 0;
 }
 
-static size_t result_size(const Renderer *renderer)
+static size_t requests_size(const Sampling *sampling)
 {
-    return is_ladder(renderer) ? sizeof(PixelSums) : sizeof(SampleData);
+    if (has_tile(sampling->frame))
+        return sizeof(PixelRequest);
+    return sampling->list->count *
+           (is_ladder(sampling->renderer) ? sizeof(PixelRequest) : sizeof(SamplePlace));
+}
+
+static size_t results_size(const Sampling *sampling)
+{
+    const FrameData *frame = sampling->frame;
+    if (has_tile(frame))
+        return (size_t)frame->tile_width * frame->tile_height * sizeof(float[3]);
+    return sampling->list->count *
+           (is_ladder(sampling->renderer) ? sizeof(PixelSums) : sizeof(SampleData));
 }
 
 // Returns the number of samples of each request. All requests of a list have the same number.
-static uint32_t request_samples(const Renderer *renderer, const SampleList *list)
+static uint32_t request_samples(const Sampling *sampling)
 {
-    return is_ladder(renderer) ? ((const PixelRequest *)list->requests)->samples : 1;
+    return is_ladder(sampling->renderer) && !has_tile(sampling->frame)
+               ? ((const PixelRequest *)sampling->list->requests)->samples
+               : 1;
+}
+
+// Returns the number of pixels along a side of a work-item's block.
+static uint32_t block_side(const Renderer *renderer)
+{
+    return renderer->kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE : 1;
 }
 
 // Returns the number of requests per work-item. The kernels compute the same number.
-static uint32_t item_requests(const Renderer *renderer, const SampleList *list)
+static uint32_t item_requests(const Sampling *sampling)
 {
-    const uint32_t most =
-        renderer->kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE * BLOCK_SIDE : 1;
-    const uint32_t samples = request_samples(renderer, list);
+    const uint32_t side = block_side(sampling->renderer), most = side * side;
+    const uint32_t samples = request_samples(sampling);
     return samples < most ? most / samples : 1;
 }
 
 static double item_samples(const Sampling *sampling)
 {
-    return (double)sampling->item_requests * request_samples(sampling->renderer, sampling->list);
+    return (double)sampling->item_requests * request_samples(sampling);
 }
 
 // Returns the largest number of work-items for the next launch.
@@ -99,10 +120,8 @@ static bool open_buffers(Sampling *sampling, Error *error)
     sampling->host_tallies = memory_zeroed(tallies, sizeof *sampling->host_tallies, error);
     if (sampling->host_tallies == NULL)
         return false;
-    const Shared requests = {CL_MEM_READ_ONLY, list->requests,
-                             list->count * request_size(sampling->renderer)};
-    const Shared results = {CL_MEM_READ_WRITE, list->results,
-                            list->count * result_size(sampling->renderer)};
+    const Shared requests = {CL_MEM_READ_ONLY, list->requests, requests_size(sampling)};
+    const Shared results = {CL_MEM_READ_WRITE, list->results, results_size(sampling)};
     const Shared counts = {CL_MEM_READ_WRITE, sampling->host_tallies,
                            tallies * sizeof *sampling->host_tallies};
     return share(sampling, &requests, &sampling->requests, error) &&
@@ -221,14 +240,26 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
 {
     if (list->count == 0)
         return true;
-    Sampling sampling = {renderer, frame, list, .item_requests = item_requests(renderer, list)};
+    Sampling sampling = {.renderer = renderer, .frame = frame, .list = list};
+    sampling.item_requests = item_requests(&sampling);
     if (renderer->launch_samples <= 0)
         renderer->launch_samples = launch_first_items(&renderer->kernel->launch, 1);
     bool ok = open_buffers(&sampling, error) && run_launches(&sampling, observer, error) &&
               read_tallies(&sampling, error) &&
-              read_back(&sampling, sampling.results, list->count * result_size(renderer), error);
+              read_back(&sampling, sampling.results, results_size(&sampling), error);
     close_buffers(&sampling);
     return ok;
+}
+
+bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, float (*colors)[3],
+                          const RenderObserver *observer, Error *error)
+{
+    const PixelRequest none = {0};
+    const uint32_t side = block_side(renderer);
+    const SampleList list = {&none, colors,
+                             range_count(frame->tile_width, side) *
+                                 range_count(frame->tile_height, side) * side * side};
+    return sampler_trace(renderer, frame, &list, observer, error);
 }
 
 // kernels/samples.cl and kernels/ladder.cl, embedded at build time.

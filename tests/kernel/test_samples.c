@@ -60,13 +60,6 @@ TEST(positions_do_not_depend_on_the_sizes_of_requests)
     assert_memory_equal(fours, places, sizeof places);
 }
 
-TEST(a_single_sample_is_at_the_center)
-{
-    uint32_t place[1][2];
-    trace(&(PixelRequest){.x = 5, .y = 6, .samples = 1}, 1, place);
-    assert_true(place[0][0] == LADDER_GRID && place[0][1] == LADDER_GRID);
-}
-
 // The last test compares the first COUNT samples of PIXELS pixels.
 #define PIXELS 4096
 #define COUNT  4
