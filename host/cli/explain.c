@@ -6,6 +6,7 @@
 
 #include "explain/report.h"
 #include "image/json_file.h"
+#include "session/level.h"
 
 static bool has_pixel(const uint32_t pixel[2], const RenderSettings *settings, Error *error)
 {
@@ -40,6 +41,8 @@ ExitCode explain_pixel(const Options *options, Session *session, Scene *scene, E
     code = stage_prepare(session, options, NULL, &unused, error);
     if (code != EXIT_DONE)
         return code;
+    if (!session_choose_level(session, &request, error))
+        return EXIT_DEVICE;
     const ExplainReport report = {.scene_path = options->scene_path,
                                   .scene = scene,
                                   .settings = &request.settings,

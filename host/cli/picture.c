@@ -14,6 +14,7 @@
 #include "image/image_file.h"
 #include "jobs/stored_tiles.h"
 #include "scene/camera.h"
+#include "session/level.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -263,6 +264,8 @@ static ExitCode make_frame(Picture *picture, uint32_t number, Error *error)
 {
     clear(picture);
     set_view(picture, number);
+    if (!session_choose_level(picture->session, &picture->request, error))
+        return EXIT_DEVICE;
     if (!begin_picture(picture, error))
         return picture->resume.journal.is_busy ? EXIT_BUSY
                : picture->resume.is_broken     ? EXIT_OUTPUT

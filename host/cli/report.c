@@ -210,6 +210,11 @@ void report_write_text(const Picture *picture, FILE *stream)
                stream);
     if (picture->drawn.estimate > 0)
         print_error(picture, json, stream);
+    else if (picture->request.level_bound > 0)
+        json_print(json,
+                   "error of at most {settings.truncation_bound .2g%} because rays end at level "
+                   "{settings.max_level}\n",
+                   stream);
     json_print(json,
                "{rays.total} rays: {rays.camera} camera, {rays.shadow} shadow, {rays.reflected} "
                "reflected\n"

@@ -361,8 +361,8 @@ typedef struct {
     double seconds;    // adds samples for this time; at most 1e6
     int32_t max_level; // rays of this level see the background; at most 1000; 0: the scene's, or
                        // chosen by error; CLRT_LEVEL_NONE: camera rays see the background
-    double truncation; // above 0: selects the smallest max_level whose error is at most this; 16
-                       // levels in scenes with glass
+    double truncation; // above 0: selects the smallest max_level whose error is at most this, as
+                       // measured with glass in a coarse picture of the whole frame
     uint32_t reference_samples; // per pixel of clrt_reference; even, at most 65536; 0 means 256
 
     uint32_t tile_width, tile_height; // the unit of progress; changes no bit; 0 means 128

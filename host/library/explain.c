@@ -4,6 +4,7 @@
 #include "library/drawing.h"
 
 #include "session/explainer.h"
+#include "session/level.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +38,8 @@ static bool trace(ClrtExplanation *explanation, Drawing *drawing, const uint32_t
     Explainer explainer;
     ExplainedSample sample;
     const RenderSettings *settings = &drawing->request.settings;
-    if (!explainer_open(&explainer, &drawing->renderer->session, settings,
+    if (!session_choose_level(&drawing->renderer->session, &drawing->request, cause) ||
+        !explainer_open(&explainer, &drawing->renderer->session, settings,
                         &drawing->request.viewpoint, cause))
         return false;
     bool ok = true;

@@ -4,6 +4,7 @@
 #include "library/drawing.h"
 
 #include "base/clock.h"
+#include "session/level.h"
 #include "session/reference.h"
 
 #include <stdlib.h>
@@ -15,8 +16,11 @@ static bool draw_colors(Drawing *drawing, ClrtError *error)
     const RenderObserver observer = {drawing_continues, drawing};
     if (session_own_form(&drawing->renderer->session, &cause) == NULL)
         return check_fail_for(error, CLRT_SCENE, &cause);
-    return session_draw(&drawing->renderer->session, &drawing->request, &observer,
-                        &drawing->framebuffer, &drawing->drawn, &cause) ||
+    Session *session = &drawing->renderer->session;
+    SessionPicture *request = &drawing->request;
+    return (session_choose_level(session, request, &cause) &&
+            session_draw(session, request, &observer, &drawing->framebuffer, &drawing->drawn,
+                         &cause)) ||
            check_fail_for(error, CLRT_DEVICE, &cause);
 }
 

@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "device/buffer.h"
 
+#include <math.h>
 #include <string.h>
 
 static FrameData frame_of(const FlatScene *flat)
@@ -60,4 +61,11 @@ FrameData renderer_frame(const Renderer *renderer, const CameraData *camera)
     if (renderer->scene->traits.glass && frame.max_level > GLASS_LEVELS)
         frame.max_level = GLASS_LEVELS;
     return frame;
+}
+
+double renderer_truncation(const Renderer *renderer, uint64_t samples)
+{
+    const uint64_t *tallies = renderer->progress.tallies;
+    const double squares = (double)tallies[TALLY_CUT_HIGH] + (double)tallies[TALLY_CUT] * 0x1p-32;
+    return sqrt(squares / (double)samples);
 }

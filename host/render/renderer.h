@@ -63,3 +63,7 @@ static inline bool renderer_has_tallies(const Renderer *renderer)
 
 // Returns the kernel's parameters for a picture. Callers set the tile (tile_aim).
 FrameData renderer_frame(const Renderer *renderer, const CameraData *camera);
+
+// Returns the root mean square of the weights of cut rays over the samples counted in
+// renderer->progress. The scene must have glass.
+double renderer_truncation(const Renderer *renderer, uint64_t samples);

@@ -253,13 +253,18 @@ MissingPart scene_missing(const Scene *scene)
     return (MissingPart){0};
 }
 
-uint32_t scene_level_limit(const Scene *scene)
+bool scene_has_glass(const Scene *scene)
 {
     size_t place = 0;
     for (const Material *used; (used = next_used(scene, &place)) != NULL;)
         if (used->shader == SHADER_GLASS)
-            return GLASS_LEVELS;
-    return MAX_LEVEL_LIMIT;
+            return true;
+    return false;
+}
+
+uint32_t scene_level_limit(const Scene *scene)
+{
+    return scene_has_glass(scene) ? GLASS_LEVELS : MAX_LEVEL_LIMIT;
 }
 
 static double largest_reflectivity(const Scene *scene)

@@ -147,6 +147,8 @@ MissingPart scene_missing(const Scene *scene);
 // Returns an upper bound on the error of every color if rays of max_level return the background.
 double truncation_bound(const Scene *scene, uint32_t max_level);
 
+bool scene_has_glass(const Scene *scene);
+
 // Returns the largest max_level that pictures of the scene can have. Higher values are reduced to
 // this limit.
 uint32_t scene_level_limit(const Scene *scene);

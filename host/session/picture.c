@@ -14,9 +14,13 @@
 #include <math.h>
 #include <stdlib.h>
 
+// If cut rays cause more than this fraction of an error goal, another level costs less than the
+// samples that it saves.
+#define TRUNCATED_MOST 0.9
+
 typedef struct {
     const Session *session;
-    const SessionPicture *request;
+    SessionPicture *request;
     const RenderObserver *observer;
     Renderer renderer;
     const SceneForm *form;
@@ -88,10 +92,8 @@ bool session_prepare(Session *session, const SessionPicture *request, PictureRes
 static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
 {
     const Renderer *renderer = &drawing->renderer;
-    const uint64_t *tallies = renderer->progress.tallies;
-    const double squares = (double)tallies[TALLY_CUT_HIGH] + (double)tallies[TALLY_CUT] * 0x1p-32;
     if (renderer->scene->traits.glass && renderer->settings.max_level > 0 && samples > 0)
-        drawing->result->truncated = sqrt(squares / (double)samples);
+        drawing->result->truncated = renderer_truncation(renderer, samples);
 }
 
 static void count_tree(uint32_t *samples, const RefineTree *tree)
@@ -161,6 +163,32 @@ static bool refine(const PictureGoal *goal, Ladder *ladder, double start, GoalOu
     return left <= 0 || goal_reach_error(ladder, sqrt(left), outcome, error);
 }
 
+// Returns whether the samples so far show that another level would save more samples than it costs.
+static bool needs_level(const PictureDrawing *drawing, const Ladder *ladder)
+{
+    const SessionPicture *request = drawing->request;
+    return request->level_bound > 0 && request->goal.error > 0 &&
+           request->settings.max_level < GLASS_LEVELS &&
+           drawing->result->truncated > TRUNCATED_MOST * request->goal.error &&
+           pixel_requests_are_whole(&ladder->requests);
+}
+
+// Takes a sample in each pixel. If cut rays cause too much of an error goal, adds a level and
+// starts again.
+static bool open_ladder(PictureDrawing *drawing, const LadderSetup *setup, Ladder *ladder,
+                        Error *error)
+{
+    RenderSettings *settings = &drawing->request->settings;
+    while (ladder_open(ladder, setup, error)) {
+        measure_truncation(drawing, ladder->samples);
+        if (!needs_level(drawing, ladder))
+            return true;
+        ladder_close(ladder);
+        drawing->renderer.settings.max_level = ++settings->max_level;
+    }
+    return false;
+}
+
 static bool draw_for_goal(PictureDrawing *drawing, Error *error)
 {
     Ladder ladder;
@@ -178,9 +206,8 @@ static bool draw_for_goal(PictureDrawing *drawing, Error *error)
                                .normalization = &session->scene.normalization,
                                .picture = drawing->framebuffer,
                                .observer = drawing->observer};
-    if (!ladder_open(&ladder, &setup, error))
+    if (!open_ladder(drawing, &setup, &ladder, error))
         return false;
-    measure_truncation(drawing, ladder.samples);
     if (goal.truncated > 0)
         goal.truncated = result->truncated;
     const bool ok = refine(&goal, &ladder, start, &outcome, error);
@@ -233,7 +260,7 @@ static bool draw_evenly(PictureDrawing *drawing, Error *error)
     return true;
 }
 
-bool session_draw(Session *session, const SessionPicture *request, const RenderObserver *observer,
+bool session_draw(Session *session, SessionPicture *request, const RenderObserver *observer,
                   Framebuffer *framebuffer, PictureResult *result, Error *error)
 {
     PictureDrawing drawing = {.session = session,

@@ -28,8 +28,10 @@ typedef struct {
     uint32_t reference_samples; // per pixel of the reference; an even number
     uint32_t reference_level;   // the reference's max_level
     double truncated;           // bound on the error that RenderSettings::max_level causes
-    bool counts;                // rays and tests
-    bool keeps_samples;         // stores PictureResult::pixel_samples
+    double level_bound; // above 0, only with glass: the error by which session_choose_level and
+                        // session_draw choose RenderSettings::max_level
+    bool counts;        // rays and tests
+    bool keeps_samples; // stores PictureResult::pixel_samples
 } SessionPicture;
 
 typedef struct {
@@ -68,6 +70,7 @@ bool session_prepare(Session *session, const SessionPicture *request, PictureRes
                      Error *error);
 
 // Draws the picture into framebuffer, whose size is given by tile_frame_size. If the observer stops
-// the picture, the call returns true and result->is_complete is false.
-bool session_draw(Session *session, const SessionPicture *request, const RenderObserver *observer,
+// the picture, the call returns true and result->is_complete is false. If request->level_bound is
+// above 0, the call may increase settings.max_level for an error goal.
+bool session_draw(Session *session, SessionPicture *request, const RenderObserver *observer,
                   Framebuffer *framebuffer, PictureResult *result, Error *error);

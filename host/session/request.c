@@ -10,6 +10,9 @@
 // levels cost less time than more samples.
 #define TRUNCATION_PART 0.25
 
+// The same fraction for scenes with glass, whose time increases by about 1.4 with each level.
+#define GLASS_PART 0.7
+
 // The default samples per pixel and axis if the scene is a mesh file.
 #define MESH_SAMPLES 3
 
@@ -114,11 +117,18 @@ static uint32_t limited_level(uint32_t level, const Scene *scene)
     return level < limit ? level : limit;
 }
 
+// Returns the largest error that a chosen level may cause.
+static double level_bound(const ClrtPicture *wanted, const Scene *scene)
+{
+    const double part = scene_has_glass(scene) ? GLASS_PART : TRUNCATION_PART;
+    return wanted->truncation > 0 ? wanted->truncation : wanted->error * part;
+}
+
+// With glass, a chosen level is preliminary (session_choose_level).
 static uint32_t max_level_of(const ClrtPicture *wanted, const Scene *scene)
 {
     if (chooses_level(wanted))
-        return truncation_level(scene, wanted->truncation > 0 ? wanted->truncation
-                                                              : wanted->error * TRUNCATION_PART);
+        return truncation_level(scene, level_bound(wanted, scene));
     if (wanted->max_level == CLRT_LEVEL_NONE)
         return 0;
     const uint32_t level = wanted->max_level > 0 ? (uint32_t)wanted->max_level : scene->max_level;
@@ -175,6 +185,8 @@ bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpo
                                 .reference_level = reference_level(wanted, scene),
                                 .truncated = truncation_bound(scene, level),
                                 .counts = wanted->statistics};
+    if (chooses_level(wanted) && scene_has_glass(scene))
+        picture->level_bound = level_bound(wanted, scene);
     if (wanted->error > 0 && wanted->max_level == 0)
         picture->goal.truncated = picture->truncated;
     picture->settings =

@@ -76,9 +76,9 @@ RenderSettings tracer_settings(const ViewTracer *tracer, const Pass *pass)
 bool tracer_draw(ViewTracer *tracer, const Shot *shot, const RenderObserver *observer,
                  Framebuffer *framebuffer, Error *error)
 {
-    const SessionPicture request = {.settings = tracer_settings(tracer, shot->pass),
-                                    .viewpoint = *shot->camera,
-                                    .counts = shot->pass->kind == PASS_COUNT};
+    SessionPicture request = {.settings = tracer_settings(tracer, shot->pass),
+                              .viewpoint = *shot->camera,
+                              .counts = shot->pass->kind == PASS_COUNT};
     return session_draw(&tracer->session, &request, observer, framebuffer, &tracer->drawn, error);
 }
 

@@ -133,17 +133,87 @@ TEST(in_glass_the_weights_of_cut_rays_bound_the_error)
     clrt_scene_free(glass);
 }
 
-TEST(in_glass_an_error_includes_the_cut_rays)
+static ClrtResult draw_file(ClrtRenderer *drawer, const char *path, ClrtPicture picture, float *to)
 {
+    ClrtError error;
     ClrtResult result = {.size = sizeof result};
-    ClrtPicture picture = request();
-    ClrtScene *glass = clrt_scene_load(program_file("tests/image/glass.scn"), NULL, NULL);
-    picture.error = 0.05;
+    ClrtScene *loaded = clrt_scene_load(path, NULL, NULL);
     picture.result = &result;
-    assert_true(clrt_render(renderer, glass, &picture, rgb, NULL));
-    assert_true(!result.goal_missed && result.max_level == 16 && result.error_bound <= 0.05);
-    assert_true(result.truncation > 0 && result.truncation < result.error);
-    clrt_scene_free(glass);
+    if (!clrt_render(drawer, loaded, &picture, to, &error))
+        fail_msg("%s", error.text);
+    clrt_scene_free(loaded);
+    return result;
+}
+
+static ClrtResult draw_glass(ClrtRenderer *drawer, ClrtPicture picture)
+{
+    return draw_file(drawer, program_file("tests/image/glass.scn"), picture, rgb);
+}
+
+// The picture is so small that the level is measured in all its pixels.
+TEST(in_glass_a_truncation_selects_the_smallest_level)
+{
+    ClrtPicture picture = request(), fixed = request();
+    picture.truncation = 0.02;
+    const ClrtResult chosen = draw_glass(renderer, picture);
+    assert_true(chosen.max_level > 3 && chosen.max_level < 16 && chosen.truncation <= 0.02);
+    fixed.max_level = (int32_t)chosen.max_level - 1;
+    assert_true(draw_glass(renderer, fixed).truncation > 0.02);
+    picture.crop_width = picture.crop_height = 9;
+    assert_int_equal(draw_glass(renderer, picture).max_level, chosen.max_level);
+}
+
+TEST(in_glass_every_kernel_and_tile_selects_the_same_level)
+{
+    static const ClrtKernel kernels[] = {CLRT_KERNEL_PAIR, CLRT_KERNEL_WIDE};
+    ClrtPicture picture = request();
+    picture.truncation = 0.02;
+    const ClrtResult usual = draw_glass(renderer, picture);
+    picture.tile_width = picture.tile_height = 7;
+    for (int i = 0; i < 2; i++) {
+        const ClrtSettings settings = {.size = sizeof settings,
+                                       .device = getenv("CLRT_DEVICE"),
+                                       .kernel = kernels[i],
+                                       .threads = 1};
+        ClrtRenderer *other = clrt_renderer_create(&settings, NULL);
+        const ClrtResult result = draw_glass(other, picture);
+        assert_int_equal(result.max_level, usual.max_level);
+        assert_true(result.truncation == usual.truncation);
+        clrt_renderer_free(other);
+    }
+}
+
+TEST(in_glass_an_error_includes_the_cut_rays_of_a_chosen_level)
+{
+    ClrtPicture picture = request();
+    picture.error = 0.05;
+    const ClrtResult result = draw_glass(renderer, picture);
+    assert_true(!result.goal_missed && result.error_bound <= 0.05);
+    assert_true(result.max_level < 9 && result.truncation > 0 && result.truncation < 0.045);
+    assert_true(result.truncation < result.error);
+}
+
+// The middle of the picture shows nested balls. The coarse picture of 64 x 64 pixels misses them.
+TEST(in_glass_an_error_adds_levels_for_balls_between_coarse_pixels)
+{
+    static float picture_rgb[3 * 256 * 256];
+    ClrtPicture picture = {.size = sizeof picture, .truncation = 0.002};
+    char path[] = "/tmp/clrt-balls-XXXXXX.scn";
+    FILE *stream = fdopen(mkstemps(path, 4), "w");
+    assert_non_null(stream);
+    fputs("size 256 256\ncamera 0 -9 0  0 0 0  orthographic 256\ndefine clear glass\n"
+          "define air glass ior 0.6667\n",
+          stream);
+    for (int i = 0; i < 6; i++)
+        fprintf(stream, "material %s\nsphere 0 0 0 %g\n", i % 2 == 0 ? "clear" : "air",
+                2.7 - 0.2 * i);
+    fclose(stream);
+    assert_int_equal(draw_file(renderer, path, picture, picture_rgb).max_level, 3);
+    picture.truncation = 0;
+    picture.error = 0.01;
+    const ClrtResult refined = draw_file(renderer, path, picture, picture_rgb);
+    assert_true(refined.max_level > 3 && refined.max_level < 16 && !refined.goal_missed);
+    unlink(path);
 }
 
 TEST(a_turned_camera_is_the_turntables)

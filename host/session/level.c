@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Draws a coarse picture with more and more levels, until the weights of the cut rays are small
+// enough (kernels/branches.cl). Each further level multiplies the time of a picture by about 1.4.
+//
+// Invariant: the sums of the weights are integers, so the level does not depend on the kernels'
+// form, on threads or on tiles.
+#include "session/level.h"
+
+#include "refine/ladder.h"
+#include "render/draw.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// The largest number of pixels of the coarse picture, except for very narrow pictures.
+#define COARSE_PIXELS 4096
+
+// A ray that enters a ball and leaves it has this many levels. Small pieces of glass that the
+// coarse picture misses get them too.
+#define LEVEL_LEAST 3
+
+static RenderSettings coarse_settings(const RenderSettings *settings)
+{
+    const uint32_t width = render_whole_width(settings), height = render_whole_height(settings);
+    const uint32_t step = (uint32_t)ceil(sqrt((double)width * height / COARSE_PIXELS));
+    const uint32_t columns = width / step > 0 ? width / step : 1;
+    const uint32_t rows = height / step > 0 ? height / step : 1;
+    return (RenderSettings){
+        .width = columns, .height = rows, .samples = 1, .tile_width = columns, .tile_height = rows};
+}
+
+static bool trace_centers(Renderer *renderer, const CameraData *camera, Error *error)
+{
+    const uint32_t width = renderer->settings.width, count = width * renderer->settings.height;
+    FrameData frame = renderer_frame(renderer, camera);
+    PixelRequest *requests = memory_raw(count, sizeof *requests, error);
+    PixelSums *sums = memory_raw(count, sizeof *sums, error);
+    const SampleList list = {requests, sums, count};
+    frame.samples = LADDER_GRID;
+    for (uint32_t i = 0; requests != NULL && i < count; i++)
+        requests[i] = (PixelRequest){.x = i % width, .y = i / width, .samples = 1};
+    const bool ok =
+        requests != NULL && sums != NULL && sampler_trace(renderer, &frame, &list, NULL, error);
+    free(requests);
+    free(sums);
+    return ok;
+}
+
+static bool draw_tile(Renderer *renderer, const CameraData *camera, Error *error)
+{
+    Framebuffer colors;
+    const RenderSettings *settings = &renderer->settings;
+    const bool ok = framebuffer_make(&colors, settings->width, settings->height, error) &&
+                    renderer_draw(renderer, camera, NULL, &colors, error);
+    framebuffer_free(&colors);
+    return ok;
+}
+
+// Stores the error that the cut rays of settings.max_level cause in the coarse picture.
+static bool measure(Renderer *renderer, const CameraData *camera, double *truncated, Error *error)
+{
+    const bool is_ladder = renderer->kernel->entry == &ladder_entry;
+    const RenderSettings *settings = &renderer->settings;
+    renderer->progress = (RenderProgress){0};
+    if (!(is_ladder ? trace_centers : draw_tile)(renderer, camera, error))
+        return false;
+    *truncated = renderer_truncation(renderer, (uint64_t)settings->width * settings->height);
+    return true;
+}
+
+bool session_choose_level(Session *session, SessionPicture *request, Error *error)
+{
+    Renderer renderer;
+    SessionPicture coarse = *request;
+    const bool is_ladder = picture_entry(&request->goal) == &ladder_entry;
+    const RendererUse use = {.entry = is_ladder ? &ladder_entry : &draw_entry,
+                             .counts = request->counts};
+    if (request->level_bound <= 0)
+        return true;
+    if (!session_renderer(session, &use, &request->settings, &renderer, error))
+        return false;
+    renderer.settings = coarse.settings = coarse_settings(&request->settings);
+    const CameraData camera = session_camera(session, &coarse, is_ladder ? LADDER_GRID : 1);
+    uint32_t *level = &renderer.settings.max_level;
+    double truncated = INFINITY;
+    for (*level = LEVEL_LEAST; *level < GLASS_LEVELS; ++*level) {
+        if (!measure(&renderer, &camera, &truncated, error))
+            return false;
+        if (truncated <= request->level_bound)
+            break;
+    }
+    request->settings.max_level = *level;
+    return true;
+}
