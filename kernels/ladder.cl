@@ -238,8 +238,9 @@ static NOT_INLINE void fill_block(const FrameData *frame, const Item *item)
 
 static inline bool is_block_of_sky(const FrameData *frame, const Item *item)
 {
-    return BLOCK > 1 && CLRT_STATISTICS == 0 && item->pixels != NULL &&
-           is_sky(frame, item->block.x, item->block.y);
+    if (BLOCK == 1 || item->pixels == NULL)
+        return false;
+    return !CLRT_STATISTICS && is_sky(frame, item->block.x, item->block.y);
 }
 
 // Stores the sums of the requests `first` to `end` - 1 at the same indices of `results`, which are
