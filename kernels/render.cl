@@ -109,6 +109,8 @@ static inline void store_tally(global uint *counts, const Tally *tally)
 #if CLRT_GLASS
     counts[TALLY_CUT] = (uint)tally->cut;
     counts[TALLY_CUT_HIGH] = (uint)(tally->cut >> 32);
+#else
+    counts[TALLY_CUT] = counts[TALLY_CUT_HIGH] = 0;
 #endif
 }
 

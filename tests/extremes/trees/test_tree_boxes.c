@@ -8,11 +8,8 @@
 
 #include "device/kernel_choice.h"
 
-// A part of the margin that culling needs, relative to the box's largest coordinate. With division
-// of 2.5 ulp, the triangle test accepts triangles up to 34 units of rounding beside the ray, and
-// the slabs' errors add 8 units. Another 25 units cover only some hits behind the ray's start. B9
-// of docs/numerics.md adds up all errors: 224 units.
-#define NEEDED_MARGIN (67 * 0x1p-24)
+// The margin that culling needs, relative to the box's largest coordinate (docs/numerics.md, B9).
+#define NEEDED_MARGIN (224 * 0x1p-24)
 
 typedef struct {
     const FlatScene *flat;
