@@ -50,9 +50,13 @@
 // of 1.5, errors of thin strips reached 1.14 times the goal.
 #define NESTED_FACTOR 1.75
 
-// A stratum's first step selects this fraction of it as controls, but at least FIRST_PIXELS pixels.
-#define FIRST_FRACTION (1.0 / 32)
-#define FIRST_PIXELS   24
+// A stratum's first step selects controls: so many that the prior will count as at most PRIOR_PART
+// of the aim, but a fraction between FIRST_LEAST and FIRST_MOST of the stratum, and at least
+// FIRST_PIXELS pixels.
+#define PRIOR_PART   0.03
+#define FIRST_LEAST  (1.0 / 128)
+#define FIRST_MOST   (1.0 / 32)
+#define FIRST_PIXELS 32
 
 // With a factor of 2, more rounds were necessary, and pictures took 6 to 10 % longer.
 #define FRACTION_GROWTH 4
@@ -242,6 +246,14 @@ static void measure_step(Step *step, const Strata *strata, const Forecast *forec
     step->score = step->gain / (step->pixels * step_cost(step->stratum));
 }
 
+// Returns the fraction of a stratum that its first step selects.
+static double first_fraction(const Stratum *stratum, const Outlook *outlook, double aim)
+{
+    const double pixels = STRATUM_WEIGHT * outlook->left * outlook->mean / (PRIOR_PART * aim);
+    const double entered = (double)stratum->entered;
+    return fmax(fmin(fmax(pixels / entered, FIRST_LEAST), FIRST_MOST), FIRST_PIXELS / entered);
+}
+
 // Computes the next step of a stratum. Returns false if no more pixels can advance. The step
 // selects the stratum's first controls, or multiplies its fraction by FRACTION_GROWTH.
 static bool next_step(Step *step, uint32_t number, const Strata *strata, const Forecast *forecast,
@@ -252,13 +264,11 @@ static bool next_step(Step *step, uint32_t number, const Strata *strata, const F
     const uint32_t rung = strata_rung(number);
     if (rung + 1 == LADDER_RUNGS || outlook->left < 1 || stratum->fraction >= 1)
         return false;
-    *step = (Step){.stratum = number,
-                   .fraction = fmax(FIRST_FRACTION, FRACTION_GROWTH * stratum->fraction)};
-    step->is_forced =
-        stratum->fraction == 0 && (rung == 0 || outlook->left * outlook->mean > FORCED_PART * aim);
-    if (stratum->fraction == 0)
-        step->fraction = fmax(step->fraction, FIRST_PIXELS / (double)stratum->entered);
-    step->fraction = fmin(step->fraction, 1);
+    const bool is_first = stratum->fraction == 0;
+    const double fraction = is_first ? first_fraction(stratum, outlook, aim)
+                                     : fmax(FIRST_MOST, FRACTION_GROWTH * stratum->fraction);
+    *step = (Step){.stratum = number, .fraction = fmin(fraction, 1)};
+    step->is_forced = is_first && (rung == 0 || outlook->left * outlook->mean > FORCED_PART * aim);
     measure_step(step, strata, forecast);
     return true;
 }

@@ -31,7 +31,7 @@ TEST(every_form_threads_and_tree_refine_the_same)
     }
 }
 
-// Controls are at least 24 random pixels of each stratum of unrefined pixels (ladder_strata.h), or
+// Controls are at least 32 random pixels of each stratum of unrefined pixels (ladder_strata.h), or
 // all pixels of a smaller stratum. clrt refines them to check that centers are representative.
 TEST(with_a_goal_of_any_error_only_controls_are_refined)
 {
@@ -119,7 +119,7 @@ TEST(parts_that_no_center_sees_are_found)
 
 // Only random controls find these parts, so the test limits the rate of failures. With a prior that
 // does not depend on the reflectivity, 27 of 200 such pictures exceed 1.1 times the goal, instead
-// of 10.
+// of 3.
 #define MIRRORED 40
 
 TEST(parts_that_only_a_mirror_shows_are_missed_in_at_most_1_of_20_pictures)
