@@ -6,11 +6,10 @@
 // form, on threads or on tiles.
 #include "session/level.h"
 
-#include "refine/ladder.h"
+#include "refine/ladder_requests.h"
 #include "render/draw.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 // The largest number of pixels of the coarse picture, except for very narrow pictures.
 #define COARSE_PIXELS 4096
@@ -29,43 +28,21 @@ static RenderSettings coarse_settings(const RenderSettings *settings)
         .width = columns, .height = rows, .samples = 1, .tile_width = columns, .tile_height = rows};
 }
 
-static bool trace_centers(Renderer *renderer, const CameraData *camera, Error *error)
-{
-    const uint32_t width = renderer->settings.width, count = width * renderer->settings.height;
-    FrameData frame = renderer_frame(renderer, camera);
-    PixelRequest *requests = memory_raw(count, sizeof *requests, error);
-    PixelSums *sums = memory_raw(count, sizeof *sums, error);
-    const SampleList list = {requests, sums, count};
-    frame.samples = LADDER_GRID;
-    for (uint32_t i = 0; requests != NULL && i < count; i++)
-        requests[i] = (PixelRequest){.x = i % width, .y = i / width, .samples = 1};
-    const bool ok =
-        requests != NULL && sums != NULL && sampler_trace(renderer, &frame, &list, NULL, error);
-    free(requests);
-    free(sums);
-    return ok;
-}
-
-static bool draw_tile(Renderer *renderer, const CameraData *camera, Error *error)
-{
-    Framebuffer colors;
-    const RenderSettings *settings = &renderer->settings;
-    const bool ok = framebuffer_make(&colors, settings->width, settings->height, error) &&
-                    renderer_draw(renderer, camera, NULL, &colors, error);
-    framebuffer_free(&colors);
-    return ok;
-}
-
-// Stores the error that the cut rays of settings.max_level cause in the coarse picture.
+// Draws the coarse picture, and stores the error that cut rays of settings.max_level cause there.
 static bool measure(Renderer *renderer, const CameraData *camera, double *truncated, Error *error)
 {
+    Framebuffer colors;
+    const uint32_t width = renderer->settings.width, height = renderer->settings.height;
     const bool is_ladder = renderer->kernel->entry == &ladder_entry;
-    const RenderSettings *settings = &renderer->settings;
+    PixelRequests centers = {.renderer = renderer, .frame = renderer_frame(renderer, camera)};
+    centers.frame.samples = LADDER_GRID;
     renderer->progress = (RenderProgress){0};
-    if (!(is_ladder ? trace_centers : draw_tile)(renderer, camera, error))
-        return false;
-    *truncated = renderer_truncation(renderer, (uint64_t)settings->width * settings->height);
-    return true;
+    const bool ok = framebuffer_make(&colors, width, height, error) &&
+                    (is_ladder ? pixel_requests_draw_centers(&centers, &colors, error)
+                               : renderer_draw(renderer, camera, NULL, &colors, error));
+    framebuffer_free(&colors);
+    *truncated = renderer_truncation(renderer, (uint64_t)width * height);
+    return ok;
 }
 
 bool session_choose_level(Session *session, SessionPicture *request, Error *error)
