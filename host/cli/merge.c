@@ -55,13 +55,27 @@ static const char *mismatch_of(const Merging *merging, const StoredTiles *tiles,
     return stored_tiles_has(image, &merging->layers) ? NULL : "other channels";
 }
 
+// Returns whether the list has the name. The list separates names by "; ".
+static bool has_name(const char *list, const char *name)
+{
+    const size_t length = strlen(name);
+    while (strncmp(list, name, length) != 0 ||
+           (list[length] != '\0' && strncmp(list + length, "; ", 2) != 0)) {
+        list = strstr(list, "; ");
+        if (list == NULL)
+            return false;
+        list += 2;
+    }
+    return true;
+}
+
 // Appends the part's device and driver to the provenance, unless it contains them already.
 static void note_device(Merging *merging, const StoredImage *image)
 {
     for (int kind = STORED_DEVICE; kind <= STORED_DRIVER; kind++) {
         char *devices = merging->provenance.texts[kind];
         const size_t length = strlen(devices);
-        if (strstr(devices, image->texts[kind]) == NULL)
+        if (!has_name(devices, image->texts[kind]))
             snprintf(devices + length, STORED_TEXT_SIZE - length, "; %s", image->texts[kind]);
     }
 }

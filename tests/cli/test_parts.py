@@ -87,6 +87,16 @@ class Parts(SharedWork):
         words = [SCENE, "-s", "20x9", "--tune", "tile=16x8"]
         self.expect_whole(self.draw("many", *words, of=5), *words)
 
+    def test_the_whole_lists_each_device_of_its_parts_once(self):
+        """The names of the second and third part's device are beginnings of the first one's name."""
+        name = read_header(self.bytes_of(self.thirds[0]))[0]["clrt:device"]
+        for part, length in (2, 5), (3, 3):
+            short = name[:length].ljust(len(name), b"\0")
+            self.write(**{f"device{part}_exr": self.bytes_of(self.thirds[part - 1]).replace(name, short)})
+        self.clrt("merge", "device3.exr", self.thirds[0], "device2.exr", "-o", "devices.exr")
+        found = read_header(self.bytes_of("devices.exr"))[0]["clrt:device"]
+        self.assertEqual(found, b"; ".join([name[:3], name, name[:5]]))
+
     def test_tasks_of_an_array_draw_their_parts(self):
         for variable, first in ("SLURM_ARRAY_TASK_ID", 1), ("JOB_COMPLETION_INDEX", 0):
             for part in range(3):
