@@ -10,6 +10,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const Studio *studio;
+
+static int keep_studio(void **state)
+{
+    studio = *state;
+    return 0;
+}
+
+FIXTURES(picture_setup, picture_teardown)
+AT_START(studio)
+{
+    test_set_up(keep_studio);
+}
+
 static void draw_plain(Certified *certified, const Scene *scene, const CertifiedView *view)
 {
     PictureRequest request = picture_request(NULL, view->view);
@@ -20,7 +34,7 @@ static void draw_plain(Certified *certified, const Scene *scene, const Certified
     certified->plain = rendered_with(request, "primitive,material,shadow", &certified->seen);
 }
 
-static bool certify(Certified *certified, const Studio *studio, Error *error)
+static bool certify(Certified *certified, Error *error)
 {
     SceneBuffers buffers = {0};
     const RenderSettings *settings = &certified->settings;
@@ -53,7 +67,7 @@ static bool copy_plain(Certified *certified, Error *error)
     return true;
 }
 
-Certified certified_make(const Studio *studio, const Scene *scene, const CertifiedView *view)
+Certified certified_make(const Scene *scene, const CertifiedView *view)
 {
     Error error = {0};
     Certified certified = {.settings = picture_settings(view->width).render};
@@ -66,7 +80,7 @@ Certified certified_make(const Studio *studio, const Scene *scene, const Certifi
         camera_make(&scene->viewpoints.data[view->view - 1], &certified.stage.normalization,
                     settings->width, settings->height, settings->samples);
     draw_plain(&certified, scene, view);
-    require(copy_plain(&certified, &error) && certify(&certified, studio, &error), &error);
+    require(copy_plain(&certified, &error) && certify(&certified, &error), &error);
     return certified;
 }
 

@@ -20,6 +20,6 @@ typedef struct {
     CertaintyMap map;
 } Certified;
 
-// Any failure ends the test.
-Certified certified_make(const Studio *studio, const Scene *scene, const CertifiedView *view);
+// Any failure ends the test. All tests of a program share a studio.
+Certified certified_make(const Scene *scene, const CertifiedView *view);
 void certified_free(Certified *certified);

@@ -18,8 +18,6 @@
 #define BLOCK  CLRT_SOURCE_FOLDER "/tests/image/block.ply"
 #define BALL   CLRT_SOURCE_FOLDER "/tests/image/ball.ply"
 
-static const Studio *studio;
-
 static void write_place(FILE *stream, uint64_t *random, double height)
 {
     fprintf(stream, " %g %g %g", random_between(random, -1.6, 1.6),
@@ -81,7 +79,7 @@ static void check_scene(Sum *sum, uint64_t seed)
     FREED_BY(framebuffer_free) Framebuffer exact = rendered(&in_fp64);
     FREED_BY(scene_free) Scene scene = rendered_scene(path);
     const CertifiedView view = {1, scene.width, scene.height, 1};
-    FREED_BY(certified_free) Certified certified = certified_make(studio, &scene, &view);
+    FREED_BY(certified_free) Certified certified = certified_make(&scene, &view);
     unlink(path);
     for (uint32_t i = 0; i < exact.width * exact.height; i++) {
         const uint32_t certainty = certified.map.marks[i].certainty;
@@ -115,16 +113,4 @@ TEST(certified_pixels_of_random_glass_agree_with_fp64)
     assert_int_equal(sum.wrong, 0);
     assert_true(sum.differing > 0); // otherwise, the test would not notice wrong certificates
     assert_true(2 * sum.certified >= sum.pixels);
-}
-
-static int keep_studio(void **state)
-{
-    studio = *state;
-    return 0;
-}
-
-FIXTURES(picture_setup, picture_teardown)
-AT_START(studio)
-{
-    test_set_up(keep_studio);
 }

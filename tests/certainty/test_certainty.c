@@ -18,8 +18,6 @@
 #include <stdatomic.h>
 #include <string.h>
 
-static const Studio *studio;
-
 typedef struct {
     uint64_t pixels, compared, wrong, poor; // poor: views with too few certified pixels
 } Sum;
@@ -143,7 +141,7 @@ static void check_view(Sum *sum, const Scene *scene, const char *name, uint32_t 
     const CertifiedView wanted = {
         .view = view, .width = scene->width / part, .height = scene->height / part, .samples = 1};
     const uint32_t step = (uint32_t)tier_size(scene_triangle_count(scene) > 1000 ? 8 : 4, 1);
-    FREED_BY(certified_free) Certified certified = certified_make(studio, scene, &wanted);
+    FREED_BY(certified_free) Certified certified = certified_make(scene, &wanted);
     require(real_compare(&comparison, &certified, step, &error), &error);
     const uint64_t *counts = certified.map.counts;
     const uint64_t pixels = counts[0] + counts[1] + counts[2];
@@ -245,16 +243,4 @@ TEST(coincident_triangles_are_certified)
     FREED_BY(scene_free) Scene scene = extreme_coincident();
     check_views(&sum, &scene, "coincident", 980);
     judge(&sum);
-}
-
-static int keep_studio(void **state)
-{
-    studio = *state;
-    return 0;
-}
-
-FIXTURES(picture_setup, picture_teardown)
-AT_START(studio)
-{
-    test_set_up(keep_studio);
 }
