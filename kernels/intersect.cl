@@ -18,6 +18,8 @@ static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mas
     const bool is_path = plain_kind(ray->kind) == RAY_REFLECTED;
     if (!(is_path || CLRT_GLASS) || !any_lane(is_own))
         return INFINITY;
+    if (!any_lane(is_own && !leads_away(sphere, ray->origin, ray->direction)))
+        return INFINITY;
     if (is_path)
         return sphere_chord(sphere, ray->origin, ray->direction);
     const Real scale = 1.0f / sqrt(dot_product(ray->direction, ray->direction));

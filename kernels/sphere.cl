@@ -14,11 +14,21 @@ typedef struct {
     Real high, low;
 } TwoFloat;
 
+// Returns the rounded sum and its error. AVX-512 sorts the operands by magnitude, so that fewer
+// operations depend on each other. Both ways are exact, and return +0 for an error of zero.
 static inline TwoFloat two_sum(Real a, Real b)
 {
     const Real sum = a + b;
+#if CLRT_LANES == 16 && defined(__AVX512DQ__) && __has_builtin(__builtin_ia32_rangeps512_mask)
+    typedef float Register __attribute__((vector_size(64)));
+    const Register c = (Register)a, d = (Register)b;
+    const Register less = __builtin_ia32_rangeps512_mask(c, d, 6, c, (ushort)ALL_LANES, 4);
+    const Register more = __builtin_ia32_rangeps512_mask(c, d, 7, c, (ushort)ALL_LANES, 4);
+    return (TwoFloat){sum, (as_float16(more) - sum) + as_float16(less)};
+#else
     const Real part = sum - a;
     return (TwoFloat){sum, (a - (sum - part)) + (b - part)};
+#endif
 }
 
 // Returns two_sum(a, b) in fewer operations. Requires |a| >= |b|.
@@ -152,14 +162,18 @@ static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
     return two_add(two_add(two_square(x), two_square(y)), beyond).high;
 }
 
+static inline Real3 plain_center(const Sphere *sphere)
+{
+    return real3_of(sphere->center.x.high, sphere->center.y.high, sphere->center.z.high);
+}
+
 // Returns whether plain Reals already prove that the line misses the sphere. The error of this test
 // is at most 16u times the sum of all squared lengths (B15), and the test allows 64u. Most spheres
 // then need no two-float test. In a scene with three spheres, two-float tests for all rays would
 // take half of the rendering time.
 static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
-    const Real3 center =
-        real3_of(sphere->center.x.high, sphere->center.y.high, sphere->center.z.high);
+    const Real3 center = plain_center(sphere);
     const Real3 f = difference(origin, center);
     const Real3 foot = difference(f, scaled3(dot_product(f, d) / dot_product(d, d), d));
     const Real rr = sphere->radius.high * sphere->radius.high;
@@ -168,11 +182,41 @@ static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
     return apart > 64.0f * UNIT_ROUNDOFF * squares;
 }
 
+// Returns whether plain Reals prove that the ray leads away from the sphere's center. The error of
+// `along` is at most 8u times the root of squares * |d|^2 (B15), and the test allows 32u. The first
+// comparison prevents underflow.
+static inline Mask leads_away(const Sphere *sphere, Real3 origin, Real3 d)
+{
+    const Real3 center = plain_center(sphere);
+    const Real along = dot_product(difference(origin, center), d);
+    const Real squares = dot_product(origin, origin) + dot_product(center, center);
+    const Real doubt = 1024.0f * UNIT_ROUNDOFF * UNIT_ROUNDOFF * squares * dot_product(d, d);
+    return along > 0x1p-40f && along * along > doubt;
+}
+
+// Returns 1 if plain Reals prove that the origin is outside the sphere, -1 if they prove that it is
+// inside, and else 0. The error is at most 16u times the squares (B15), and the test allows 64u.
+static inline Mask plain_side(const Sphere *sphere, Real3 origin)
+{
+    const Real3 center = plain_center(sphere), f = difference(origin, center);
+    const Real rr = sphere->radius.high * sphere->radius.high;
+    const Real power = dot_product(f, f) - rr;
+    const Real squares = dot_product(origin, origin) + dot_product(center, center) + rr;
+    const Real doubt = 64.0f * UNIT_ROUNDOFF * squares;
+    const Mask inside = power < -doubt ? (Mask)(-1) : (Mask)(0);
+    return power > doubt ? (Mask)(1) : inside;
+}
+
 // Returns the smallest t > 0 at which origin + t * direction hits the sphere. Returns INFINITY if
 // the ray misses or its lane is not wanted. A ray from inside hits the far wall.
 static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
 {
-    const Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
+    if (!any_lane(wanted))
+        return INFINITY;
+    Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
+    if (!any_lane(is_near))
+        return INFINITY;
+    is_near = is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
     if (!any_lane(is_near))
         return INFINITY;
     const TwoFloat3 f = sphere_to_origin(sphere, origin);

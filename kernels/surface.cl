@@ -174,8 +174,12 @@ static inline Surface triangle_surface(const Tracer *tracer, const Ray *ray, con
 // a grazing ray, although rounding may turn the normal away from this ray.
 static inline Mask comes_from_outside(const Sphere *sphere, const Ray *ray, const Hit *hit)
 {
+    const Mask enters = ray->own != hit->id;
+    const Mask side = plain_side(sphere, ray->origin);
+    if (!any_lane(enters && side == 0))
+        return enters && side > 0;
     const TwoFloat3 f = sphere_to_origin(sphere, ray->origin);
-    return ray->own != hit->id && sphere_power(f, sphere->radius) > 0.0f;
+    return enters && sphere_power(f, sphere->radius) > 0.0f;
 }
 
 static inline Surface sphere_surface(const Tracer *tracer, const Ray *ray, const Hit *hit)

@@ -22,8 +22,9 @@ static inline void store3(global Scalar *values, Real3 v)
     values[2] = v.z;
 }
 
-// Stores a sphere's discriminant, computed with sums of two floats, and its negative, computed with
-// plain floats as in sphere_is_passed. The triangle's corners give the center and the radius.
+// Stores a sphere's discriminant, computed with sums of two floats, and three values computed with
+// plain floats: its negative as in sphere_is_passed, the power of the origin as in plain_side, and
+// the projection as in leads_away. The triangle's corners give the center and the radius.
 static inline void probe_sphere(const Ray *ray, const Corners *corners, global Scalar *values)
 {
     const Real3 a = corners->a, b = scaled3(0x1p-25f, corners->b), o = ray->origin;
@@ -35,14 +36,16 @@ static inline void probe_sphere(const Ray *ray, const Corners *corners, global S
     const Real3 foot = difference(plain, scaled3(dot_product(plain, d) / dd, d));
     values[0] = sphere_discriminant(f, d, along, dd, two_square(sphere.radius));
     values[1] = dot_product(foot, foot) - r * r;
+    values[2] = dot_product(plain, plain) - r * r;
+    values[3] = dot_product(plain, d);
 }
 
-// A ray has six floats: {origin, direction}. Each ray has its triangle and 43 results.
+// A ray has six floats: {origin, direction}. Each ray has its triangle and 45 results.
 kernel void probe_bounds(global const float *rays, global const TriangleData *triangles,
                          global Scalar *results)
 {
     const uint item = get_global_id(0);
-    global Scalar *values = results + 43 * item;
+    global Scalar *values = results + 45 * item;
     Tracer tracer;
     tracer.triangles = (global const Triangles *)triangles;
     Ray ray;

@@ -19,7 +19,7 @@ typedef struct {
     float sheared[3][3], edges[3], contains, t, error, tie, behind, near_high, near_low, point[3];
     float height, doubt, point_height, point_doubt, height_over, point_height_over, inverse_z;
     float inverse[3], near_offset[3], far_offset[3];
-    float unit[3], discriminant, apart;
+    float unit[3], discriminant, apart, power, along;
 } Traced;
 
 typedef struct {
@@ -46,6 +46,8 @@ typedef enum {
     BEHIND,
     UNIT,
     SPHERE_PASSED,
+    SPHERE_SIDE,
+    SPHERE_AWAY,
     DISCRIMINANT,
     BOUNDS
 } Bound;
@@ -70,6 +72,8 @@ static const char *const names[BOUNDS] = {
     "B12: behind_of, 448 u",
     "B13: unit vector, 4.5 u",
     "B15: sphere_is_passed, 16 u",
+    "B15: plain_side, 16 u",
+    "B15: leads_away, 8 u",
     "B15: discriminant, 64 u^2",
 };
 
@@ -311,6 +315,10 @@ static void check_sphere(int i, const Exact *exact)
     const Quad squares = dot3(exact->origin, exact->origin) + of_center * of_center;
     note(i, SPHERE_PASSED, magnitude(traced[i].apart - (squared - radius * radius)),
          16 * U * (squares + radius * radius));
+    note(i, SPHERE_SIDE, magnitude(traced[i].power - (dot3(f, f) - radius * radius)),
+         16 * U * (squares + radius * radius));
+    note(i, SPHERE_AWAY, magnitude(traced[i].along - dot3(f, exact->direction)),
+         8 * U * quad_root(squares) * exact->length);
     note(i, DISCRIMINANT, magnitude(traced[i].discriminant - (radius * radius - squared)),
          64 * U * U * (quad_root(squared) + radius) * (apart + radius + of_center) +
              64 * U * U * U * apart * apart + 2 * U * magnitude(radius * radius - squared));
