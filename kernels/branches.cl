@@ -74,37 +74,39 @@ typedef struct {
     Mask splits;   // lanes that have the other ray
 } Successors;
 
-// Splits the next ray in the given lanes, whose surfaces are glass. The next ray must be the
-// reflected ray.
-static inline void split_branch(const Tracer *tracer, const Path *path, Mask lanes,
+// Splits the next ray in the lanes of `glass`. The next ray must be the reflected ray. Only the
+// lanes of `wanted` need the refracted ray.
+static inline void split_branch(const Tracer *tracer, const Path *path, Mask glass, Mask wanted,
                                 Successors *after)
 {
     const Surface *surface = &path->surface;
-    const Refraction at = refraction_of(tracer, surface, lanes);
+    const Refraction at = refraction_of(tracer, surface, glass);
     Branch *next = &after->next;
     after->other = *next;
     after->other.weight = next->weight * at.reflectance;
-    after->refracts = lanes && at.reflectance < 1.0f;
+    after->refracts = glass && at.reflectance < 1.0f;
     after->splits = after->refracts && at.reflectance > 0.0f;
-    if (!any_lane(after->refracts))
-        return;
-    const Branch refracted = {ray_refracted(tracer, surface, &at, after->refracts),
-                              next->weight * (1.0f - at.reflectance),
-                              product3(next->tint, path->material.diffuse)};
+    const Mask aims = after->refracts && wanted;
+    Branch refracted = *next;
+    if (any_lane(aims))
+        refracted.ray = ray_refracted(tracer, surface, &at, aims);
+    refracted.weight = next->weight * (1.0f - at.reflectance);
+    refracted.tint = product3(next->tint, path->material.diffuse);
     *next = choose_branch(after->refracts, &refracted, next);
 }
 
 // Returns the next rays in the lanes of path->reflects. In other lanes, `next` is the last ray.
-static inline Successors successors_of(const Tracer *tracer, const Path *path, const Ray *last)
+// Only the lanes of `wanted` need rays, and the others need weights and tints.
+static inline Successors successors_of(const Tracer *tracer, const Path *path, const Ray *last,
+                                       Mask wanted)
 {
     const Branch ended = {*last, path->weight, path->tint};
     Successors after = {ended, ended, 0, 0};
-    if (!any_lane(path->reflects))
-        return after;
-    after.next.ray = ray_reflected(tracer, &path->surface, path->reflects);
+    if (any_lane(wanted))
+        after.next.ray = ray_reflected(tracer, &path->surface, wanted);
     const Mask glass = path->reflects && is_glass(&path->material);
     if (any_lane(glass))
-        split_branch(tracer, path, glass, &after);
+        split_branch(tracer, path, glass, wanted, &after);
     return after;
 }
 
@@ -126,6 +128,8 @@ static inline void end_branch(const Tracer *tracer, Path *path, Mask lanes, cons
 // because colors are at most 1.
 static inline void cut_branch(const Tracer *tracer, Path *path, Mask lanes, const Branch *branch)
 {
+    if (!any_lane(lanes))
+        return;
     end_branch(tracer, path, lanes, branch);
     path->cut += lanes ? branch->weight * largest_component(branch->tint) : 0.0f;
 }
@@ -134,10 +138,12 @@ static inline void cut_branch(const Tracer *tracer, Path *path, Mask lanes, cons
 // covers the rounding of the weights and of their sum.
 static inline void count_cut(Tally *tally, Real cut)
 {
+    if (!any_lane(cut > 0.0f))
+        return;
     const Real error = clamp_to_one((1.0f + 0x1p-8f) * cut);
-    const Real steps = ceil(0x1p32f * error * error);
+    const ULong steps = to_long(ceil(0x1p32f * error * error));
     for (uint lane = 0; lane < CLRT_LANES; lane++)
-        tally->cut += (ulong)((const Scalar *)&steps)[lane];
+        tally->cut += ((const ulong *)&steps)[lane];
 }
 
 // Sets the next rays of a packet, and their weights. Returns whether any lane has a next ray.
@@ -145,13 +151,13 @@ static NOT_INLINE bool follow_branches(const Tracer *tracer, Path *path, Branche
                                        Ray *ray)
 {
     const Mask live = ray->active, leads = path->reflects, cut = is_cut(tracer, path);
-    Successors after = successors_of(tracer, path, ray);
+    const Mask goes_on = leads && !cut;
+    Successors after = successors_of(tracer, path, ray, goes_on);
+    path->level = goes_on ? path->level + 1 : path->level;
+    push_branches(branches, path->level, after.splits && goes_on, &after.other);
     end_branch(tracer, path, live && !leads, &after.next);
     cut_branch(tracer, path, cut, &after.next);
     cut_branch(tracer, path, after.splits && cut, &after.other);
-    const Mask goes_on = leads && !cut;
-    path->level = goes_on ? path->level + 1 : path->level;
-    push_branches(branches, path->level, after.splits && goes_on, &after.other);
     const Mask popped = pop_branches(branches, live && !goes_on, &path->level, &after.next);
     *ray = after.next.ray;
     ray->active = goes_on || popped;

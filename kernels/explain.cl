@@ -193,7 +193,8 @@ static inline void note_branch(Explanation *explanation, const Tracer *tracer, c
 // Records whether the next ray is refracted, and the rays that max_level cuts off.
 static inline void note_next(Explanation *explanation, const Tracer *tracer, const Paths *paths)
 {
-    const Successors after = successors_of(tracer, paths->paths, paths->rays);
+    const Successors after =
+        successors_of(tracer, paths->paths, paths->rays, paths->paths->reflects);
     explanation->refracts = after.refracts;
     if (!any_lane(is_cut(tracer, paths->paths)))
         return;
