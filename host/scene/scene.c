@@ -82,18 +82,21 @@ bool scene_complete(Scene *scene, Error *error)
 bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error)
 {
     const double cells = area->cells;
+    const uint32_t count = area->cells * area->cells;
     Light point = *light;
-    bool ok = true;
     point.intensity /= cells * cells;
-    for (uint32_t i = 0; ok && i < area->cells * area->cells; i++) {
+    if (!array_reserve(&scene->lights.memory, &scene->lights.capacity, scene->lights.count + count,
+                       sizeof point, error))
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
         const double column = i % area->cells, row = i / area->cells;
         const double u = (column + (row + 0.5) / cells) / cells - 0.5;
         const double v = (row + (column + 0.5) / cells) / cells - 0.5;
         const Vec3 aside = vec3_add(vec3_scale(area->sides[0], u), vec3_scale(area->sides[1], v));
         point.position = vec3_add(light->position, aside);
-        ok = array_push(&scene->lights, point, error);
+        scene->lights.data[scene->lights.count++] = point;
     }
-    return ok;
+    return true;
 }
 
 const char *viewpoint_fault(const Viewpoint *viewpoint)

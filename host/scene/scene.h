@@ -95,7 +95,7 @@ bool scene_init(Scene *scene, Error *error);
 bool scene_complete(Scene *scene, Error *error);
 
 // Adds to the scene a point light in each cell of the area. Together, the point lights have the
-// intensity of `light`, which is not added itself.
+// intensity of `light`, which is not added itself. If memory runs out, adds no light.
 bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error);
 
 // Both functions combine a hash of the bytes with scene->hash. scene_hash_mesh also changes
