@@ -30,7 +30,7 @@ static bool is_free(const char *stem, const char *ending)
 }
 
 // Stores the saved files' name without extension: the scene file's name and a number.
-static void write_stem(char stem[NAME_SIZE], const char *scene_path, const char *float_ending)
+static void write_stem(char stem[NAME_SIZE], const char *scene_path)
 {
     const char *slash = strrchr(scene_path, '/');
     const char *name = slash == NULL ? scene_path : slash + 1;
@@ -40,7 +40,7 @@ static void write_stem(char stem[NAME_SIZE], const char *scene_path, const char 
     unsigned number = 1;
     do
         snprintf(stem, NAME_SIZE, "%.*s-%u", kept, name, number++);
-    while (!is_free(stem, "png") || !is_free(stem, float_ending));
+    while (!is_free(stem, "png") || !is_free(stem, "exr"));
 }
 
 static bool write_one(const Framebuffer *picture, const char *stem, const char *ending,
@@ -54,17 +54,16 @@ static bool write_one(const Framebuffer *picture, const char *stem, const char *
 }
 
 // Writes the displayed picture to a PNG file and the traced picture to an EXR file, both in the
-// current folder. Without EXR support, writes a PFM file instead.
+// current folder.
 static bool pictures_save(const Framebuffer *shown, const Framebuffer *traced, const SaveText *text,
                           Error *error)
 {
     char stem[NAME_SIZE];
-    const char *float_ending = image_format_named("exr") != NULL ? "exr" : "pfm";
-    write_stem(stem, text->scene_path, float_ending);
+    write_stem(stem, text->scene_path);
     if (!write_one(shown, stem, "png", text->state, error) ||
-        !write_one(traced, stem, float_ending, text->state, error))
+        !write_one(traced, stem, "exr", text->state, error))
         return false;
-    snprintf(text->notice, NOTICE_SIZE, "saved %.160s.png and .%s", stem, float_ending);
+    snprintf(text->notice, NOTICE_SIZE, "saved %.160s.png and .exr", stem);
     return true;
 }
 
