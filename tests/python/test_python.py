@@ -26,7 +26,7 @@ import clrt
 import clrt.trimesh
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
-from pictures import read_exr  # noqa: E402 pylint: disable=wrong-import-position
+from pictures import read_exr, read_png  # noqa: E402 pylint: disable=wrong-import-position
 
 CLRT, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
 # This scene needs no models, because builds under sanitizers make none.
@@ -150,9 +150,18 @@ class Pictures(unittest.TestCase):
             self.assertEqual(picture.channels["primitive"][y, x], ray["primitive"])
             self.assertEqual(hits.primitive[0], ray["primitive"])
 
-    def test_notebooks_show_png(self):
-        data = clrt.load(REFLECTIONS).render(8, 4)._repr_png_()
-        self.assertTrue(data.startswith(b"\x89PNG"))
+    def test_notebooks_show_the_pixels_of_the_programs_png(self):
+        # The background's values times 255 are within rounding of 26.5, 100.5 and 200.5.
+        text = "background 0.10392157 0.39411765 0.7862745\nlight 0 0 9 0.7\nmaterial 1\nsphere 0 0 0.5 1"
+        with tempfile.TemporaryDirectory() as folder:
+            scene, file = pathlib.Path(folder, "a.scn"), pathlib.Path(folder, "a.png")
+            scene.write_text(text)
+            subprocess.run([CLRT, scene, "-o", file, "-s", "32x32"], check=True, capture_output=True)
+            picture = clrt.load(scene).render(32, 32)
+            self.assertEqual(read_png(picture._repr_png_()), read_png(file.read_bytes()))
+        self.assertGreater(len(np.unique(picture)), 50)
+        strange = np.full((1, 1, 3), [np.nan, -1, 2], np.float32).view(clrt.Picture)
+        self.assertEqual(read_png(strange._repr_png_()), [[255, 0, 255]])
 
     def test_pictures_compare(self):
         one = clrt.load(REFLECTIONS).render(32, 32)

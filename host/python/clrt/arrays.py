@@ -27,12 +27,14 @@ class Picture(np.ndarray):
         return array.view(Picture) if array.ndim else array[()]
 
     def _repr_png_(self) -> bytes | None:
-        """PNG bytes for notebooks, with 8 bits per channel."""
+        """PNG bytes for notebooks, with the pixels of `clrt SCENE -o picture.png`."""
         if self.ndim != 3 or self.shape[2] != 3:
             return None
         height, width, _ = self.shape
         lines = np.zeros((height, 1 + 3 * width), np.uint8)
-        lines[:, 1:] = np.rint(np.clip(self, 0, 1) * 255).reshape(height, -1)
+        # The conversion equals encode_channels in host/image/encode.c. fmin turns a NaN into 1.
+        shown = np.fmax(np.fmin(self, 1), 0).astype(np.float64)
+        lines[:, 1:] = (shown * 255 + 0.5).reshape(height, -1)
         header = binary.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
         parts = ((b"IHDR", header), (b"IDAT", zlib.compress(lines.tobytes())), (b"IEND", b""))
         return b"\x89PNG\r\n\x1a\n" + b"".join(
