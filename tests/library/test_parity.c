@@ -90,9 +90,9 @@ static void aim_at_edge(double point[3], double direction[3])
 static void aim_along_face(double point[3], double direction[3])
 {
     const uint32_t *face = mesh.faces[random_below(&numbers, (uint32_t)mesh.face_count)];
-    const uint32_t first = random_below(&numbers, 3), parallel = random_below(&numbers, 2);
-    const double step = random_between(&numbers, -8, 8), turn = random_unit(&numbers) * parallel;
-    const double aside = random_between(&numbers, -6, 6) * parallel;
+    const uint32_t first = random_below(&numbers, 3), off_edge = random_below(&numbers, 2);
+    const double step = random_between(&numbers, -8, 8), turn = random_unit(&numbers) * off_edge;
+    const double aside = random_between(&numbers, -6, 6) * off_edge;
     for (int axis = 0; axis < 3; axis++) {
         const double a = (double)corner(face, first)[axis] / GRID;
         const double b = (double)corner(face, first + 1)[axis] / GRID;
