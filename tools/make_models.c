@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // make_models FOLDER: writes the models of the scenes as PLY files. Each file is a closed triangle
-// mesh. All except the cables are made from signed distance fields of smooth shapes, in these
-// stages: field -> grid -> surface net -> relaxed and checked surface -> file. With IEEE arithmetic
-// and -ffp-contract=off, every machine writes the same bytes.
-#include "models/cables.h"
+// mesh, made from a signed distance field of smooth shapes: field -> grid -> surface net -> relaxed
+// and checked surface -> file. With IEEE arithmetic and -ffp-contract=off, every machine writes the
+// same bytes.
 #include "models/closed.h"
 #include "models/grid.h"
 #include "models/ply_file.h"
@@ -22,16 +21,15 @@ static bool make_surface(Surface *surface, const Model *model, Error *error)
            closed_check(surface, model->name, error);
 }
 
-static bool write_file(const Surface *surface, PointColor *color, const char *name,
-                       const char *folder, Error *error)
+static bool write_file(const Surface *surface, const Model *model, const char *folder, Error *error)
 {
     char path[4096];
-    const int length = snprintf(path, sizeof path, "%s/%s.ply", folder, name);
+    const int length = snprintf(path, sizeof path, "%s/%s.ply", folder, model->name);
     if (length < 0 || (size_t)length >= sizeof path)
         return error_set(error, "the folder's name is too long: %s", folder);
-    if (!ply_file_write(surface, color, path, error))
+    if (!ply_file_write(surface, model->color, path, error))
         return false;
-    printf("%s: %zu vertices, %zu triangles\n", name, surface->vertex_count,
+    printf("%s: %zu vertices, %zu triangles\n", model->name, surface->vertex_count,
            surface->quad_count * 2);
     return true;
 }
@@ -39,17 +37,8 @@ static bool write_file(const Surface *surface, PointColor *color, const char *na
 static bool make_file(const Model *model, const char *folder, Error *error)
 {
     Surface surface = {0};
-    const bool made = make_surface(&surface, model, error) &&
-                      write_file(&surface, model->color, model->name, folder, error);
-    surface_free(&surface);
-    return made;
-}
-
-static bool make_cables(const char *folder, Error *error)
-{
-    Surface surface = {0};
-    const bool made = cables_make(&surface, error) && closed_check(&surface, "cables", error) &&
-                      write_file(&surface, NULL, "cables", folder, error);
+    const bool made =
+        make_surface(&surface, model, error) && write_file(&surface, model, folder, error);
     surface_free(&surface);
     return made;
 }
@@ -61,7 +50,7 @@ int main(int argument_count, char **arguments)
         return 2;
     }
     Error error = {0};
-    bool made = make_cables(arguments[1], &error);
+    bool made = true;
     for (size_t model = 0; made && model < sizeof models / sizeof models[0]; model++)
         made = make_file(models[model], arguments[1], &error);
     if (!made)
