@@ -10,7 +10,8 @@
 // process also ends when the thread that started it ends.
 void limits_take(void);
 
-// Limits memory, and forbids threads. limits_allow_file raises the limit of memory for each file.
+// Limits memory. Also forbids threads, unless the process runs as root or has CAP_SYS_ADMIN or
+// CAP_SYS_RESOURCE. limits_allow_file raises the limit of memory for each file.
 void limits_take_model(void);
 
 // Adds memory and processor time for a model's file of this size, up to the hard limits.

@@ -5,6 +5,7 @@
 #include "foreign/process_limits.h"
 #include "unit/cmocka_all.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -116,6 +117,30 @@ TEST(processor_time_grows_with_the_files_read_up_to_a_limit)
     assert_int_equal(seconds[1], 13);
     assert_int_equal(seconds[2], 120);
     assert_in_range(seconds[3], 100, 120);
+}
+
+static void *do_nothing(void *context)
+{
+    return context;
+}
+
+// Reports the error of starting a thread. Limits of processes do not bind root.
+static void start_thread(int end)
+{
+    pthread_t thread;
+    limits_take();
+    limits_take_model();
+    const int user = geteuid() == 0 ? setuid(65534) : 0;
+    const int fault = user == 0 ? pthread_create(&thread, NULL, do_nothing, NULL) : EAGAIN;
+    if (write(end, &fault, sizeof fault) != sizeof fault)
+        abort();
+}
+
+TEST(a_child_that_reads_a_model_starts_no_threads)
+{
+    int fault;
+    status_of(start_thread, &fault, sizeof fault);
+    assert_int_equal(fault, EAGAIN);
 }
 
 static void burn(int end)
