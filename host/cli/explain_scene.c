@@ -73,7 +73,7 @@ static const char *scene_family_reason(const Session *session)
 {
     const ClrtSettings *wanted = &session->settings.wanted;
     if (wanted->precision == CLRT_FP64)
-        return "--precision fp64 traces rays one by one";
+        return "fp64 traces rays one by one";
     if (wanted->kernel != CLRT_KERNEL_AUTO)
         return "--tune kernel requests it";
     if (session->is_quick)

@@ -258,7 +258,7 @@ typedef struct {
     // --device`. NULL selects the first GPU or, without a GPU, the first device.
     const char *device;
     uint32_t threads; // for building trees and refining pictures; 0: all that the process may use
-    ClrtPrecision precision; // error goals below 1.6e-4 need CLRT_FP64
+    ClrtPrecision precision; // error goals below 1.6e-4 require CLRT_FP64
 
     // For experiments. These settings change no bit of a picture.
     ClrtKernel kernel;
@@ -357,7 +357,8 @@ typedef struct {
 
     uint32_t samples;  // N: N x N samples per pixel; at most 64; 0: 3 for mesh files, otherwise 1
     double contrast;   // adds samples until neighbors differ by at most this; at most 1
-    double error;      // adds samples until the RMSE is at most this; at most 1
+    double error;      // adds samples until the RMSE is at most this; at most 1; below 1.6e-4, the
+                       // renderer must have CLRT_FP64
     double seconds;    // adds samples for this time; at most 1e6
     int32_t max_level; // rays of this level see the background; at most 1000; 0: the scene's, or
                        // chosen by error; CLRT_LEVEL_NONE: camera rays see the background

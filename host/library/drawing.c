@@ -60,6 +60,9 @@ static bool check_request(const Drawing *drawing, ClrtError *error)
         return check_number(error, fault.setting, fault.value, fault.low, fault.high);
     case REQUEST_EVEN:
         return check_fail(error, CLRT_ARGUMENT, "%s is odd", fault.setting);
+    case REQUEST_FP64:
+        return check_fail(error, CLRT_ARGUMENT, "%s is %g, and below %g needs the precision fp64",
+                          fault.setting, fault.value, fault.low);
     default:
         return check_fail(error, CLRT_ARGUMENT, "%s and %s exclude each other", fault.setting,
                           fault.other);

@@ -102,7 +102,11 @@ static bool check_conflicts(const ClrtPicture *wanted, AovSet channels, ClrtPrec
 bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision precision,
                    RequestFault *fault)
 {
-    return check_numbers(wanted, fault) && check_conflicts(wanted, channels, precision, fault);
+    if (!check_numbers(wanted, fault) || !check_conflicts(wanted, channels, precision, fault))
+        return false;
+    *fault = (RequestFault){
+        .rule = REQUEST_FP64, .setting = "error", .value = wanted->error, .low = ERROR_OF_FP64};
+    return precision == CLRT_FP64 || !request_needs_fp64(wanted);
 }
 
 // Returns whether an error bound determines the picture's max_level.

@@ -13,16 +13,17 @@
 #define GROUP_SIDE_MOST       1024
 
 typedef enum {
-    REQUEST_NUMBER,  // a number is out of range
-    REQUEST_EVEN,    // a number is odd
-    REQUEST_CONFLICT // two settings exclude each other
+    REQUEST_NUMBER,   // a number is out of range
+    REQUEST_EVEN,     // a number is odd
+    REQUEST_CONFLICT, // two settings exclude each other
+    REQUEST_FP64      // a number is too small for fp32
 } RequestRule;
 
 // A rule that a request breaks. `other` is NULL unless the rule is REQUEST_CONFLICT.
 typedef struct {
     RequestRule rule;
     const char *setting, *other; // members of ClrtPicture, channels, "crop", "tile" or "fp64"
-    double value, low, high;     // for REQUEST_NUMBER
+    double value, low, high;     // for REQUEST_NUMBER; REQUEST_FP64 has no `high`
 } RequestFault;
 
 // Returns whether a request with these channels and this precision keeps all rules that do not
@@ -30,7 +31,7 @@ typedef struct {
 bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision precision,
                    RequestFault *fault);
 
-// Returns whether the error goal is too small for fp32.
+// Returns whether the error goal is too small for fp32. request_check rejects such a goal in fp32.
 bool request_needs_fp64(const ClrtPicture *wanted);
 
 // Returns false if precision, kernel and lanes exclude each other.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests that every option and command of the program has a counterpart in clrt.h, or a reason why
 // only the program has it. Also tests that an option sets every member of the library's requests,
-// except library_members.
+// except library_members, and that small errors select doubles.
 #include "base/file.h"
 #include "cli/options/option.h"
 #include "unit/cmocka_all.h"
@@ -204,4 +204,46 @@ TEST(every_setting_of_a_request_is_an_option_or_the_librarys_own)
     expect_members_reached("ClrtPicture");
     expect_members_reached("ClrtSettings");
     expect_members_reached("ClrtLoad");
+}
+
+// Parses a command line of these words, of which the last may be NULL, and of a small error.
+static bool parse_small_error(Options *options, const char *const words[5], Error *error)
+{
+    char *line[] = {"clrt", "--error=0.015%", NULL, NULL, NULL, NULL, NULL, NULL};
+    int count = 2;
+    for (; count < 7 && words[count - 2] != NULL; count++)
+        line[count] = (char *)words[count - 2];
+    memset(options, 0, sizeof *options);
+    return options_parse(options, count, line, error);
+}
+
+TEST(errors_too_small_for_floats_select_doubles)
+{
+    static const char *const lines[][5] = {
+        {"a.scn", "-o", "a.pfm"}, {"a.scn", "--hash", "--tune=kernel=pair"}, {"warm"}};
+    Options options;
+    Error error = {0};
+    for (int i = 0; i < 3; i++) {
+        assert_true(parse_small_error(&options, lines[i], &error));
+        assert_int_equal(options.renderer.precision, CLRT_FP64);
+    }
+}
+
+TEST(errors_too_small_for_floats_exclude_them)
+{
+    static const struct {
+        const char *words[5], *sentence;
+    } cases[] = {
+        {{"a.scn", "--hash", "--precision=fp32"},
+         "--error below 0.016 % needs fp64: leave out --precision fp32"},
+        {{"warm", "--tune=kernel=pair", "--precision=fp32"}, "--error below 0.016 % needs fp64"},
+        {{"a.scn", "--hash", "--tune=kernel=wide"},
+         "with this --error, clrt traces rays one by one through pair nodes: leave out --tune "
+         "kernel"}};
+    Options options;
+    for (int i = 0; i < 3; i++) {
+        Error error = {0};
+        assert_false(parse_small_error(&options, cases[i].words, &error));
+        assert_non_null(strstr(error.text, cases[i].sentence));
+    }
 }

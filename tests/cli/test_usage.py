@@ -81,12 +81,6 @@ class Combinations(Work):
         self.clrt(SCENE, "-s", "8x6", "-o", "a.pfm", "--encode", "srgb", "--reference=b.png", "--reference-samples",
                   "2", "-q")
 
-    def test_a_requested_precision_is_kept(self):
-        self.write(a_scn="sphere 0 0 0 1\n")
-        for words, precision in ([], "fp64"), (["--precision", "fp32"], "fp32"), (["--tune", "kernel=wide"], "fp32"):
-            self.run_clrt("a.scn", "-s", "4x4", "-o", "a.pfm", "--json=a.json", "--error", "0.015%", *words)
-            self.expect(self.json_of("a.json"), settings__precision=precision)
-
     def test_references_have_an_even_number_of_samples(self):
         for number in "3", "1", "0", "65537", "2.5", "many":
             self.refuses(f"--reference-samples wants an even number between 2 and 65536, not '{number}'",

@@ -96,15 +96,18 @@ static bool render(ClrtPicture picture, ClrtError *error)
 TEST(pictures_out_of_range_are_refused_and_the_next_is_drawn)
 {
     const ClrtPicture good = {.size = sizeof good, .width = WIDTH, .height = HEIGHT};
-    ClrtPicture bad[] = {good, good, good, good, good};
-    static const char *const words[] = {"width is 4.29497e+09", "height is 131073", "samples is 65",
-                                        "max_level is 1001", "view 3 does not exist"};
+    ClrtPicture bad[] = {good, good, good, good, good, good};
+    static const char *const words[] = {
+        "width is 4.29497e+09",  "height is 131073",
+        "samples is 65",         "max_level is 1001",
+        "view 3 does not exist", "error is 0.00015, and below 0.00016 needs"};
     bad[0].width = UINT32_MAX;
     bad[1].height = 131073;
     bad[2].samples = 65;
     bad[3].max_level = 1001;
     bad[4].view = 3;
-    for (int i = 0; i < 5; i++)
+    bad[5].error = 0.00015;
+    for (int i = 0; i < 6; i++)
         REFUSES(render(bad[i], &error), words[i]);
     ClrtCamera far = filled_cameras[0];
     far.eye[0] = 1e20;

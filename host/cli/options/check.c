@@ -77,8 +77,12 @@ static bool check_request(const Options *options, Error *error)
     RequestFault fault;
     ClrtPicture wanted = options->picture;
     wanted.crop_width = options->crop.is_given; // the crop's size depends on the scene
-    return request_check(&wanted, options->aovs, options->renderer.precision, &fault) ||
-           error_set(error, "--%s and --%s exclude each other: give one",
+    if (request_check(&wanted, options->aovs, options->renderer.precision, &fault))
+        return true;
+    if (fault.rule == REQUEST_FP64)
+        return error_set(error, "--%s below %g %% needs fp64: leave out --precision fp32",
+                         fault.setting, 100 * fault.low);
+    return error_set(error, "--%s and --%s exclude each other: give one",
                      option_of_setting(fault.setting), option_of_setting(fault.other));
 }
 
@@ -216,17 +220,16 @@ static bool check_frames(Options *options, Error *error)
 
 static void choose_precision(Options *options)
 {
-    ClrtSettings *renderer = &options->renderer;
-    if (request_needs_fp64(&options->picture) && renderer->kernel == CLRT_KERNEL_AUTO &&
-        !option_is_given(options, "precision"))
-        renderer->precision = CLRT_FP64;
+    if (request_needs_fp64(&options->picture) && !option_is_given(options, "precision"))
+        options->renderer.precision = CLRT_FP64;
 }
 
 static bool check_kernel(const Options *options, Error *error)
 {
     return request_names_kernel(&options->renderer) ||
-           error_set(error, "--precision fp64 traces rays one by one through pair nodes: leave out "
-                            "--tune kernel");
+           error_set(error, "%s traces rays one by one through pair nodes: leave out --tune kernel",
+                     option_is_given(options, "precision") ? "--precision fp64"
+                                                           : "with this --error, clrt");
 }
 
 // Fails if several outputs go to standard output.
@@ -244,7 +247,6 @@ static bool check_streams(const Options *options, Error *error)
 
 static bool check_picture(Options *options, Error *error)
 {
-    choose_precision(options);
     options->picture.statistics = options->picture.statistics || options->json_path != NULL;
     if (options->output_path == NULL)
         options->format = "pfm"; // stores the traced pixels
@@ -291,6 +293,7 @@ static bool check_action(Options *options, Error *error)
 
 bool options_check(Options *options, const Command *command, Error *error)
 {
+    choose_precision(options);
     return check_uses(options, command, error) && check_exclusions(options, error) &&
            check_request(options, error) && check_kernel(options, error) &&
            check_action(options, error);

@@ -38,7 +38,8 @@ class Renderer:
         "depth", "primitive", "normal", "certainty". crop: (left, top, width, height). camera: a
         Camera to use instead of view, the number of the scene's view, from 1. Further settings are
         members of ClrtPicture in clrt.h, such as samples (N for N x N per pixel), error, max_level
-        and statistics. reference_samples draws a reference in fp64.
+        and statistics. An error below 1.6e-4 requires Renderer(precision="fp64").
+        reference_samples draws a reference in fp64.
         """
         picture = _request(width, height, result=struct("ClrtResult"), **settings)
         shape = (picture.crop_height or height or scene.info["height"],
