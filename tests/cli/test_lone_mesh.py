@@ -287,7 +287,8 @@ class Studio(Random):
         points, triangles = models.knot(self.random.randrange(3, 30), self.random.randrange(3, 9))
         if self.random.random() < 0.5:
             points = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
-            triangles = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7)]
+            triangles = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6),
+                         (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
         stretch = [10 ** self.random.uniform(-3, 1) for _ in range(3)]
         size = 10 ** self.random.uniform(-8, 8)
         place = [size * self.random.uniform(-3, 3) for _ in range(3)]
