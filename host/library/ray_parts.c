@@ -3,7 +3,7 @@
 // returns hits in float and in normalized coordinates. A ray's direction is scaled by a power of
 // two so that its largest component is in [1, 2). The device's t then stays in float's range. A far
 // origin first advances to a cube around the scene, because rounding it to float would move the ray
-// too far.
+// too far. An origin is far if a coordinate exceeds the cube's side in magnitude.
 //
 // Invariant: each conversion depends only on the ray and the scene, so a ray has the same hit in
 // every batch.
@@ -14,14 +14,14 @@
 #include <math.h>
 #include <string.h>
 
-// Half the side of the cube to which far origins advance. An origin is far if a coordinate exceeds
-// 2 * CUBE in magnitude. All triangles are within [-1, 1] on each axis.
-#define CUBE 2.0
+// Half the side of the smallest cube. All triangles are within [-1, 1] on each axis.
+#define LEAST_CUBE 2.0
 
 // The largest distance of a ray's start from the plane of its triangle.
 #define OFF_PLANE 0x1p-15
 
-// Rays that start beyond this distance from the normalized origin hit nothing (intersect.cl).
+// Rays that start beyond this distance from the normalized origin hit nothing (intersect.cl). All
+// cubes are nearer, because spheres are (normalize.h), so only rays that miss the cube start there.
 #define FARTHEST 0x1p45
 
 typedef struct {
@@ -41,17 +41,18 @@ static Vec3 normal_of(const FaceCorners *corners)
     return vec3_normalize(vec3_cross(vec3_sub(at[1], at[0]), vec3_sub(at[2], at[0])));
 }
 
-static double entry_of_axis(double origin, double direction)
+static double entry_of_axis(double cube, double origin, double direction)
 {
-    return direction == 0 ? -INFINITY : (-copysign(CUBE, direction) - origin) / direction;
+    return direction == 0 ? -INFINITY : (-copysign(cube, direction) - origin) / direction;
 }
 
 // Returns the t at which the ray's line enters the cube, if the line hits it. The t is below 0 if
 // the ray starts inside the cube or moves away from it.
-static double cube_entry(Vec3 origin, Vec3 direction)
+static double cube_entry(double cube, Vec3 origin, Vec3 direction)
 {
-    return fmax(fmax(entry_of_axis(origin.x, direction.x), entry_of_axis(origin.y, direction.y)),
-                entry_of_axis(origin.z, direction.z));
+    return fmax(fmax(entry_of_axis(cube, origin.x, direction.x),
+                     entry_of_axis(cube, origin.y, direction.y)),
+                entry_of_axis(cube, origin.z, direction.z));
 }
 
 // Returns a NaN if a component is a NaN.
@@ -94,8 +95,8 @@ static Vec3 convert(RayPart *part, const GivenRay *given)
     double sizes = sum_of(origin);
     if (start != 0)
         advance(&origin, direction, start / unit, &sizes);
-    if (vec3_extent(origin) > 2 * CUBE && part->scene->flat.sphere_count == 0) {
-        const double ahead = fmax(cube_entry(origin, direction), 0);
+    if (vec3_extent(origin) > 2 * part->cube) {
+        const double ahead = fmax(cube_entry(part->cube, origin, direction), 0);
         advance(&origin, direction, ahead, &sizes);
         start += ahead * unit;
     }
@@ -154,6 +155,17 @@ static bool fill_entry(RayPart *part, const GivenRay *given, ClrtError *error)
     return true;
 }
 
+// Returns half the side of a cube that is twice as large as the scene.
+static double cube_around(const FlatScene *flat)
+{
+    double cube = LEAST_CUBE;
+    for (const SphereData *sphere = flat->spheres; sphere < flat->spheres + flat->sphere_count;
+         sphere++)
+        cube =
+            fmax(cube, 2 * (vec3_extent(vec3_of_floats(sphere->center)) + (double)sphere->radius));
+    return cube;
+}
+
 void ray_part_begin(RayPart *part, const Session *session, const RayScene *scene, size_t room)
 {
     const Normalization *frame = &session->scene.normalization;
@@ -161,6 +173,7 @@ void ray_part_begin(RayPart *part, const Session *session, const RayScene *scene
     part->center = frame->center;
     part->scale = frame->scale;
     part->inverse_scale = 1 / frame->scale;
+    part->cube = cube_around(&scene->flat);
     part->room = room;
 }
 

@@ -13,6 +13,7 @@ typedef struct {
     const RayScene *scene;
     Vec3 center; // of the scene's normalization, like scale
     double scale, inverse_scale;
+    double cube;                  // half the side of the cube to which far origins advance
     size_t room;                  // hits stored for each ray
     size_t first, size;           // index of the part's first ray in the batch; number of the
                                   // part's rays
