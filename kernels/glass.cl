@@ -3,13 +3,14 @@
 // Snell's law gives directions. Fresnel's equations for unpolarized light give the reflectance
 // (Pharr, Jakob and Humphreys, "Physically based rendering", 4th edition, section 9.5).
 //
-// The optics use only correctly rounded operations. Every device therefore computes the same bits.
+// The optics use only operations that are correctly rounded on most devices. All of these devices
+// compute the same bits.
 #ifndef CLRT_GLASS_CL
 #define CLRT_GLASS_CL
 #include "checker.cl"
 
 // A light behind more surfaces of glass than this is blocked. The limit ends loops between surfaces
-// that rounding cannot separate.
+// that are so close that rounding makes them touch.
 #define GLASS_CROSSINGS 64
 
 static inline Mask is_glass(const MaterialLanes *material)

@@ -52,7 +52,8 @@ static inline Real3 corner_in_rows(const BlockRows *rows, uint word, Real3 backw
                     rows->z[word] + backward.z);
 }
 
-// Returns a corner relative to each ray's origin, in the order of each ray's axes.
+// Returns a corner relative to each ray's origin, with its coordinates in the order of the ray's
+// axes.
 static inline Real3 corner_from(const BlockPlace *at, uint corner, const Packet *packet)
 {
     return sum3(axes_ordered(splat_corner(at, corner), &packet->rays.axes), packet->rays.backward);

@@ -24,8 +24,8 @@ typedef uint64_t ulong;
 #define NOTHING 0xffffffffu
 
 // The number of entries in the traversal stack of a binary tree. Depth-first descent keeps one
-// pending sibling per level, and also pushes the child that it enters next. Builders limit trees to
-// BVH_MAX_DEPTH levels.
+// pending sibling per level. On CPUs, it also pushes the child that it enters next. Builders limit
+// trees to BVH_MAX_DEPTH levels.
 #define BVH_MAX_DEPTH  62
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
@@ -41,9 +41,9 @@ typedef uint64_t ulong;
 // measurable time.
 #define BVH_SLACK 0x1p-16f
 
-// The margin of the box around all primitives, as a fraction of its largest coordinate. Kernels add
-// the same fraction of the box's largest coordinate relative to the eye. Rays that miss the
-// enlarged box hit nothing (docs/numerics.md, B17).
+// The box around all primitives grows by this fraction of its largest coordinate, once with
+// coordinates relative to the scene's origin (on the host) and once relative to the eye (in
+// kernels). Rays that miss the enlarged box hit nothing (docs/numerics.md, B17).
 #define SKY_SLACK 0x1p-12f
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG, SHADER_GLASS } Shader;

@@ -316,7 +316,8 @@ typedef struct {
 CLRT_API uint32_t clrt_channel_count(void);
 CLRT_API bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError *error);
 
-// The results of a call besides its pixels. All counts refer to the colors, not to channels.
+// The results of a call besides its pixels. The counts of samples, rays and tests exclude the work
+// for channels.
 typedef struct {
     size_t size;
     uint32_t width, height; // of the drawn pixels
@@ -379,8 +380,8 @@ typedef struct {
 
 // Draws the scene into rgb, an array of 3 * width * height floats: R G B in [0, 1], top row first.
 // With a crop, width and height are the crop's. The channel certainty replaces the colors of pixels
-// repaired in fp64. The first picture of a new or changed scene also builds a tree. Later pictures
-// reuse the tree, even with another size or camera.
+// repaired in fp64. The first picture of a new or changed scene also builds its tree, if it has
+// one. Later pictures reuse the tree, even with another size or camera.
 //
 // Returns false with CLRT_STOPPED if progress stops the picture before its last tile. If the
 // picture is stopped or the device fails, rgb contains complete tiles, and its other values are

@@ -7,7 +7,8 @@
 // Kernels and layouts are made at their first use and then kept. Only one thread at a time may use
 // a session.
 //
-// Invariant: except for precision and replaced kernels, the settings change no bit of a result.
+// Invariant: except for precision, replaced kernels and compiler options, the settings change no
+// bit of a picture.
 #pragma once
 
 #include "device/cache_private.h"

@@ -121,8 +121,8 @@ static void orbit_zoom(Orbit *orbit, double down)
     set_shown_distance(orbit, shown_distance(orbit) + LENGTH_PER_PIXEL * orbit->unit * down);
 }
 
-// Moves camera and pivot sideways by a mouse drag. In a window that is COURSE_HEIGHT pixels high,
-// the pivot moves exactly as far as the pointer.
+// Moves camera and pivot parallel to the picture by a mouse drag. In a window that is COURSE_HEIGHT
+// pixels high, the pivot moves exactly as far as the pointer.
 static void orbit_pan(Orbit *orbit, double right, double down)
 {
     const Viewpoint view = orbit_viewpoint(orbit);

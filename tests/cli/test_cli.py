@@ -74,7 +74,7 @@ REFUSALS = [
     (5, "no/: cannot be written: it is a folder", ["none.scn", "--format", "pfm", "-o", "no/"]),
     (5, "no/a.pfm: cannot be written: No such file or directory", ["none.scn", "-o", "no/a.pfm"]),
 ]
-# These options change no bit of the picture. Each row has the statistics that the option sets.
+# These options change no bit of the picture. A row may have expected statistics.
 SAME = {"-q": None, "-j 1": None, "-j 2": None, "--tune bvh=sah": None, "--tune specialize=never": None,
         "--tune bvh=none": {"tests__box": 0, "bvh__builder": "none"},
         "--tune bvh=midpoint": {"bvh__builder": "midpoint"},

@@ -152,7 +152,7 @@ static void expect_effects(const Options *found, const Words line, const Option 
     assert_memory_equal(&expected.options, found, sizeof *found);
 }
 
-// Returns whether the text names the option, or --tune for one of its keys.
+// Returns whether the text names the option. For keys of --tune, the text must name --tune.
 static bool names(const char *text, const Option *option)
 {
     char name[32];

@@ -44,7 +44,8 @@ typedef struct {
 } PictureRequest;
 
 // Returns clrt's defaults, with the kernels of form_choice and with gpu_units from the environment
-// variable CLRT_TEST_GPU. The kernels are general, because "auto" would depend on the cache.
+// variable CLRT_TEST_GPU. The kernels are not specialized, because
+// CLRT_SPECIALIZE_AUTO would depend on the cache.
 PictureRequest picture_request(const char *scene_path, uint32_t view);
 
 // Draws on the device named by the environment variable CLRT_DEVICE, or on the best device. The

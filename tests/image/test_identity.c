@@ -175,7 +175,8 @@ TEST(floors_of_many_triangles_reflect_all_that_stands_on_them)
     unlink(scene);
 }
 
-// Writes a cube, and in some views a sphere. The eye is inside, near or far from both.
+// Writes a cube, and in every third view a sphere beside it. The eye is inside the cube, or near
+// it, or far away.
 static void write_view(char path[TEMPORARY_PATH], uint64_t *state, int view)
 {
     const double reach = exp(random_between(state, -2, 12));

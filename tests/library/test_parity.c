@@ -86,7 +86,7 @@ static void aim_at_edge(double point[3], double direction[3])
     aim_at(point, direction, random_unit(&numbers));
 }
 
-// The ray is on the line of a face's edge, or has any direction in the face's plane.
+// The ray is on the line of a face's edge, or has another direction in the face's plane.
 static void aim_along_face(double point[3], double direction[3])
 {
     const uint32_t *face = mesh.faces[random_below(&numbers, (uint32_t)mesh.face_count)];

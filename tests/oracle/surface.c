@@ -88,7 +88,7 @@ typedef struct {
     double of[3]; // the weights of the corners at the point; their sum is 1
 } Shares;
 
-// The shares are areas, divided by the sum of all three.
+// Returns the weights of the corners (weight_of_corner), divided by their sum.
 static Shares shares_of(const Mesh *mesh, const uint32_t corners[3], Vec3 point, Vec3 face)
 {
     Vec3 p[3];

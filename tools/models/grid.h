@@ -34,8 +34,8 @@ static inline size_t grid_sample_count(const Grid *grid)
     return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2];
 }
 
-// Returns the position of a point given in samples along x, y and z. Integers give the positions of
-// samples.
+// Returns the position that is `at` steps of the grid from its first sample. Integers give the
+// positions of samples.
 Vec3 grid_point(const Grid *grid, Vec3 at);
 
 // Returns the size of a model's cells at a point in world coordinates.
