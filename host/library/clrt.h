@@ -453,8 +453,8 @@ typedef struct {
 // These statements are exact for the scene in the units in which clrt traces it. clrt centers the
 // scene in double precision, scales it by a power of two so that the longest side of the box around
 // all triangles is in [1, 2), and rounds coordinates to float. If an origin has a coordinate above
-// 4 in magnitude, the origin first moves along the ray toward the box. With spheres, the limit is 4
-// times the largest coordinate of a point on them, but at least 4.
+// 4 in magnitude, the origin first moves along the ray toward the box. With spheres, the limit is
+// about 4 times the scene's largest coordinate, but at least 4.
 // In these units, the error of a distance is at most 18 * 2^-24 times the distance of the
 // triangle's farthest corner from the origin, measured along the longest axis of the direction.
 //

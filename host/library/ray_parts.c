@@ -155,14 +155,13 @@ static bool fill_entry(RayPart *part, const GivenRay *given, ClrtError *error)
     return true;
 }
 
-// Returns half the side of a cube that is twice as large as the scene.
+// Returns half the side of a cube that is about twice as large as the scene.
 static double cube_around(const FlatScene *flat)
 {
     double cube = LEAST_CUBE;
-    for (const SphereData *sphere = flat->spheres; sphere < flat->spheres + flat->sphere_count;
-         sphere++)
-        cube =
-            fmax(cube, 2 * (vec3_extent(vec3_of_floats(sphere->center)) + (double)sphere->radius));
+    for (int axis = 0; axis < 3 && flat->sphere_count > 0; axis++)
+        cube = fmax(cube, 2 * fmax(fabs((double)flat->bounds.low[axis]),
+                                   fabs((double)flat->bounds.high[axis])));
     return cube;
 }
 
