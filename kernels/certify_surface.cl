@@ -153,10 +153,11 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 
 // Returns the start of a ray that leaves in a direction known within `doubt`. Near an edge, the
 // ray's line may miss the triangle that the ray leaves. The point's distance from the edge is then
-// at most the sum of two errors, divided by the sine of the ray's angle to the face. These errors
-// are 11u per axis for the point, and 14u of the distance for the corners. The tracer ignores edges
-// if room / edge, a lower bound of their distance from the point, exceeds 64u / sine. Otherwise, it
-// may move the start by up to 256u / sine along the surface, on each axis (B14).
+// at most the sum of two errors, divided by the sine of the ray's angle to the face. The point has
+// an error of 11u per axis, and a corner has an error of 14u times its distance from the ray's
+// start. The tracer ignores edges if room / edge, a lower bound of their distance from the point,
+// exceeds 64u / sine. Otherwise, it may move the start by up to 256u / sine along the surface, on
+// each axis (B14).
 //
 // A reflected or refracted ray is lifted only if its line misses the triangle from the last start.
 // This start is the point moved by 256u / sine toward the triangle's middle, or the middle itself

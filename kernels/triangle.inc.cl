@@ -204,7 +204,7 @@ typedef struct {
 // triangle's t is within `error` of the light's t.
 //
 // `in_doubt` receives the lanes whose rays may pass by mistake, because of rounding. In a valley,
-// rounding can also put the start beyond the neighbor that stops the ray.
+// rounding can also put the start beyond the neighbor that should stop the ray.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Mask *in_doubt)
 {

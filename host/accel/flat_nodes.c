@@ -6,8 +6,8 @@
 // a binary node, or with the two halves of a large leaf. While the node has fewer than eight
 // children, the two parts of its largest divisible child replace this child. The largest child is
 // the one with the largest surface area, which rays hit most often. A child with at most eight
-// leaves is divided only if all its leaves fit into the node. This rule avoids nodes of only two or
-// three blocks. Nodes and blocks are in depth-first order.
+// leaves is divided only if all its leaves fit into the node. This rule makes nodes of only two or
+// three blocks rare. Nodes and blocks are in depth-first order.
 //
 // One thread collapses the tree, and then all threads fill the blocks.
 //

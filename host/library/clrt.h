@@ -379,9 +379,9 @@ typedef struct {
 } ClrtPicture;
 
 // Draws the scene into rgb, an array of 3 * width * height floats: R G B in [0, 1], top row first.
-// With a crop, width and height are the crop's. The channel certainty replaces the colors of pixels
-// repaired in fp64. The first picture of a new or changed scene also builds its tree, if it has
-// one. Later pictures reuse the tree, even with another size or camera.
+// With a crop, width and height are the crop's. If the channel certainty is requested, pixels that
+// it repairs in fp64 get their fp64 colors. The first picture of a new or changed scene also builds
+// its tree, if it has one. Later pictures reuse the tree, even with another size or camera.
 //
 // Returns false with CLRT_STOPPED if progress stops the picture before its last tile. If the
 // picture is stopped or the device fails, rgb contains complete tiles, and its other values are

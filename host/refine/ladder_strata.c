@@ -65,7 +65,8 @@
 // exceeds this fraction of the aim.
 #define FORCED_PART 0.02
 
-// A round takes steps until their gains are COVERED_PART of the bound's excess over the aim. A gain
+// A round takes steps until the sum of their gains is COVERED_PART of the excess. The excess is the
+// bound minus the aim. A gain
 // includes only GAIN_PART of the errors of advancing pixels. Steps that score below SCORE_PART of
 // the best score wait for a later round. The last step is shortened to the missing gain, but not
 // below STEP_PART of its size. A limit on samples may shorten it further.

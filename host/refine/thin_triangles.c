@@ -25,9 +25,10 @@ typedef struct {
     uint32_t first, end;
 } PixelRun;
 
-// To save memory, a piece is searched only at level 0 if it has more than PAIRS_MOST pairs and more
-// than PAIRS_OF_PIXEL pairs per pixel of the picture. The number of pairs is estimated as AROUND
-// for each thin triangle and each pixel that it touches, unless the piece is wide at the pixel.
+// To save memory, a piece with more than PAIRS_MOST pairs, and also more than PAIRS_OF_PIXEL pairs
+// per pixel of the picture, is searched at level 0 alone. The number of pairs is estimated as
+// AROUND for each thin triangle and each pixel that it touches, unless the piece is wide at the
+// pixel.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 #define AROUND         9

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Decides a sample's ray tree on the stored scene as real arithmetic would. Callers use 113 bits if
-// 64 bits leave decisions unsettled. The code is independent of the kernels and uses other methods.
+// Makes all decisions of a sample's rays on the stored scene as real arithmetic would. Callers use
+// 113 bits if 64 bits leave decisions unsettled. The code is independent of the kernels and uses
+// other methods.
 #pragma once
 
 #include "certainty/real_tree.h"

@@ -55,8 +55,8 @@ BY_HAND = [
                                     blocker_distance=0.5), normal=[0, 0, 1])}], {"color": [0.08] * 3}),
     # The half angle of the ball's shadow cone has the sine 0.5 / 3. The shadow on the floor has a
     # radius of 4 * 0.169031 = 0.676123. At x = 0.65, the light is sqrt(0.65^2 + 16) away. The
-    # ball's center is 0.481182 off the shadow ray and 1.091310 along this ray. The ray meets the ball
-    # sqrt(0.25 - 0.481182^2) before the center.
+    # ball's center is 0.481188 off the shadow ray. The point of this ray that is nearest to the center is
+    # 1.091310 along the ray. The ray meets the ball sqrt(0.25 - 0.481188^2) before this point.
     (LAMP + "camera 0.65 -4 0.4 0.65 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4.052468, 0.987053, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.955450))}], {}),

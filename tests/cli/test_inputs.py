@@ -123,7 +123,7 @@ class Inputs(Work):
             ended.set()
             writer.join()
 
-    # The other tests may find all kernels in the cache that the tests share.
+    # This test has a cache of its own. The cache of the other tests may hold the kernels already.
     def test_a_command_compiles_kernels_and_stores_them(self):
         self.write(cone_ply=MESHES[0], file_scn=SCENE.format(64, "cone.ply"))
         done = self.run_command(["-o", "a.pfm"], "file.scn", content=b"", POCL_CACHE_DIR=str(self.work))

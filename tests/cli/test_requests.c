@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests that every option and command of the program has a counterpart in clrt.h, or a reason why
-// only the program has it. Also tests that an option sets every member of the library's requests,
-// except library_members, and that small errors select doubles.
+// only the program has it. Also tests that each member of the library's requests is set by some
+// option, except library_members, and that small error goals select fp64.
 #include "base/file.h"
 #include "cli/options/option.h"
 #include "unit/cmocka_all.h"

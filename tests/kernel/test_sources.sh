@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Checks all kernels in all forms with clang, which generates no code. No kernel causes a warning,
-# with any of some sets of switches. Devices without fp64 can compile all kernels but those of
+# with any of several sets of switches. Devices without fp64 can compile all kernels but those of
 # --precision fp64.
 set -eu
 cd "$(dirname "$(readlink -f "$0")")/../../kernels"

@@ -218,8 +218,8 @@ typedef struct {
 } Bent;
 
 // Applies Snell's law to the direction's part along the surface, and Fresnel's equations to the
-// sines and tangents of both angles. At right angles to the surface, both angles are zero, and the
-// reflectance depends only on the index.
+// sines and tangents of the sum and of the difference of both angles. At right angles to the
+// surface, both angles are zero, and the reflectance depends only on the index.
 static Bent bend(const OracleSurface *surface, double ior)
 {
     const bool is_sphere = vec3_dot(surface->normal, surface->face) < 0;

@@ -11,8 +11,8 @@
 
 const char *const tube_names[TUBE_KINDS] = {"ridges", "bumps", "saddles", "walls"};
 
-// A fin has FIN corners. The fin's walls are corners 2 to 5. The fin's edge is thinner than its
-// foot.
+// A fin has FIN corners. The fin's walls go from corner 2 to 3, and from corner 4 to 5. The fin's
+// edge is thinner than its foot.
 static double corner_angle(TubeKind kind, uint32_t corner)
 {
     static const double wall_angles[FIN] = {0, 12, 23.9, 23.95, 24, 24.05, 36, 48};
