@@ -145,6 +145,10 @@ static bool open_private(Cache *cache, const char *base)
 
 void cache_open(Cache *cache)
 {
+    // By default, PoCL compiles a kernel for the size of its work-groups when it starts, and again
+    // for all sizes when its binary is stored. Without the first code, pictures take no longer, and
+    // starts with an empty cache take 0.71 to 0.77 of the processor time.
+    setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
     cache_open_for_library(cache);
     const char *temporary = getenv("TMPDIR");
     const bool ok = open_private(cache, cache->folder) ||

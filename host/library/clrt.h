@@ -273,7 +273,9 @@ typedef struct {
 //
 // On a CPU device, the driver chooses the number of threads that draw. To limit PoCL's threads, a
 // program sets the environment variable POCL_MAX_PTHREAD_COUNT (in later versions
-// POCL_CPU_MAX_CU_COUNT) before the first OpenCL call.
+// POCL_CPU_MAX_CU_COUNT) before the first OpenCL call. If it also sets
+// POCL_WORK_GROUP_SPECIALIZATION to 0, kernels compile in three quarters of the time, and are
+// shared with the program clrt.
 //
 // This call, clrt_device_count and clrt_device_get read environment variables, and PoCL's first
 // call sets some. During these calls, other threads must not use the environment, because
