@@ -8,7 +8,7 @@ import sys
 
 
 class Stage(collections.namedtuple("Stage", "script tasks")):
-    """A script and the numbers of its tasks. If tasks is None, the script runs once."""
+    """A script and the numbers of its tasks. Without numbers, the script runs once."""
 
     @property
     def text(self):
