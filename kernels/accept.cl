@@ -3,9 +3,9 @@
 // one triangle against one ray or a packet of rays. wide.cl tests one ray against a block of
 // triangles, and then calls accept_triangle for the ray's lane.
 //
-// Two rare cases are doubtful: a triangle within rounding of the ray's start (stops_on_neighbor),
-// and triangles whose distances differ only by rounding (triangle_is_nearer). On CPUs, their code
-// is out of line.
+// Two rare cases need a second test: a hit within rounding of the ray's start (stops_on_neighbor),
+// and hits whose distances differ only by rounding (triangle_is_nearer). On CPUs, these two
+// functions are not inlined.
 //
 // Invariant: the decision depends only on the ray, the limit of its search, the triangle and the
 // best hit so far. The best of several triangles does not depend on the order of the tests.
@@ -13,7 +13,7 @@
 #define CLRT_ACCEPT_CL
 #include "order.cl"
 
-// The sides of a triangle's plane on which another triangle certainly has a corner.
+// Whether another triangle certainly has a corner in front of a triangle's plane, and behind it.
 typedef struct {
     Mask front, back;
 } Sides;
@@ -33,14 +33,14 @@ static inline Sides sides_exchanged(Mask exchange, Sides sides)
 }
 
 // Returns whether a ray that leaves the triangle `own` certainly stops on the triangle `other`. The
-// ray's line must hit `other` within rounding of the ray's start. The triangles' positions decide:
-//  - The plane of the own triangle: the other triangle is ahead if it is on the side to which the
-//    ray leaves, and behind if it is on the opposite side.
-//  - The plane of the other triangle: the other triangle is ahead if the own triangle is on the
-//    side from which the ray comes, and behind if the own triangle is on the opposite side.
-// A ray does not hit coplanar neighbors. `cross` receives the lanes in which neither plane decides
-// and one triangle is on both sides of the other's plane. In these lanes, the order along the ray
-// decides (order.cl).
+// ray's line must hit `other` within rounding of the ray's start. Each triangle's plane may show
+// that `other` is ahead of the start or behind it:
+//  - The plane of `own`: `other` is ahead if it is on the side to which the ray leaves, and behind
+//    if it is on the opposite side.
+//  - The plane of `other`: `other` is ahead if `own` is on the side from which the ray comes, and
+//    behind if `own` is on the opposite side.
+// A ray does not hit coplanar neighbors. `cross` receives the lanes in which order.cl must decide,
+// because a triangle has corners on both sides of the other's plane.
 static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
                                  Mask from_back, Mask *cross)
 {
@@ -70,8 +70,8 @@ static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask 
     return known && (stops || (cross && is_ahead(search->tracer, ray, index)));
 }
 
-// Makes the triangle the best hit in the lanes of `candidates` in which it precedes the best hit so
-// far. Returns the lanes whose hits changed. In a tie, the t of a hit can change without its id.
+// In each lane of `candidates`, makes the triangle the best hit if it precedes the best hit so far.
+// Returns the lanes whose hits changed. A tie can change a hit's t and keep its id.
 static inline Mask accept_triangle(const Search *search, Mask candidates, Hit *triangle, Hit *best)
 {
     const Mask close = candidates && is_close(search, triangle->t, best);

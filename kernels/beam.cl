@@ -18,8 +18,8 @@
 // A subtree is searched ray by ray if at most this many lanes of a beam enter it. The limit is
 // higher for DENSE or more triangles, because rays then separate more. Exchanging the two limits
 // makes scenes of 6 thousand triangles 9 % slower, and scenes of a million 10 % slower. Arrays of
-// rays that start on no surface keep the lower limit. A million of these rays at 1.3 million
-// triangles then take 16 % less time, although 65 thousand rays take 9 % more.
+// rays that start on no surface keep the lower limit. In a scene of 1.3 million triangles, a
+// million of these rays then take 16 % less time, although 65 thousand rays take 9 % more.
 #define MOST_LANES_LEAVING       (3 * BEAM_LANES / 16)
 #define MOST_LANES_LEAVING_DENSE (5 * BEAM_LANES / 8)
 #define DENSE                    300000
@@ -121,8 +121,8 @@ static inline uint packets_entering(Beam *beam, uint child, uint packets, uint b
     return entering;
 }
 
-// If the beam's rays end at any hit, removes the packet's lanes with a hit from beam->live.
-// Otherwise, updates the packet's reach.
+// If the beam's rays end at any hit, the packet's lanes that have a hit stop searching. Otherwise,
+// updates the packet's reach.
 static inline void update_packet(Beam *beam, uint number)
 {
     const Hit *hit = &beam->hits[number];
@@ -170,7 +170,7 @@ static inline uint packets_searching(const Beam *beam)
     return packets;
 }
 
-// Returns how many bits are set for the given packets.
+// Returns how many lanes of the given packets have their bit set.
 static inline uint lanes_in(uint packets, const uint bits[PACKETS])
 {
     uint count = 0;
@@ -249,8 +249,8 @@ static inline int8 lie_level(global const TriangleBlock *block, uint axis, float
            block_row(block, 2, axis) == level;
 }
 
-// Returns whether all rays start within rounding of the plane that is perpendicular to the axis at
-// the coordinate `level` (docs/numerics.md, B16).
+// Returns whether all rays start within rounding of a plane: that of all points with the coordinate
+// `level` on the axis (docs/numerics.md, B16).
 static inline bool start_level(const Ray *rays, uint count, uint axis, float level)
 {
     Mask apart = 0;

@@ -57,8 +57,7 @@ static inline float8 folded(Real v)
 }
 #endif
 
-// Returns four minima of a, then four minima of b. Each is the smaller of two elements, one from
-// each half of the vector.
+// Returns min(a[i], a[i + 4]) for i from 0 to 3, followed by min(b[i], b[i + 4]).
 static inline float8 lowest_of_two(float8 a, float8 b)
 {
     const float8 low = (float8)(a.s0, a.s1, a.s2, a.s3, b.s0, b.s1, b.s2, b.s3);
@@ -83,8 +82,8 @@ static inline Real3 lower3(Real3 a, Real3 b)
 }
 
 // The extremes of the packets' rays, separately for each lane. Maxima are stored as minima of the
-// negated numbers. Each origin moves by its own slack, and also by the growth of a node's box,
-// because the boxes of single triangles have not grown.
+// negated numbers. Each origin moves by its own slack. It also moves by the growth of a node's box,
+// because the boxes of a block's triangles have not grown.
 typedef struct {
     Real3 inverse, minus_inverse, behind, minus_ahead;
     Real minus_reach;

@@ -4,7 +4,7 @@
 // bounds the stack.
 //
 // Invariant: the order in which a path's rays are followed depends only on the path itself. A color
-// is therefore the same sum in every form of the kernels, although the lanes of a packet are at
+// is therefore the same sum in every form of the kernels, even if the lanes of a packet are at
 // different levels.
 
 // A ray to follow, and its weight in the sample's color.
@@ -95,8 +95,8 @@ static inline void split_branch(const Tracer *tracer, const Path *path, Mask gla
     *next = choose_branch(after->refracts, &refracted, next);
 }
 
-// Returns the next rays in the lanes of path->reflects. In other lanes, `next` is the last ray.
-// Only the lanes of `wanted` need rays, and the others need weights and tints.
+// Returns the next rays in the lanes of path->reflects. In other lanes, `next` has the weight and
+// the tint of the path. The rays themselves are valid only in the lanes of `wanted`.
 static inline Successors successors_of(const Tracer *tracer, const Path *path, const Ray *last,
                                        Mask wanted)
 {
@@ -134,8 +134,8 @@ static inline void cut_branch(const Tracer *tracer, Path *path, Mask lanes, cons
     path->cut += lanes ? branch->weight * largest_component(branch->tint) : 0.0f;
 }
 
-// Adds the squares of the errors that cut branches cause in samples, in steps of 2^-32. The factor
-// covers the rounding of the weights and of their sum.
+// Adds the square of each sample's error to the tally, in steps of 2^-32. `cut` sums the errors of
+// a sample's cut branches. The factor covers the rounding of the weights and of their sum.
 static inline void count_cut(Tally *tally, Real cut)
 {
     if (!any_lane(cut > 0.0f))

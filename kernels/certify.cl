@@ -41,7 +41,8 @@ static inline AxisPlace axis_place(const UncertainSurface *surface, uint axis)
                        surface->is_sphere ? surface->normal_doubt : surface->face_doubt};
 }
 
-// Returns whether the cube's index on the axis is certain (B19). Toggles *odd if the index is odd.
+// Returns whether the index of the point's cube on the axis is certain (B19). Toggles *odd if the
+// index is odd.
 static inline bool decide_axis(const Cubes *cubes, Real shift, const AxisPlace *at, Real u,
                                uint *odd)
 {

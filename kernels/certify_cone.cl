@@ -9,12 +9,12 @@
 //  - The tracer's device rounds float operations correctly.
 //  - No rounding error of a product in fp32's edge functions underflows (B3). This holds if each
 //    sheared coordinate of a corner is 0 or at least 2^-51 in magnitude, in normalized coordinates.
-//    The kernel does not check this. If an error underflows, only decisions about triangles that
-//    are seen edge-on or have an area below 2^-147 can be wrong (B10).
+//    The kernel does not check for underflow. If an error underflows, only decisions about
+//    triangles that are seen edge-on or have an area below 2^-147 can be wrong (B10).
 //
 // A camera ray's direction is fma(x, right, fma(y, down, forward)). If the camera is orthographic,
-// the origin is computed in this way from the eye (B18). For fp32, camera_rounding repeats the
-// rounding. For fp64, the roundings of the inner and the outer fma are together below
+// the origin is fma(x, right, fma(y, down, eye)) (B18). For fp32, camera_rounding computes the
+// error of these sums. For fp64, the inner and the outer fma together round by less than
 // u (|inner| + |outer|) per component. The end of a shadow ray misses the light by at most u times
 // the ray's length.
 #ifndef CLRT_CERTIFY_CONE_CL
@@ -122,7 +122,7 @@ static inline const float *camera_middle(const CameraData *camera)
     return camera->orthographic != 0 ? camera->eye : camera->forward;
 }
 
-// Returns the distance between `moved` and the vector that fp32 computes.
+// Returns the distance between two vectors: `moved`, computed in fp64, and its fp32 counterpart.
 static inline Real camera_rounding(const CameraData *camera, Real3 moved, float x, float y)
 {
     const float *right = camera->right_step, *down = camera->down_step;

@@ -34,8 +34,8 @@ static inline RayCone given_cone(const Tracer *tracer, global const RayData *dat
 }
 
 // Returns whether the ray's hit is certain, which means that rounding cannot change it. Stores the
-// hit's id. The hit is uncertain if the ray ends within rounding of it, or if `kind` is RAY_CAMERA
-// and data->own is a sphere.
+// hit's id. The hit is uncertain if it is within rounding of the ray's end, or if `kind` is
+// RAY_CAMERA and data->own is a sphere.
 static NOT_INLINE bool certify_ray(const Tracer *tracer, global const RayData *data, uint kind,
                                    uint *id)
 {

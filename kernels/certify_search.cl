@@ -4,10 +4,10 @@
 // to cover the cone.
 //
 // A box grows by the cone's radius at the box's farthest corner, and by 140u of this corner's
-// distance. The 140u cover the rest of the blur, 18u, and the errors of the distance, 70u + 25u
-// (B12). For rays that leave a surface, boxes also grow by behind_of, because rounding may put a
-// hit behind the origin. With this growth, the axis enters a box before any possible hit of a
-// triangle in the box.
+// distance. The 140u cover the rounding of a corner's projection (blur_at), 18u, and of the
+// distance, 70u + 25u (B12). For rays that leave a surface, boxes also grow by behind_of, because
+// rounding may put a hit behind the origin. With this growth, the axis enters a box before any
+// possible hit of a triangle in the box.
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL
 #include "certify_sphere.cl"
@@ -51,8 +51,8 @@ static inline Real growth_at(const RayCone *ray, Real far)
            behind_of(ray);
 }
 
-// Returns 1 / direction for one component. A magnitude below 2^-60 is first raised to 2^-60, which
-// changes less than rounding does.
+// Returns 1 / direction for one component. A magnitude below 2^-60 is first raised to 2^-60. This
+// changes the result of the search less than rounding does.
 static inline Real inverse_of(Real direction)
 {
     return 1.0f / (fabs(direction) < 0x1p-60f ? copysign((Real)(0x1p-60f), direction) : direction);
@@ -70,7 +70,7 @@ static inline ConeSearch search_in_cone(const RayCone *ray)
 }
 
 // Returns the depth beyond which the search may stop. Nothing beyond the nearest certain hit can be
-// the first hit. A hit beyond a possible hit of another primitive is not certainly the first hit.
+// the first hit. Beyond another possible hit, no hit is certainly the first.
 static inline Real cone_reach(const ConeSearch *search)
 {
     if (search->ray->kind == RAY_SHADOW)

@@ -4,9 +4,9 @@
 // sphere.cl computes with sums of two floats. Let f lead from the sphere's center to the ray's
 // origin, and let u be the unit roundoff. The error of the discriminant radius^2 - distance^2 is
 // below 64 u^2 (distance + radius) (|f| + radius + |center|). The error of the foot of the
-// perpendicular adds less than 64 u^3 |f|^2. Moving the ray aside by distance_doubt has a larger
-// effect than both errors together, and a larger effect than the error of sphere_power. All other
-// terms of a distance have a relative error below 8u (B15).
+// perpendicular adds less than 64 u^3 |f|^2. The bounds cover both errors by moving the ray aside
+// by distance_doubt, which has a larger effect. The effect is also larger than the error of
+// sphere_power. All other terms of a distance have a relative error below 8u (B15).
 #ifndef CLRT_CERTIFY_SPHERE_CL
 #define CLRT_CERTIFY_SPHERE_CL
 #include "certify_triangle.cl"
@@ -25,7 +25,7 @@ static inline PlainSphere plain_sphere(global const SphereData *data)
 }
 
 // Bounds the tracer's error as a distance by which the ray moves aside (see the top of this file).
-// The error of this kernel's own fp64 arithmetic is at most 2^-49 of `sizes`.
+// The error of this kernel's own fp64 arithmetic is at most 2^-49 times `sizes`.
 static inline Real distance_doubt(Real u, Real apart, const PlainSphere *sphere)
 {
     const Real sizes = apart + sphere->radius + length_of(sphere->center);
@@ -64,8 +64,8 @@ static inline Range rounded_range(const RayCone *ray, Range range, Real shift)
 }
 
 // Returns the depths at which the cone's rays enter and leave the sphere. If a line turns by the
-// spread, its closest point to the center moves aside by spread * |middle|, and along the line by
-// spread * distance.
+// spread, its point closest to the center moves by spread * |middle| across the line, and by spread
+// * distance along it.
 //
 // The depth of the nearer wall is (|f|^2 - radius^2) / (|middle| + half the chord). The numerator
 // does not depend on the direction. The tracer uses this quotient too. A nearby wall of a huge

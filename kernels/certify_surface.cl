@@ -20,8 +20,7 @@ typedef struct {
     Real area;        // lower bound of twice the triangle's area
 } UncertainSurface;
 
-// Bounds the error of a unit vector that is computed from a vector with this length and with an
-// error of at most `doubt`.
+// Bounds the error of the unit vector v / length, for a vector v with an error of at most `doubt`.
 static inline Real turn_of(Real doubt, Real length)
 {
     return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
@@ -53,8 +52,8 @@ static inline void face_viewer(UncertainSurface *surface)
     surface->face = negative3(surface->face);
 }
 
-// Sets area, room and edge. end.slide reduces the room, because the exact point and the tracer's
-// point may be closer to an edge than end.point.
+// Sets area, room and edge. The exact point and the tracer's point may be closer to an edge than
+// end.point, so end.slide reduces the room.
 static inline void note_room(UncertainSurface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -153,16 +152,17 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 
 // Returns the start of a ray that leaves in a direction known within `doubt`. Near an edge, the
 // ray's line may miss the triangle that the ray leaves. The point's distance from the edge is then
-// at most the sum of two errors, divided by the sine of the ray's angle to the face. The point has
-// an error of 11u per axis, and a corner has an error of 14u times its distance from the ray's
-// start. The tracer ignores edges if room / edge, a lower bound of their distance from the point,
-// exceeds 64u / sine. Otherwise, it may move the start by up to 256u / sine along the surface, on
-// each axis (B14).
+// at most the sum of two errors, divided by the sine of the ray's angle to the face. These errors
+// are 11u per axis for the point, and 14u times the distance from the ray's start for a corner.
+// room / edge is a lower bound of the point's distance from the edges. If it exceeds 64u / sine,
+// the tracer ignores the edges. Otherwise, the tracer may move the start by up to 256u / sine along
+// the surface, on each axis (B14).
 //
-// A reflected or refracted ray is lifted only if its line misses the triangle from the last start.
-// This start is the point moved by 256u / sine toward the triangle's middle, or the middle itself
-// if it is nearer. As a fraction of the distance to the middle, the move is at least the smaller of
-// 1 and 500u / (sine * edge). At this start, each weight is at least a third of the fraction.
+// The tracer lifts a reflected or refracted ray (surface.cl) only if the ray's line misses the
+// triangle from the last start that the tracer tries. This start has moved by 256u / sine toward
+// the triangle's middle, but not beyond the middle. The move is at least the fraction
+// min(1, 500u / (sine * edge)) of the way to the middle. Each weight of this start is at least a
+// third of the fraction.
 static inline UncertainPoint start_of(const UncertainSurface *surface, Real3 direction, Real doubt,
                                       Real u, bool *may_be_lifted)
 {
@@ -211,8 +211,8 @@ static inline Answer certify_normal_facing(const UncertainSurface *surface, cons
     return cosine > 0.0f ? ANSWER_YES : ANSWER_NO;
 }
 
-// Returns whether the triangle's face faces the light. Corners and lights are stored values, so the
-// result is unknown only if rounding could change it.
+// Returns whether the triangle's face faces the light. Corners and lights are exact, so only the
+// rounding of this test can make the result unknown.
 static inline Answer certify_face_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
     const UncertainPoint light = {to_light->goal.point, surface->face, 0.0f, 0.0f};
@@ -224,7 +224,7 @@ static inline Answer certify_face_facing(const UncertainSurface *surface, const 
 
 // Returns whether the shading normal and the face both face the light. Seen from outside, a
 // sphere's face normal is its shading normal. From inside, its face is opposite to its normal. A
-// light then passes both tests only by rounding, near the horizon.
+// light near the horizon could then pass both tests, but only because of rounding.
 static inline Answer certify_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
     const Answer normal = certify_normal_facing(surface, to_light);

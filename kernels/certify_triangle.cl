@@ -98,8 +98,8 @@ static inline Real slope_of(const ProjectedTriangle *projected)
 // depth is between the depths of the corners. For a broad triangle, the plane's slope also limits
 // the difference between this depth and the depth at which the axis crosses the plane. A broad
 // triangle is more than 8 blurs high. The hit's weights then stay within [-1/4, 5/4], and rounding
-// changes the plane's slope by less than (1 + slope) / 2. A bound of 4 (1 + slope) blurs covers all
-// of this. The term of 26 u times the size covers the rounding of the distance (B11).
+// changes the plane's slope by less than (1 + slope) / 2. A bound of 4 (1 + slope) blurs covers
+// these effects. 26 u times the size covers the rounding of the distance (B11).
 static inline Candidate depth_of(const ProjectedTriangle *projected, Real u)
 {
     const Corners *c = &projected->corners;
@@ -124,9 +124,9 @@ static inline Real margin_of(const ProjectedTriangle *projected, Real u)
 // Returns the side of a triangle's plane on which a point certainly is: 1 in front, -1 behind, or 0
 // if unknown. A nonzero result agrees with real arithmetic and with height_over. With the n and E
 // of B6, the error of height_over is below 12u (n.|apart| + E |apart|). The threshold of
-// height_over is at most 16u n.|point| + 8u (n.|apart| + E |apart|). Each is below u * rounding, so
-// twice this bound covers both. It also covers is_before_face (shade.cl), whose unit vector adds an
-// error of 4u n.|apart|.
+// height_over is at most 16u n.|point| + 8u (n.|apart| + E |apart|). The error and the threshold
+// are each below u * rounding, so twice this bound covers their sum. Twice the bound also covers
+// is_before_face (shade.cl), where a unit vector adds an error of 4u n.|apart|.
 static inline int side_of(const Corners *corners, const UncertainPoint *uncertain, Real u)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -178,8 +178,8 @@ static inline Candidate reflected_candidate(const RayCone *ray, const ProjectedT
     return candidate;
 }
 
-// If a hit is closer to the eye than this, the tracer may test the eye like the start of a ray that
-// leaves a surface.
+// If a hit is closer to the eye than this distance, the tracer may test the ray as if it left a
+// surface at the eye.
 #define AT_EYE 0x1p-15f
 
 static inline Candidate camera_candidate(const RayCone *ray, const ProjectedTriangle *projected,
@@ -253,20 +253,20 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
 
 // Returns whether a ray that leaves a triangle certainly misses a coincident triangle. It misses if
 // height_over returns zero for the ray's start. hits_neighbor then finds neither triangle in front
-// of the other: the height of an edge over its own plane is below 6u n.|edge|, which is less than
-// height_over allows. Here n is the tracer's normal, and n.|v| is the sum of the products'
-// magnitudes.
+// of the other. The computed height of an edge over its own plane is below 6u n.|edge|, and
+// height_over returns zero for it. Here n is the tracer's normal, and n.|v| is the sum of the
+// products' magnitudes.
 //
-// The computed height of the start is the sum of these errors:
-//  - The start is a weighted sum of corners, which all have the height n.a over the origin. The
+// The computed height of the start is at most the sum of these errors:
+//  - The start is a weighted sum of corners. Each corner has the height n.a over the origin. The
 //    weights add up to 1 within 4u, which gives 4u |n.a|. Rounding the sum adds 3u n.|corner|.
-//  - If the start moves into the triangle, this adds u n.|start| and 2u n.|move|.
+//  - If the start moves into the triangle, the move adds u n.|start| and 2u n.|move|.
 //  - An edge leaves the plane perpendicular to n by 4u n.|edge|: 3u from rounding the components of
 //    n, and u from rounding the edge.
 //  - Subtracting a corner from the start and multiplying by n adds 4u n.|start - corner|.
 // Both sides of the comparison are in units of u. The normal computed here differs from n by 4u E
 // per axis, because the tracer rounds the edges. E is the product of the largest edge components.
-// As coordinates are at most 1, this changes the comparison by less than 1100u E.
+// Because coordinates are at most 1, the difference changes the comparison by less than 1100u E.
 static inline bool certainly_misses_coincident(const Corners *corners, const RayCone *ray)
 {
     const UncertainPoint *start = &ray->start;

@@ -5,15 +5,16 @@
 //
 // Floors often lie in a plane between cubes, where rounding would choose the cube of each pixel.
 // Two rules prevent this (docs/numerics.md, B19):
-//  - Each coordinate of the point moves a little behind the surface. On axes that are parallel to
-//    the surface, the coordinate increases instead. The edge between two checks of a floor
-//    therefore belongs to one of them.
+//  - Each coordinate of the point moves a little behind the surface. On an axis parallel to the
+//    surface, no direction leads behind it, and the coordinate increases. The edge between two
+//    checks of a floor therefore belongs to one of them.
 //  - If all corners of a triangle have the same coordinate, all its points have this coordinate.
 #ifndef CLRT_CHECKER_CL
 #define CLRT_CHECKER_CL
 #include "surface.cl"
 
-// The move, in cubes, is this number times 1 plus the number of cubes in a normalized unit.
+// The move in cubes is CHECK_MOVE * (rate + 1), where rate is the number of cubes in a normalized
+// unit.
 #define CHECK_MOVE 0x1p-19f
 
 // A surface counts as parallel to an axis if its unit normal has at most this component on the

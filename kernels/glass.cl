@@ -37,8 +37,8 @@ typedef struct {
     Real reflectance; // the part of the light that is reflected
 } Refraction;
 
-// Returns Fresnel's reflectance, the mean of both polarizations. Equal indices reflect nothing.
-// This case is separate, because the denominators can be zero in it.
+// Returns Fresnel's reflectance, the mean of both polarizations. Equal indices reflect nothing, and
+// the denominators can then be zero.
 static inline Real reflectance_of(const Refraction *at)
 {
     const Real near = at->ratio * at->cosine, far = at->ratio * at->beyond;
@@ -71,8 +71,8 @@ static inline Real3 refracted_direction(const Refraction *at, Real3 normal, Real
     return difference(turn, scaled3(at->ratio, toward_viewer));
 }
 
-// Returns the normal on the ray's side. A sphere's own normal always points outward, so its face is
-// returned instead.
+// Returns the normal on the ray's side. surface->normal of a sphere always points outward, so the
+// result for a sphere is surface->face.
 static inline Real3 normal_before(const Surface *surface)
 {
     return choose3(surface->index == NOTHING, surface->face, surface->normal);
@@ -161,7 +161,7 @@ static inline bool cross_glass(const Tracer *tracer, Ray *ray, LightPath *light,
     return true;
 }
 
-// Follows shadow rays through glass. Rays that end keep their blockers.
+// Follows shadow rays through glass. A ray that has ended keeps its last blocker.
 static NOT_INLINE void follow_light(const Tracer *tracer, Ray *rays, uint count, LightPath *light)
 {
     Hit found[PACKETS];

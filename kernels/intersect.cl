@@ -11,8 +11,8 @@
 #include "sphere.cl"
 
 // Returns the distance to the sphere on which the ray starts. A reflected or refracted ray can hit
-// this sphere again from inside. With glass, a shadow ray can, too. The shadow ray's direction is
-// first scaled to length 1, as sphere_chord requires.
+// this sphere again from inside. In scenes with glass, a shadow ray can hit it again, too. The
+// shadow ray's direction is first scaled to length 1, as sphere_chord requires.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
 {
     const bool is_path = plain_kind(ray->kind) == RAY_REFLECTED;

@@ -10,8 +10,8 @@
 //
 // Owen's scrambling keeps this property ("Randomly permuted (t,m,s)-nets and (t,s)-sequences",
 // 1995). Its random numbers are hashes of the pixel. If one random number per pixel were XORed with
-// all points instead, stripes about as fine as the samples would alias. Smooth waves would take 2.6
-// times as many samples for an error of 0.2 %.
+// all points instead, stripes about as fine as the samples would alias. For an error of 0.2 %,
+// smooth waves would then take 2.6 times as many samples.
 #include "pixels.cl"
 
 // The number of samples per work-item. If the number of requests were limited instead, a work-item

@@ -219,7 +219,7 @@ static inline Mask lanes_of(uint bits)
 static inline UInt gather(global const uint *words, UInt place)
 {
 #if CLRT_LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_gathersiv16si)
-    // The instruction's indices are signed, so they count from the middle of the range of `place`.
+    // The instruction's indices are signed, so `index` is place - 2^31, counted from words + 2^31.
     typedef int Register __attribute__((vector_size(64)));
     const Register index = (Register)as_int16(place ^ 0x80000000u);
     const ulong middle = (ulong)words + 0x80000000ul * sizeof(uint);

@@ -2,11 +2,11 @@
 // Orders triangles that a ray hits at almost equal distances. t has an error, so t alone could
 // order two triangles wrongly. A ray could then hit the farther one and leave a closed surface.
 //
-// The edge tests are exact for the sheared corners (triangle.inc.cl), which neighbors share. For a
-// ray, all triangles therefore form one surface: the stored surface, with each corner moved by the
-// rounding of the shear. A Nearness is the distance to this surface with twice the bits of t.
-// docs/numerics.md proves that rays then stay inside closed surfaces, except for one step that is
-// only measured.
+// The edge tests are exact for the sheared corners (triangle.inc.cl), which neighbors share. In the
+// frame of a ray, all triangles therefore form one surface: the stored surface after each corner
+// has moved by the rounding of the shear. A Nearness is the distance to this surface with twice the
+// bits of t. docs/numerics.md proves that rays then stay inside closed surfaces, except for one
+// step that is only measured.
 //
 // Invariant: a Nearness depends only on the ray and on the triangle's corners, and not on the order
 // of the tests.
@@ -77,7 +77,8 @@ static inline Real slope_along(Real3 first, Real3 second)
 }
 
 // Returns the least slope of the depth from the corner `first` into the triangle. The steepest
-// descent has this slope if it leads into the triangle. Otherwise, an edge at the corner has it.
+// descent has this slope if it leads into the triangle. Otherwise, an edge at the corner has the
+// least slope.
 static inline Real slope_around(Real3 first, Real3 second, Real3 third)
 {
     const Real3 p = difference(second, first), q = difference(third, first);
@@ -158,7 +159,7 @@ static inline Mask is_nearer(const Nearness *a, const Nearness *b, Mask else_nea
     return a->t.high < b->t.high || (same_high && a->t.low < b->t.low) || (same_t && by_lowest);
 }
 
-// Returns whether the triangle is beyond the ray's own triangle, by nearness.
+// Returns whether the ray's own triangle is nearer than the triangle, by their nearnesses.
 static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index)
 {
     const Mask known = ray->own_index != NOTHING;
@@ -168,10 +169,10 @@ static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index
 }
 
 // Returns whether a triangle precedes the best hit, in the given lanes. In these lanes, the best
-// hit must also be a triangle. If the nearnesses are equal, both triangles get the lesser t,
-// because their own t differ by rounding. The id then decides only which triangle is hit. On GPUs,
-// storing the common nearness as t would take 15 more registers, and a separate test for equality
-// would take 9 more.
+// hit must also be a triangle. If the nearnesses are equal, the triangles' distances t differ only
+// by rounding, and both triangles get the lesser t. The id then decides only which triangle is hit.
+// On GPUs, storing the common nearness as t would take 15 more registers, and a separate test for
+// equality would take 9 more.
 static NOT_INLINE Mask triangle_is_nearer(const Search *search, Hit *triangle, Hit *best,
                                           Mask lanes)
 {
@@ -187,8 +188,8 @@ static NOT_INLINE Mask triangle_is_nearer(const Search *search, Hit *triangle, H
     return nearer;
 }
 
-// Returns the lanes in which nearness decides between a triangle at t and the best hit. There, both
-// distances are below search->limit.
+// Returns the lanes in which nearness decides between a triangle at t and the best hit. In these
+// lanes, both distances are below search->limit.
 static inline Mask is_close(const Search *search, Real t, const Hit *best)
 {
     return fabs(t - best->t) <= search->tie && t < search->limit && best->t < search->limit;

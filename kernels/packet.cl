@@ -32,8 +32,8 @@ static inline Real3 splat_corner(const BlockPlace *at, uint corner)
                     at->block->corners[corner][2][at->place]);
 }
 
-// The rows with the first corners of a block's triangles, in the order of a packet's axes. The rows
-// with the next corners follow 3 * WIDE words later.
+// Three rows of a block: each has one coordinate of the triangles' first corners. The rows are in
+// the order of a packet's axes. The next corners' rows start 3 * WIDE floats later.
 typedef struct {
     global const float *x, *y, *z;
 } BlockRows;
@@ -71,8 +71,8 @@ static ALWAYS_INLINE Corners corners_from(const BlockPlace *at, const BlockRows 
                      corner_from(at, 2, packet)};
 }
 
-// Returns the bits of the triangles in `near` that the line of any ray in `lanes` passes through.
-// All rays must have the same axes. The loop has no branches.
+// Returns the bits of the triangles in `near` that are hit by the line of at least one ray in
+// `lanes`. All rays must have the same axes. The loop has no branches.
 static ALWAYS_INLINE uint triangles_entered(const BlockPlace *start, const BlockRows *rows,
                                             const Packet *packet, Mask lanes, uint near)
 {

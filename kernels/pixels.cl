@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A tile's packets of pixels: their places, their colors' places in memory, and the color of sky.
+// Places a tile's packets, stores the colors of their pixels, and computes the color of sky.
 #include "sky.cl"
 
 // The columns of packets in a beam, and the beam's size in pixels.

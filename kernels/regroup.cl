@@ -16,7 +16,7 @@
 
 #if CLRT_WIDE_NODES
 
-// Smaller groups of rays are traced ray by ray, which is faster for them.
+// Groups of fewer rays are traced ray by ray, which is faster.
 #define SMALLEST_BEAM 6
 
 #if CLRT_LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_compresssi512_mask)
@@ -319,8 +319,8 @@ static inline Real3 first_real3(Real3 v, Mask among)
 }
 
 // Returns whether the rays are probably traced faster as a beam than ray by ray. Both ways find the
-// same hits. Only rays of an array may be random. The library scales their directions until the
-// largest component is in [1, 2).
+// same hits. Only arrays of rays (rays.cl) can contain random rays, so other programs skip the
+// test. The library scales the directions of its rays until the largest component is in [1, 2).
 static inline bool are_coherent(const Ray *rays, uint count)
 {
     bool coherent = true;

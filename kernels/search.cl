@@ -93,7 +93,8 @@ static inline void search_boxes(Search *search, const Tracer *tracer, const Ray 
     search->slabs = slabs_of(ray->origin, ray->direction);
     search->limit = limit;
     // triangle_depth_error is at most 54 u (o + 1) for the origin's largest coordinate o, because
-    // coordinates of corners are at most 1 (B4). The axis z of the shear has the smallest inverse.
+    // coordinates of corners are at most 1 (B4). The smallest inverse turns this error of the depth
+    // into an error of t.
     const Real3 inverse = magnitudes(search->slabs.inverse);
     const Real unit = UNIT_ROUNDOFF * min(min(inverse.x, inverse.y), inverse.z);
     search->tie = 128.0f * unit * (largest_component(ray->origin) + 1.0f);

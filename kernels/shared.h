@@ -35,15 +35,15 @@ typedef uint64_t ulong;
 // 22 and 4 become 34 and 8.
 //
 // The error of a hit's distance can put the hit up to 54 units behind the ray's start, and
-// search_behind allows 256 more. A box at the start has the origin's coordinates. The box grows and
-// the origin moves, so each needs only 128 of the 256 units. The sum is at most 34 + 8 + 54 + 128 =
-// 224. search_reach (search.cl) covers hits beyond the best one. Doubling the slack costs no
-// measurable time.
+// search_behind allows 256 more. A box at the start has the origin's coordinates, so the box grows
+// as far as the origin moves. The growth and the move each cover half of these 256 units. Each must
+// cover at most 34 + 8 + 54 + 128 = 224 units. search_reach (search.cl) covers hits beyond the best
+// one. Doubling the slack costs no measurable time.
 #define BVH_SLACK 0x1p-16f
 
-// The box around all primitives grows by this fraction of its largest coordinate, once with
-// coordinates relative to the scene's origin (on the host) and once relative to the eye (in
-// kernels). Rays that miss the enlarged box hit nothing (docs/numerics.md, B17).
+// The box around all primitives grows by this fraction of its largest coordinate. The host measures
+// this coordinate from the scene's origin. Kernels enlarge the box again, and measure from the eye.
+// Rays that miss the enlarged box hit nothing (docs/numerics.md, B17).
 #define SKY_SLACK 0x1p-12f
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG, SHADER_GLASS } Shader;
@@ -96,8 +96,8 @@ CLRT_SAME_SIZE(SphereData, 48)
 // A triangle for the intersection test. The array is in leaf order. The host sorts the corners by
 // their coordinates, so triangles with the same three corners store the same bits, regardless of
 // the corners' order in the file. Every kernel computes t from only the ray and these bits, by the
-// same operations, so a ray hits such triangles at equal t. The flags only decide whether the ray
-// hits a triangle at all. Among the triangles that the ray hits, the lowest id wins.
+// same operations. A ray therefore hits these triangles at equal t. The flags only decide whether
+// the ray hits a triangle at all. Among the triangles that the ray hits, the lowest id wins.
 typedef struct {
     float a[3];
     uint id;

@@ -38,7 +38,7 @@ static inline bool leave_box(const FrameData *frame, const RayRange *range)
 
 // Returns whether the box is outside one of the four planes that bound the block's rays. In
 // perspective, the planes contain the eye, and their normals depend on the block's position. In
-// orthographic pictures, the normals are constant and the planes are shifted.
+// orthographic pictures, the normals are constant, and the planes shift with the block.
 static inline bool pass_box(const FrameData *frame, const RayRange *range)
 {
     const float *right = frame->camera.right_step, *down = frame->camera.down_step;

@@ -13,10 +13,10 @@
 // then decide which light reaches the surface and which rays leave it. The face's normal always
 // points to the side from which the ray comes.
 //  - A light reaches a point only if the shading normal and the face both face it (shade.cl). The
-//    course's renderers (docs/scenes.md) start shadow rays slightly off the surface, which has the
-//    same effect: the face blocks a light behind it. A sphere seen from inside keeps its outward
-//    normal, as in the course. Its inner face and its normal never face the same light, so it stays
-//    unlit.
+//    course's renderers (docs/scenes.md) start shadow rays slightly off the surface. There, the
+//    face blocks a light behind it, which has the same effect. A sphere seen from inside keeps its
+//    outward normal, as in the course. Its face points inward, so no light is in front of both face
+//    and normal, and the inside stays unlit.
 //  - If the shading normal sends a reflected ray into the face, the ray is mirrored at the face.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
@@ -131,8 +131,8 @@ static inline View view_of(const Corners *corners, Real3 origin, Real3 direction
     return view_along(corners, origin, direction, &axes);
 }
 
-// Records the distance of the point from the edges. A weight is the distance from an edge as a
-// fraction of the altitude, which is twice the area divided by the edge's length.
+// Records the distance of the point from the edges. A weight times the altitude is the distance
+// from an edge. The altitude is twice the area, divided by the edge's length.
 static inline void note_edges(Surface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -312,12 +312,12 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
     return lifted;
 }
 
-// Returns the start of a ray near an edge. Rounding may have put the surface point outside its
-// triangle, beyond the neighbor that should stop the ray. The point may also be a corner. While the
-// ray's line does not pass through the triangle, the start moves toward the triangle's middle. On
-// the axis on which the start moves most, its distance from the surface point is UNIT_ROUNDOFF /
-// sine times 1, 2, 4 and so on to 256. The start never moves beyond the middle. A reflected or
-// refracted ray that still does not pass is lifted.
+// Returns the start of a ray near an edge. There, rounding may have put the surface point outside
+// its triangle, beyond the neighbor that should stop the ray, or the point may be a corner. While
+// the ray's line does not pass through the triangle, the start moves toward the triangle's middle.
+// It moves by UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, measured on the axis of its
+// largest move. The start never moves beyond the middle. If a reflected or refracted ray still
+// misses the triangle, the ray is lifted.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
                                      Real sine, Mask near_edge)
 {
@@ -341,9 +341,9 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
 }
 
 // Returns the start of a ray that leaves the surface, and may lift the ray's direction. The ray's
-// line should pass through the surface's triangle. Rounding can prevent this only near edges: the
-// point is off by some units of rounding. Along the plane, the line is off by this error divided by
-// the sine of the line's angle to the plane (docs/numerics.md, B14).
+// line should pass through the surface's triangle. Rounding can prevent this only near edges. The
+// point is off by some units of rounding. This error, divided by the sine of the line's angle to
+// the plane, is the error of the line along the plane (docs/numerics.md, B14).
 static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Heading *heading,
                                Real sine, Mask active)
 {

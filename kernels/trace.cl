@@ -8,8 +8,8 @@
 #include "camera.cl"
 #include "shade.cl"
 
-// All Reals from this number on are integers, so adding it to a smaller Real rounds the sum to an
-// integer.
+// All Reals from this number on are integers. Adding this number to a smaller Real therefore rounds
+// the Real to an integer.
 #define LEAST_WHOLE ((Real)(1ul << SIGNIFICAND_BITS))
 
 // Returns a color in steps of 2^-32, rounded to integers. PoCL's rint would take 20 instructions.
@@ -135,9 +135,9 @@ static inline bool aim_rays(const Tracer *tracer, Paths *paths)
     return any;
 }
 
-// Sets the next rays after paths_step. Returns false if all paths have ended. On gfx1100, a loop
-// that calls this function last takes 11 fewer vector registers than a loop that calls it first,
-// mostly because shading then keeps no old rays.
+// Sets the next rays after paths_step. Returns false if all paths have ended. Loops call this
+// function last. On gfx1100, this takes 11 fewer vector registers than calling it first, mostly
+// because shading then keeps no old rays.
 static inline bool paths_continue(const Tracer *tracer, Paths *paths)
 {
     return paths->level < tracer->frame->max_level && aim_rays(tracer, paths);

@@ -61,9 +61,9 @@ static inline Mask OVERLOAD edges_contain(const Edges *edges)
     return (smallest >= 0.0f || largest <= 0.0f) && edges->determinant != 0.0f;
 }
 
-// Returns whether an edge function counts as positive. If the ray meets the edge from p to q
-// exactly, it counts as moved by an infinitely small distance along x, and by an even smaller
-// distance along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
+// Returns whether an edge function counts as positive. A ray that meets the edge from p to q
+// exactly counts as moved: by an infinitely small distance along x, and by an even smaller distance
+// along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
 static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
 {
     const Mask beside = p.y > q.y || (p.y == q.y && q.x > p.x);
@@ -140,8 +140,9 @@ typedef struct {
 
 // Returns the distances, and whether surface_ray_distance must decide. `marks` contains the
 // triangles' flags. One-sided triangles do not stop rays on their inner side. For rays that leave a
-// surface, all triangles ahead up to `reach` are near, and so are triangles within rounding of the
-// start. For rays from the eye, triangles are near only if they are within rounding of the eye.
+// surface, surface_ray_distance decides about all triangles ahead up to `reach`, and about
+// triangles within rounding of the start. For rays from the eye, it decides only about triangles
+// within rounding of the eye.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {
@@ -165,8 +166,8 @@ static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt m
 // Returns a point's height over the triangle's plane, times the normal's length. The height is
 // positive in front, and zero if rounding could change its sign. Near a triangle, this height is
 // far more precise than the depth of a ray from afar. The error bound adds the errors of the
-// products, of the normal and of the point. The point's error is `blur` units of rounding of its
-// coordinates.
+// products, of the normal and of the point. `blur` is the error of the point's coordinates, in
+// units of rounding.
 static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, float blur)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -199,11 +200,11 @@ typedef struct {
 // Near the ray's start, t is only rounding error. If t decided there, the start's neighbors would
 // wrongly stop shadow and reflected rays. The ray therefore stops only if its surface point is
 // certainly on the side of the triangle from which the ray comes. On the inner side of two-sided
-// triangles, convex neighbors also meet this condition. There, t must also be certainly positive,
-// except for rays from the eye, which is on no surface. A triangle does not block the ray if the
-// triangle's t is within `error` of the light's t.
+// triangles, the start's convex neighbors also meet this condition. On this side, t must therefore
+// be certainly positive, too. This does not apply to rays from the eye, which is on no surface. A
+// triangle does not block the ray if the triangle's t is within `error` of the light's t.
 //
-// `in_doubt` receives the lanes whose rays may pass by mistake, because of rounding. In a valley,
+// `in_doubt` receives the lanes whose rays pass, but perhaps only because of rounding. In a valley,
 // rounding can also put the start beyond the neighbor that should stop the ray.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Mask *in_doubt)

@@ -29,8 +29,8 @@ static inline float lane_reach(const Search *search, const Hit *hits, uint lane)
     return lane_real(&hits->t, lane) + lane_real(&search->tie, lane);
 }
 
-// The planes by which rays enter boxes: for each axis and lane, the place of a row of
-// BvhWide::planes. place ^ OTHER_PLANES is the row of the opposite planes.
+// For each axis and lane, an index into BvhWide::planes: the row of the planes by which the lane's
+// ray enters boxes. The row of the opposite planes is at index ^ OTHER_PLANES.
 typedef struct {
     uint rows[3][CLRT_LANES];
 } NearPlanes;

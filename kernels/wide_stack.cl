@@ -33,8 +33,8 @@ static inline uint lowest_bit(uint bits)
 }
 
 // Returns the entry distances as integers that sort in reverse order. The bits of nonnegative
-// floats sort like the floats. Children that are not hit come last. The lowest three bits encode
-// the child's index, which shortens the distance by less than 2^-20 of its value.
+// floats sort like the floats. Children that are not hit come last. The child's index replaces the
+// lowest three bits. This shortens the distance by less than 2^-20 of its value.
 static inline uint8 entry_order(float8 entry, int8 met)
 {
     const uint8 place = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
