@@ -16,9 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The midpoint split of the course (docs/scenes.md): a plane through the middle of the box,
-// perpendicular to its longest axis. If a side is empty, or if a child is hardly shorter than its
-// parent along this axis, the next longest axis is tried.
+// The midpoint split, as taught in the course (docs/scenes.md), divides a box by a plane through
+// its middle, perpendicular to its longest axis. If a side is empty, or if a child is hardly
+// shorter than its parent along this axis, the next longest axis is tried.
 
 #define LEAF_TRIANGLES 4
 #define LARGEST_CHILD  0.9f // largest extent of a child, relative to its parent's extent
@@ -95,7 +95,7 @@ Split split_midpoint(const BuildRange *range)
 // the tree.
 #define MEDIAN_SPLIT_DEPTH 32
 
-// Costs are relative to one test of a leaf, which covers one triangle or one block.
+// The unit of all costs is one intersection test, of one triangle or of one block.
 typedef struct {
     uint32_t unit, unit_bits; // triangles per test, and the binary logarithm of this number
     float node;               // cost of reading a node and testing its two boxes
@@ -103,14 +103,13 @@ typedef struct {
 
 static const Costs costs_of[] = {[LEAVES_SINGLE] = {1, 0, 1.0f}, [LEAVES_BLOCKS] = {8, 3, 0.3f}};
 
-// Each bin holds all three axes, so that vector operations compute the prices of three planes at
-// once.
+// Each bin has one box per axis, so that vector operations price three planes at once.
 typedef struct {
     BuildBox boxes[BINS][3];
     Uint4 counts[BINS];
 } Bins;
 
-// An item's bin is floor((doubled center - origin) * scale). The scale is 0 if centers hardly vary.
+// An item with center c has bin floor((2 c - origin) * scale). The scale is 0 if c hardly varies.
 typedef struct {
     Float4 origin, scale;
     int bins;
@@ -123,7 +122,7 @@ typedef struct {
     float price;
 } Plane;
 
-// Returns the number of tests for a leaf of each size in `counts`.
+// Returns the number of tests that a leaf of counts[i] triangles needs, for each i.
 static Float4 units_of(const Costs *costs, Uint4 counts)
 {
     const Uint4 units = (counts + (costs->unit - 1)) >> costs->unit_bits;
@@ -187,8 +186,8 @@ static void sides_add(Sides *sides, const Bins *bins, int bin)
     sides->counts += bins->counts[bin];
 }
 
-// Returns the price of a side for each axis: half the surface area times the number of tests. An
-// empty side's price is NaN.
+// Returns a side's price on each axis: half its surface area times its number of tests. An empty
+// side's price is NaN.
 static Float4 sides_price(const Sides *sides, const Costs *costs)
 {
     return build_box_half_areas(sides->boxes) * units_of(costs, sides->counts);

@@ -108,8 +108,7 @@ static inline BuildBox build_box_of_triangle(const Triangles *triangles, uint32_
                       float4_minimum(float4_minimum(-a, -b), -c) + zero};
 }
 
-// Returns a box that consists of a single point, which is the doubled center (low + high) of the
-// given box.
+// Returns a box of size zero at the point low + high, which is twice the center of the given box.
 static inline BuildBox build_box_of_center(const BuildBox *box)
 {
     return (BuildBox){box->low - box->negated_high, box->negated_high - box->low};
@@ -120,7 +119,7 @@ static inline float item_center(const BuildItem *item, int axis)
     return item->low[axis] - item->negated_high[axis];
 }
 
-// A node to split. This is the input of the functions that choose splits.
+// A node to split: the input of split_midpoint and split_sah.
 typedef struct {
     const BuildItem *items; // the node's triangles
     uint32_t count;

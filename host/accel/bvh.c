@@ -52,8 +52,8 @@ static bool add_task(Whole *whole, const BuildTask *task, Error *error)
                                            : array_push(&whole->subtrees, *task, error);
 }
 
-// Divides a level of large nodes. A node's two children are stored after all nodes below the left
-// child and before all nodes below the right child.
+// Divides a level of large nodes. In memory, a node's two children lie between the nodes below the
+// left child and the nodes below the right child.
 static bool divide_next(Whole *whole, Error *error)
 {
     const size_t end = whole->large.count;

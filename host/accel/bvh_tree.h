@@ -6,7 +6,7 @@
 
 typedef enum { BVH_SAH, BVH_MIDPOINT } BvhBuilder;
 
-// The surface area heuristic counts the intersection tests of a leaf in this unit.
+// The triangles that one intersection test covers. The surface area heuristic counts these tests.
 typedef enum {
     LEAVES_SINGLE, // one triangle per test
     LEAVES_BLOCKS  // a block of up to WIDE triangles per test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Converts lights, materials, spheres and the looks of triangles to the device's layout, and
-// derives the scene's traits. flat_nodes.c converts the triangles and their tree. scene_compile
-// runs all stages of this folder.
+// Converts lights, materials, spheres and the shading data of triangles (TriangleLook) to the
+// device's layout, and derives the scene's traits. flat_nodes.c converts the triangles and their
+// tree. scene_compile runs all stages of this folder.
 #include "accel/flat.h"
 
 #include "accel/flat_nodes.h"
@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The following functions process one mesh object at a time. The threads share the object's
-// triangles.
+// The following functions process one mesh object at a time. They divide the object's triangles
+// among the threads.
 
 typedef struct {
     const Mesh *mesh;
@@ -56,9 +56,9 @@ static double inverse_power(double value)
     return power;
 }
 
-// Stores a triangle's normals, negated if the stored corners are reversed. A common power of two
-// scales the normals, so that their squares neither overflow nor underflow. This factor keeps the
-// relative weights of the normals in the interpolation.
+// Stores a triangle's normals, negated if the stored corners are reversed. Scales the three normals
+// by one power of two, so that their squares neither overflow nor underflow. One common factor
+// keeps their relative weights in the interpolation.
 static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {

@@ -80,8 +80,9 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics);
 // Returns the largest reflectivity of the materials that primitives use.
 float flat_reflectivity(const FlatScene *flat);
 
-// Returns the traits of the general program for scenes with the needed traits. General programs
-// have all traits, but rare traits only if they are needed. A program with glass also has checkers.
+// Returns the traits of the general program that renders scenes with the needed traits. General
+// programs have all common traits, and the rare traits that are needed. If they have glass, they
+// also have checkers.
 SceneTraits traits_general(SceneTraits needed);
 
 #define TRAITS_OPTIONS_SIZE 192

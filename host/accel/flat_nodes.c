@@ -4,10 +4,10 @@
 // The wide layout collapses the binary tree into nodes of up to eight children (compare Wald,
 // Benthin and Boulos, "Getting rid of packets", 2008). A wide node starts with the two children of
 // a binary node, or with the two halves of a large leaf. While the node has fewer than eight
-// children, the two parts of its largest divisible child replace this child. The largest child is
-// the one with the largest surface area, which rays hit most often. A child with at most eight
-// leaves is divided only if all its leaves fit into the node. This rule makes nodes of only two or
-// three blocks rare. Nodes and blocks are in depth-first order.
+// children, its largest divisible child is replaced by the two parts of this child. The largest
+// child is the one with the largest surface area, which rays hit most often. A child with at most
+// eight leaves is divided only if the node has room for all these leaves. This rule makes nodes of
+// only two or three blocks rare. Nodes and blocks are in depth-first order.
 //
 // One thread collapses the tree, and then all threads fill the blocks.
 //
@@ -38,8 +38,8 @@ static float rounded_up(double value)
     return -rounded_down(-value);
 }
 
-// Moves each plane of a box outward by `share` times the box's largest coordinate. The sum is
-// nearly exact in fp64, and is then rounded outward to float.
+// Moves each plane of a box outward by `share` times the box's largest coordinate. The new planes
+// are nearly exact in fp64, and are then rounded outward to float.
 static Box box_grow(const Box *box, float share)
 {
     const double slack = (double)share * (double)largest_coordinate(box);
@@ -174,8 +174,7 @@ typedef struct {
     uint32_t leaf_count;
 } Part;
 
-// The triangles [first, first + count) of Bvh::order. Without a tree, the range counts triangles in
-// file order.
+// The triangles [first, first + count) of Bvh::order or, without a tree, of the file.
 typedef struct {
     uint32_t first, count;
 } TriangleRange;
@@ -224,8 +223,8 @@ static void open_part(const Bvh *bvh, Part *part, Part *second)
     second->count -= part->count;
 }
 
-// Returns whether to open a part of a node that has room for `room` more parts. If the node has no
-// other part, the part is always opened, unless it is a block.
+// Returns whether to open a part. Its node has room for `room` more parts. If the node has no other
+// part, the part is always opened, unless it is a block.
 static bool can_open(const Part *part, uint32_t room)
 {
     return !is_block(part) &&
@@ -242,8 +241,8 @@ static int largest_part(const Part *parts, uint32_t count)
     return largest;
 }
 
-// Opens parts[0] and then the largest resulting parts, until the node is full or can_open allows no
-// more. Returns the number of parts.
+// Opens parts[0] and then always the largest part, until the node is full or can_open allows no
+// part. Returns the number of parts.
 static uint32_t gather_children(const Bvh *bvh, Part parts[WIDE])
 {
     uint32_t count = 1;
@@ -352,7 +351,7 @@ static void unmark_chunk(void *context, uint32_t first, uint32_t end)
 }
 
 // Reserves enough memory for all nodes and blocks. A leaf of n triangles makes at most n / WIDE + 1
-// blocks. Each wide node replaces an inner node or covers blocks of one leaf.
+// blocks. Each wide node replaces an inner node of the tree or covers blocks of one leaf.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
 {
     const size_t leaves = source->bvh->leaf_count, inner = source->bvh->node_count - leaves;

@@ -5,12 +5,12 @@
 #include "accel/flat_scene.h"
 
 // Fills the pair layout: a BvhPair for every inner node, and the triangles in leaf order. If the
-// root is a leaf, it gets a BvhPair too. The looks move into the triangles.
+// root is a leaf, it gets a BvhPair too. Moves flat->looks into the triangles.
 bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error);
 
-// Fills the wide layout: nodes of up to eight children, and blocks of triangles. The triangles'
-// flags move from the looks to the blocks. Without a tree, the triangles of both layouts are in
-// file order.
+// Fills the wide layout: nodes of up to eight children, and blocks of triangles. Moves the
+// triangles' flags from flat->looks to the blocks. Without a tree, the triangles of both layouts
+// are in file order.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);
 
 // Returns a box around all primitives, grown by SKY_SLACK. Without primitives, the box is

@@ -103,7 +103,7 @@ bool triangles_make(Triangles *triangles, const Scene *scene, const Normalizatio
 {
     const size_t count = scene_triangle_count(scene), points = vertex_count(scene);
     *triangles = (Triangles){0};
-    // Triangles and spheres share one range of ids; flags take two bits (kernels/shared.h).
+    // Triangles and spheres share one range of 30-bit ids (kernels/shared.h).
     if (count + scene->spheres.count >= 0x3fffffff)
         return error_set(error, "the scene has %zu triangles and %zu spheres, more than 2^30 - 2",
                          count, scene->spheres.count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Collects a scene's triangles in file order, with the float coordinates that the device traces.
-// Equal points get equal floats, as watertightness and the builders require.
+// Equal points get equal floats. Watertightness and the builders of trees require this.
 #pragma once
 
 #include "base/thread_pool.h"

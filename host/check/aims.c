@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes aims, and rays toward the aims. The bounds on rounding are generous.
+// Makes aims, and rays toward the aims. The bounds on rounding errors include a safety margin.
 #include "check/aims.h"
 
 #include "base/array.h"
@@ -16,17 +16,17 @@
 
 // A ray misses its aim by at most LENGTH_ERROR times its length plus COORDINATE_ERROR times the
 // aim's largest coordinate. With correctly rounded division, a hit that triangle.inc.cl accepts is
-// within 22 * 2^-24 Q of the ray. Q is the triangle's largest coordinate relative to the ray's
+// within 22 * 2^-24 Q of the ray. Q is the triangle's largest coordinate, measured from the ray's
 // start (BVH_SLACK in shared.h). Rounding directions and aims to float adds to this error.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 
 // An aim at an edge divides the edge at this fraction, measured from the point with the lower
-// index. The coordinates of such an aim need rounding. With 1/2, they might be exact.
+// index. The fraction is not 1/2, because a midpoint may need no rounding.
 #define EDGE_PART 0.4
 
-// The distance between an open edge and the aim beyond it, in radii of the mesh. Rounding errors
-// are far smaller.
+// The distance between an open edge and the aim beyond it, in radii of the mesh. This distance far
+// exceeds rounding errors.
 #define BEYOND 0x1p-14
 
 // The members of Aim that are accumulated over the triangles around an aim.
@@ -234,7 +234,7 @@ void aims_free(Aims *aims)
     *aims = (Aims){0};
 }
 
-// Returns the position of an eye. The eyes form a Fibonacci lattice on a sphere: their heights
+// Returns the position of an eye. The eyes form a Fibonacci lattice on a sphere. Their heights
 // differ by equal steps, and each eye is turned by the golden angle from the previous eye.
 static Vec3 eye_at(const Aims *aims, int eye)
 {
@@ -249,8 +249,8 @@ static Vec3 rounded(Vec3 v)
     return vec3((double)(float)v.x, (double)(float)v.y, (double)(float)v.z);
 }
 
-// Returns a lower bound on the cosine between a direction and the normals around the aim. A
-// negative result is no bound.
+// Returns a lower bound on the cosine between a direction and the normals around the aim. Only a
+// positive result is a valid bound.
 static double facing_from(const Aim *aim, Vec3 direction)
 {
     const double off = vec3_dot(aim->outward, direction);

@@ -4,8 +4,8 @@
 //
 // A renderer leaks if rounding lets a ray pass between two triangles. Random rays almost never come
 // close enough to an edge, so the check aims at the edges and points themselves. The first rays
-// start at eyes, which are 32 positions around the mesh. An aim that has no such ray, or is hidden
-// from its eye, gets a ray that starts near the aim.
+// start at eyes, which are 32 positions around the mesh. If no eye suits an aim, or if another part
+// of the mesh hides the aim from its eye, a ray starts near the aim.
 //
 // Invariant: a ray is cast only if every triangle around its aim faces the ray's origin so clearly
 // that rounding cannot carry the ray past these triangles. In a closed mesh, every miss is

@@ -17,8 +17,8 @@ static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t cou
     uint32_t lowest = sides[0].triangle;
     for (size_t side = 1; side < count; side++) {
         lowest = sides[side].triangle < lowest ? sides[side].triangle : lowest;
-        // A duplicate triangle has three edges, and is counted only at the edge of its two lower
-        // points.
+        // A duplicate triangle appears at three edges. It is counted only at the edge opposite its
+        // highest point.
         if (sides[side].opposite == sides[side - 1].opposite &&
             sides[side].opposite > sides[side].high)
             mesh_fault_add(&closedness->duplicates, sides[side].triangle);

@@ -23,8 +23,8 @@ typedef struct {
 bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld, const Edges *edges,
                      Error *error);
 
-// The counts of one mesh. Members that name triangles contain their numbers in the file. The faults
-// that the file's reader found are in the Mesh.
+// The counts of one mesh. Triangles are numbered as in the file. The faults that the file's reader
+// found are in the Mesh.
 typedef struct {
     Closedness closedness;
     Features features;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> the sizes of its finest details, measured in steps between floats. Rounding distorts a
-// detail of few steps. Edges are measured both in the file's coordinates and in normalized
-// coordinates.
+// Mesh -> the sizes of its finest details, measured in steps between floats. Rounding distorts
+// details that are only a few steps long. Edges are measured both in the file's coordinates and in
+// normalized coordinates.
 #pragma once
 
 #include "scene/normalize.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Turns counts and measurements into findings with texts. The check fails if the scene cannot be
-// drawn, or has faults that can cause holes or wrong pixels: values that are not finite, triangles
-// without area, duplicate meshes, triangles and spheres, and leaks of closed meshes. Other findings
-// may be intended by the author of the scene.
+// drawn, or if a fault can cause holes or wrong pixels. These faults are values that are not
+// finite, triangles without area, leaks of closed meshes, and duplicates of meshes, triangles or
+// spheres. Other findings may be intended by the author of the scene.
 #include "check/findings.h"
 
 #include "scene/camera.h"
@@ -147,8 +147,8 @@ static bool is_out_of_view(const Scene *scene, const Normalization *normalizatio
 // than this, the change is visible.
 #define FEW_STEPS 16.0
 
-// Advice on short edges blames the mesh's offset or the scene's size only if the offset or size
-// exceeds the mesh's size by this factor.
+// Advice on short edges names the mesh's offset or the scene's size as the cause only if this value
+// is more than MUCH times the mesh's size.
 #define MUCH 4.0
 
 static const struct {

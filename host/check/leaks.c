@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-// A mesh in all stages of its preparation for the device.
+// All data that the leak test makes from one mesh.
 typedef struct {
     Scene scene; // borrows the mesh
     CompileStages stages;

@@ -7,7 +7,7 @@
 #include "check/census.h"
 #include "session/ray_caster.h"
 
-// The largest number of aims per mesh that get rays.
+// The check casts rays at no more than this number of aims per mesh.
 #define LEAKS_AIMS 1048576
 
 typedef struct {

@@ -109,8 +109,8 @@ bool check_report_write_json(const Check *check, const char *path, Error *error)
     return json_file_write(report_json(check), path, error);
 }
 
-// Writes the findings of a mesh or, for NOTHING, of the scene. The findings start at index *next,
-// and *next advances past them.
+// Writes the findings of a mesh, or of the whole scene if mesh is NOTHING. The findings start at
+// index *next, and *next advances past them.
 static void write_findings(const Check *check, uint32_t mesh, size_t *next, FILE *stream)
 {
     for (; *next < check->findings.count; ++*next) {

@@ -198,7 +198,7 @@ bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *diffe
 // cause is rounding. The difference may be large, because rounding can change a sample's hit. If
 // the samples differ, every difference above ROUNDING_MOST counts as coverage.
 
-// If rounding changes no hit and no shadow, it changes a color in [0, 1] by at most this.
+// The largest change of a color in [0, 1] by rounding, if rounding changes no hit and no shadow.
 #define ROUNDING_MOST 1e-5
 
 const char *const cause_names[CAUSE_KINDS] = {"primitive",  "shadow",   "truncation",
@@ -261,8 +261,8 @@ static bool differ(const Side sides[2], size_t pixel, int channel)
     return memcmp(&a, &b, sizeof a) != 0;
 }
 
-// Returns whether the picture with fewer bounces at this pixel reached its --max-level, and the
-// other picture's --max-level is higher.
+// Returns whether --max-level ended the path with fewer bounces at this pixel, and the other
+// picture has a higher --max-level.
 static bool is_truncated(const Side sides[2], size_t pixel)
 {
     const float bounces[] = {side_value(&sides[0], pixel, BOUNCES),

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A compiled program is a file KEY.bin, which has a checksum and then the driver's binary. The key
 // is a hash of everything that determines the binary (program.c). The user's folder is searched
-// first, and then a folder that packages fill for all users. A missing, damaged or rejected file
-// only means that clrt builds the program from source.
+// first, and then a folder that packages fill for all users. If a file is missing, damaged or
+// rejected, clrt builds the program from source.
 //
 // Writing is atomic: a temporary file gets its name KEY.bin by rename. Two writers of one key store
 // equivalent binaries.
 //
-// The lock protects only PoCL's own files, and only in the library, which has no private folder.
+// In the library, the lock protects PoCL's own files. The executable has a private folder for them.
 // The lock is an flock, which the system releases when the process dies.
 #include "device/cache.h"
 
@@ -51,8 +51,8 @@ static bool take_folder(Cache *cache, const char *base, const char *rest)
     return false;
 }
 
-// Hashes the variables of PoCL that can change the compiled code. The variables of the folder and
-// of the limits on threads are omitted. The sum of the hashes does not depend on the order of the
+// Hashes the variables of PoCL that can change the compiled code. Skips the variables that choose
+// the folder or limit the threads. The sum of the hashes does not depend on the order of the
 // variables.
 static uint64_t hash_settings(void)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A device copies its results into this memory. For devices that are not CPUs, the OpenCL
-// implementation allocates the memory. Copies into other memory are slower and make the host wait.
-// For each megabyte, locking the pages takes 0.4 ms and unlocking takes 0.1 ms (NVIDIA H200). A
-// pool therefore keeps the last freed memory for the next user.
+// Devices copy their results into this memory. For devices that are not CPUs, the OpenCL
+// implementation allocates the memory, because copies into ordinary memory are slower and make the
+// host wait. For each megabyte, locking the pages takes 0.4 ms and unlocking takes 0.1 ms (NVIDIA
+// H200). A pool therefore keeps the most recently freed memory for reuse.
 #pragma once
 
 #include "device/cl_status.h"

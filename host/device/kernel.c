@@ -95,9 +95,9 @@ bool kernel_run(const Kernel *kernel, const KernelRun *run, Error *error)
     return cl_succeeded(status, attempt, error);
 }
 
-// Runs a new kernel without work, because some drivers finish compiling in the first run. The frame
-// is empty, all numbers are 0, and each buffer holds NOTHING 16 times. The buffers cannot hold
-// zeros, because trace_pixels divides by the number of samples in its first request.
+// Runs a new kernel without work, because some drivers finish compiling in the first run. FrameData
+// and all numbers are 0, and each buffer holds 16 words with the value NOTHING. The buffers cannot
+// hold zeros, because trace_pixels divides by the number of samples in its first request.
 static bool run_empty(const Kernel *kernel, Error *error)
 {
     static const FrameData frame;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// On CPUs, a launch is one tile, or CPU_ITEMS work-items of a list. A GPU needs more work-items
-// than a tile has, because each compute unit runs thousands at once. However, a GPU cannot update
-// its display during a launch, and drivers end launches of several seconds. The size of a launch
-// therefore depends on the time of the previous launch.
+// On CPUs, a launch is one tile of a picture, or CPU_ITEMS work-items for a list of samples. A GPU
+// needs more work-items than a tile has, because each compute unit runs thousands at once. However,
+// a GPU cannot update its display during a launch, and drivers end launches of several seconds. The
+// size of a launch therefore depends on the time of the previous launch.
 #include "device/launch.h"
 
 #define PAIR_SIDE      8
@@ -13,8 +13,8 @@
 // PoCL compiles a second version of a kernel for grids of 65535 work-items or more.
 #define CPU_ITEMS 4096
 
-// Large GPUs run up to 2048 work-items per compute unit at once. With four times as many, all units
-// stay busy until the last work-items of a launch finish.
+// Large GPUs run up to 2048 work-items per compute unit at once. If a launch has four times this
+// number, all units stay busy almost until its end.
 #define UNIT_ITEMS 8192
 #define ITEMS_MOST (1U << 20)
 

@@ -22,8 +22,8 @@ typedef struct {
 
 LaunchShape launch_shape(const LaunchFacts *facts);
 
-// Returns the number of work-items of a paced picture's first launch, at least 1. Each item traces
-// `samples` samples.
+// If launches are paced, returns the number of work-items, at least 1, of a picture's first launch.
+// Each item traces `samples` samples.
 uint32_t launch_first_items(const LaunchShape *shape, double samples);
 
 // Returns the number of work-items of the next launch, from 1 to shape->items. The previous launch

@@ -31,8 +31,8 @@ static const KernelEntry *entry_of(const ProgramSource *source)
 }
 
 // Returns whether the program gets the options for GPUs. fp64 programs do not get them, because a
-// ray's state does not fit into registers in fp64. NVIDIA's compiler (580.159) also takes three
-// times as long to inline all functions of the certainty kernel, and this kernel then decides some
+// ray's state does not fit into registers in fp64. With these options, NVIDIA's compiler (580.159)
+// also takes three times as long for the certainty kernel, and the compiled kernel decides some
 // pixels wrongly.
 static bool is_for_gpu(const ProgramSource *source)
 {

@@ -11,8 +11,8 @@
 extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
-// A kernel function. The file that launches a kernel defines its entry. A new kernel first runs
-// with an empty frame, with 0 for each number and with buffers of 64 bytes whose bits are all 1.
+// A kernel function. The file that launches the kernel defines its KernelEntry. A new kernel first
+// runs with an empty frame, with 0 for each number and with buffers of 64 bytes 0xff.
 typedef struct {
     const char *name;
     const char *source;    // compiled after kernel_source; entries may share it; may be NULL

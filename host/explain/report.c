@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Describes each sample as JSON. The text has a paragraph for each ray, with a line for each light.
-// Templates of the text name fields of the JSON. Primitive ids count from 0, as in the --aov
-// channel "primitive".
+// The templates of this text refer to JSON fields by name. Primitive ids count from 0, as in the
+// --aov channel "primitive".
 #include "explain/report.h"
 
 #include "image/json_file.h"
@@ -9,7 +9,7 @@
 #include <assert.h>
 #include <string.h>
 
-// Brief reports omit rays of less weight, because such rays hardly change a color of 8 bits.
+// Brief reports omit rays whose weight is below this, because they hardly change an 8-bit color.
 #define BRIEF_WEIGHT (1 / 255.0)
 
 // A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and
@@ -68,7 +68,7 @@ static bool is_white(const double color[3])
     return color[0] == 1 && color[1] == 1 && color[2] == 1;
 }
 
-// Adds the color of the glass on the way, unless it is white.
+// Adds the color of the glass along a ray, unless this color is white.
 static json_t *with_tint(json_t *json, const double tint[3])
 {
     if (!is_white(tint))
@@ -104,7 +104,7 @@ static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
     return list;
 }
 
-// Returns the factors of the surface's color besides the lights. Shaders without highlights ignore
+// Returns all factors of the surface's color except the lights. Shaders without highlights ignore
 // the material's ks.
 static json_t *factors_json(const Scene *scene, const Material *material, Vec3 diffuse)
 {
@@ -224,7 +224,7 @@ static void print_light(const ExplainReport *report, const ExplainedRay *ray, si
     fputs("\n", stream);
 }
 
-// Prints the factors of the surface's color besides the lights.
+// Prints all factors of the surface's color except the lights.
 static void print_factors(const json_t *factors, Shader shader, FILE *stream)
 {
     if (shader == SHADER_GLASS) {
@@ -314,8 +314,8 @@ static void print_sample(const ExplainReport *report, const ExplainedSample *sam
     print(report, json, "  the sample's color {color .6v}\n", "", stream);
 }
 
-// Traces the samples and adds their JSON to list. Unless stream is NULL, prints the samples, or
-// only the first in brief reports.
+// Traces the samples and adds their JSON to list. Prints all samples or, in brief reports, only the
+// first. If stream is NULL, prints nothing.
 static bool explain_samples(const ExplainReport *report, Explainer *explainer, json_t *list,
                             FILE *stream, Error *error)
 {

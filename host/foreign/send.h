@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-// Starts a record. The caller writes the `size` bytes of its data.
+// Starts a record. The caller then writes the record's data, which have `size` bytes.
 void send_head(FILE *stream, ForeignKind kind, uint32_t number, size_t size);
 
 void send_bytes(FILE *stream, ForeignKind kind, const void *bytes, size_t size);

@@ -4,8 +4,8 @@
 // can then copy tiles without decoding them.
 //
 // OpenEXRCore writes the header and compresses the tiles, but it cannot omit tiles. The code here
-// therefore writes the table and the tiles itself. Threads compress tiles concurrently and write
-// them one after another, in the order of their numbers, so equal pictures give equal files.
+// therefore writes the table and the tiles itself. Threads compress tiles concurrently, but write
+// them in the order of their numbers. Equal pictures therefore give equal files.
 #include "image/exr_write.h"
 
 #include "base/processors.h"
@@ -128,8 +128,8 @@ static bool encode(const TileWriter *writer, const size_t position[2],
     encoder->yield_until_ready_fn = encoder->write_fn = NULL;
     if (exr_encoding_run(writer->context, 0, encoder) != EXR_ERR_SUCCESS)
         return false;
-    // If compression does not change the size, readers expect uncompressed bytes. In this case,
-    // OpenEXRCore 3.1 provides compressed bytes.
+    // If compression does not change the size, readers expect uncompressed bytes. OpenEXRCore 3.1
+    // provides compressed bytes even in this case.
     if (encoder->compressed_bytes == encoder->packed_bytes)
         memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
     return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes JSON objects with Jansson, writes them, and prints templates that name their fields.
+// Makes JSON objects with Jansson, writes them, and prints their values by templates.
 #include "image/json_file.h"
 
 #include "base/output_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes and reads PNG by libpng, row by row. libpng converts every kind of PNG to red, green and
-// blue. libpng reports faults by a longjmp to write_picture or read_picture. The jump ends all
-// functions that these two have called, so the called functions must own no memory.
+// blue. libpng reports faults by a longjmp to write_picture or read_picture. The jump skips the
+// cleanup of all functions in between, so these functions must own no memory.
 #include "image/png_file.h"
 
 #include <errno.h>
@@ -110,8 +110,8 @@ bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *setting
     return ok && fflush(stream) == 0 && !ferror(stream);
 }
 
-// Limits of the texts and profiles in a PNG file: the size of each after decompression, in bytes,
-// and their number.
+// Limits for a PNG file: the decompressed size of each text or profile, in bytes, and the number of
+// texts and profiles.
 #define CHUNK_SIZE_MAX  1000000
 #define CHUNK_COUNT_MAX 64
 

@@ -23,6 +23,6 @@ bool provenance_check_date(Error *error);
 // Writes settings as one line of compact JSON. The text is empty if the JSON does not fit.
 void provenance_write_settings(char text[STORED_TEXT_SIZE], const json_t *settings);
 
-// Fills list with software, date and texts. The caller must have filled texts. The list has a date
-// only if SOURCE_DATE_EPOCH is set and valid.
+// Fills list with the members software, date and texts. The caller must have filled texts. The list
+// has a date only if SOURCE_DATE_EPOCH is set and valid.
 void provenance_list(Provenance *provenance);

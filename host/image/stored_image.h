@@ -18,7 +18,7 @@
 #define STORED_VALUES_LEAST    ((uint64_t)100000000)
 #define STORED_VALUES_PER_BYTE 256
 
-// The texts that clrt stores in pictures. stored_text_names holds their names in files.
+// The texts that clrt stores in picture files. stored_text_names holds the name of each text.
 typedef enum {
     STORED_VERSION,
     STORED_SCENE_HASH,

@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "mesh/mesh.h"
 
-// The point of a vertex that no triangle uses.
+// The value in Weld::points for a vertex that no triangle uses.
 #define WELD_UNUSED UINT32_MAX
 
 typedef struct {

@@ -132,8 +132,8 @@ void mesh_free(Mesh *mesh)
 }
 
 // The code below rotates by multiples of 90 degrees. Each axis of the turned mesh is an axis of the
-// original mesh, possibly with the opposite sign. Turns from y and -y keep the x axis. The other
-// turns keep the y axis, so that the front of the mesh, toward -y, stays in front.
+// original mesh, possibly with the opposite sign. UP_Y and UP_MINUS_Y keep the x axis. The other
+// rotations keep the y axis, so that the front of the mesh, toward -y, stays in front.
 
 const char *const up_axis_names[UP_AXES] = {"auto", "x", "y", "z", "-x", "-y", "-z"};
 

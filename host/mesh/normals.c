@@ -21,7 +21,7 @@
 
 #define ROUND_CREASE_DEGREES 70 // for smooth shapes
 
-// The cosine of each window's largest angle.
+// The cosine of the largest angle in each window of EdgeAngles.
 static const double ends[ANGLE_WINDOWS] = {
     0.99619469809174555, 0.98480775301220806, 0.96592582628906829, 0.93969262078590838,
     0.90630778703664996, 0.86602540378443865, 0.81915204428899178, 0.76604444311897804,
@@ -84,8 +84,8 @@ double crease_of_angles(const EdgeAngles *angles)
 // Edges with more faces are sharp. This limit bounds the number of pairs of faces at an edge.
 #define EDGE_FACES_MOST 8
 
-// Rounding must not separate coplanar faces if the crease angle is 0 degrees, or opposite faces if
-// it is 180 degrees.
+// Despite rounding, a crease angle of 0 degrees joins coplanar faces, and a crease angle of 180
+// degrees joins opposite faces.
 #define COSINE_SLACK 0x1p-40
 
 // A triangle is a sliver if the sum of the sines of its angles is below about this limit. Rounded

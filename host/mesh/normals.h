@@ -7,21 +7,22 @@
 // Selects the crease angle that suits the mesh's shape.
 #define CREASE_BY_SHAPE (-1)
 
-// The crease angle of `normals smooth` without an angle, and of most lone mesh files.
+// The crease angle for `normals smooth` without an angle, and for most mesh files without a scene.
 #define CREASE_DEGREES 33
 
 // Returns whether every corner of every triangle has a normal.
 bool mesh_has_all_normals(const Mesh *mesh);
 
-// Computes a normal of length 1 for each used vertex that lacks one: the mean normal of the faces
-// around the vertex, weighted by their angles. Vertices at one position count as one vertex.
+// Computes a normal of length 1 for each used vertex that lacks one. It is the mean of the faces'
+// normals around the vertex, weighted by the faces' angles. Vertices at one position count as one
+// vertex.
 //
 // Edges stay sharp if the normals of their faces differ by more than crease_degrees. This angle is
 // in [0, 180] or CREASE_BY_SHAPE. No computed normal differs by more than crease_degrees from the
 // normal of its triangle. Corners of triangles that are nearly lines get no computed normal.
 //
-// If a normal is missing, new vertices replace all vertices. The triangles keep their order. Equal
-// arguments give equal bits. On failure, the mesh is unchanged.
+// If a normal is missing, the function replaces all vertices by new vertices. The triangles keep
+// their order. Equal arguments give equal bits. On failure, the mesh is unchanged.
 bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error);
 
 // The following declarations choose a crease angle by a mesh's shape.
@@ -42,7 +43,7 @@ void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b);
 // Adds all edges of the mesh that have two faces.
 bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error);
 
-// Returns 70 degrees if the angles indicate a smooth shape, such as a scan, because coarse parts of
-// such shapes have angles above CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose
-// edges may be meant to be sharp.
+// Returns 70 degrees if the angles indicate a smooth shape, such as a scan. Coarse parts of smooth
+// shapes have angles above CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose edges may
+// be meant to be sharp.
 double crease_of_angles(const EdgeAngles *angles);

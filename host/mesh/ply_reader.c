@@ -122,7 +122,7 @@ static bool take_token(PlyReader *reader, const char *stop, const char *expected
     return ply_reader_fail(reader, "'%s' is not %s", ply_reader_quote(token).text, expected);
 }
 
-// Reads one binary value, at any alignment, into *bits. *bits must be zero before.
+// Reads one binary value, at any alignment, into *bits. The caller must have set *bits to zero.
 static bool take_bits(PlyReader *reader, PlyType type, uint64_t *bits)
 {
     const size_t size = type_sizes[type];

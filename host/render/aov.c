@@ -142,8 +142,8 @@ static void take_vector(uint32_t **values, Vec3 v)
     *(*values)++ = float_bits(v.z);
 }
 
-// Stores the values of all channels, in the table's order. The counts of tests and the error are 0
-// until they are stored later.
+// Stores the values of all channels, in the table's order. Stores 0 for the counts of tests and for
+// the error, because their values come later.
 static void take_all(uint32_t values[AOV_VALUES], const AovPixel *pixel, const AovScene *scene)
 {
     const PathData *path = pixel->path;

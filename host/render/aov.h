@@ -25,7 +25,7 @@ typedef struct {
 // reference.
 #define ERROR_CHANNEL "error"
 
-// A channel's input besides the path of the ray through the pixel's center.
+// The input that a channel needs besides the path of the ray through the pixel's center.
 typedef enum {
     AOV_NEEDS_PATH,      // nothing more
     AOV_NEEDS_TESTS,     // counts of tests; every sample is traced again as a single ray

@@ -6,7 +6,8 @@
 #include "render/aov.h"
 #include "render/certifier.h"
 
-// The kernels trace_paths and count_tests. They can share a program. count_tests needs statistics.
+// The kernels trace_paths and count_tests can share a program. count_tests needs
+// SceneTraits::statistics.
 extern const KernelEntry paths_entry, tests_entry;
 
 typedef struct {

@@ -9,7 +9,7 @@
 typedef struct {
     uint64_t tiles_done, tiles;
     uint64_t tiles_ready; // tiles that existed before the run
-    // Zeros without statistics. TALLY_CUT and TALLY_CUT_HIGH, however, are valid only with glass.
+    // TALLY_CUT and TALLY_CUT_HIGH are 0 without glass. The others are 0 without statistics.
     uint64_t tallies[TALLY_KINDS];
 } RenderProgress;
 
@@ -54,7 +54,7 @@ typedef struct {
     bool is_special;         // the kernel is specialized for the scene
 } Renderer;
 
-// Returns whether the kernel stores tallies.
+// Returns whether the kernel stores any of RenderProgress::tallies.
 static inline bool renderer_has_tallies(const Renderer *renderer)
 {
     const SceneTraits *traits = &renderer->kernel->traits;
@@ -64,6 +64,6 @@ static inline bool renderer_has_tallies(const Renderer *renderer)
 // Returns the kernel's parameters for a picture. Callers set the tile (tile_aim).
 FrameData renderer_frame(const Renderer *renderer, const CameraData *camera);
 
-// Returns the root mean square of the weights of cut rays over the samples counted in
-// renderer->progress. The scene must have glass.
+// Returns a bound on the root mean square error that cut rays cause in the `samples` samples
+// counted in renderer->progress. The scene must have glass.
 double renderer_truncation(const Renderer *renderer, uint64_t samples);

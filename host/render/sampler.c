@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-// The number of work-items that count as a tile in RenderProgress.
+// In RenderProgress, this number of work-items counts as one tile.
 #define TILE_ITEMS 4096
 
 // A launch in flight.
@@ -129,7 +129,7 @@ static bool open_buffers(Sampling *sampling, Error *error)
            share(sampling, &counts, &sampling->tallies, error);
 }
 
-// Waits for the queue first, because a running launch may still write to host memory after a fault.
+// Waits for the queue first. After a failure, a running launch may still write to host memory.
 static void close_buffers(Sampling *sampling)
 {
     clFinish(sampling->renderer->kernel->device->queue);

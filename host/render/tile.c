@@ -87,8 +87,8 @@ Tile tile_largest(const RenderSettings *settings)
                   .height = smaller(settings->tile_height, settings->height)};
 }
 
-// Returns how many tiles from number `first` on form a rectangle, at most `most`. The rectangle
-// consists of tiles of one row, or of whole rows.
+// Returns the number of tiles, at most `most`, that form a rectangle from tile `first` on. The
+// rectangle consists of tiles of one row, or of whole rows.
 static uint64_t joined_count(const RenderSettings *settings, uint64_t first, uint64_t most)
 {
     const uint64_t columns = columns_of(settings), left = columns - first % columns;

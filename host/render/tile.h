@@ -56,14 +56,14 @@ Tile tile_at(const RenderSettings *settings, uint64_t number);
 // Returns the size of the largest tile, with x and y 0.
 Tile tile_largest(const RenderSettings *settings);
 
-// The place of the next launch: a tile, and the number of its rows that earlier launches draw.
+// The start of the next launch: the number of a tile, and the first row to draw in this tile.
 typedef struct {
     uint64_t number;
     uint32_t row;
 } TileCursor;
 
-// Returns the next launch's rectangle and moves the cursor, which must be before the last tile's
-// end. The rectangle consists of consecutive tiles. If the cursor is inside a tile, or if a whole
+// Returns the next launch's rectangle and advances the cursor. The cursor must not be past the last
+// tile. The rectangle consists of consecutive tiles. If the cursor is inside a tile, or if a whole
 // tile has more than `pixels` pixels, the rectangle consists of at least one row of one tile. The
 // tiles of a part are not joined. *ended receives the number of tiles that end with this rectangle.
 Tile tile_next(const RenderSettings *settings, TileCursor *cursor, uint64_t pixels,

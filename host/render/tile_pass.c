@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Draws tiles by launches. Three launches are in flight, each in its own command queue: the device
-// traces one launch while another is read back or finishes its last work-groups. With two launches,
-// a device that draws a tile of sky in 70 us would wait for the host.
+// Draws tiles by launches. Three launches are in flight, each in its own command queue. While the
+// device traces one launch, another is read back or finishes its last work-groups. With two
+// launches, a device that draws a tile of sky in 70 us would wait for the host.
 //
 // On CPUs, a launch is a tile. All launches use one padded grid with offset 0, because PoCL
-// compiles another version of a kernel for each local size, for offsets and for large grids.
-// FrameData passes the tile's position instead. On other devices, the size of a launch depends on
-// the device and on the time of the previous launch (device/launch.h).
+// compiles a kernel again for each new local size, for offsets, and for large grids. Kernels read
+// the tile's position from FrameData. On other devices, the size of a launch depends on the device
+// and on the time of the previous launch (device/launch.h).
 //
 // Invariant: callers receive the tiles in the order of their numbers, so a count of finished tiles
 // identifies them.
@@ -51,7 +51,7 @@ static bool is_read_in_place(const TilePass *pass, const Renderer *renderer, int
     return output == 0 && pass->framebuffer != NULL && !is_paced(renderer);
 }
 
-// Returns the largest number of pixels of a launch. A paced launch has at least one row of a tile.
+// Returns the largest number of pixels of a launch. On GPUs, this is enough for one row of a tile.
 static uint64_t most_pixels(const Renderer *renderer)
 {
     const Tile largest = tile_largest(&renderer->settings);
@@ -66,7 +66,7 @@ static uint64_t most_pixels(const Renderer *renderer)
 static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer, Error *error)
 {
     const Device *device = renderer->kernel->device;
-    // PoCL 6.0 has aborted with mapped buffers.
+    // CPUs use no pool, because PoCL 6.0 has aborted with mapped buffers.
     HostPool *pool = device->is_cpu ? NULL : device->pool;
     const size_t count = most_pixels(renderer);
     cl_int status;
@@ -139,8 +139,8 @@ static bool start_reads(Slot *slot, const PassRun *run, Error *error)
     return cl_succeeded(status, "read a tile back", error);
 }
 
-// The reads of a paced launch start only in finish_launch. Some drivers wait for the launch before
-// they start its reads, which would delay the next launch.
+// On GPUs, finish_launch starts the reads of the results. If they started here, some drivers would
+// wait for the end of the launch, and the next launch would be late.
 static bool start_launch(PassRun *run, Error *error)
 {
     Slot *slot = &run->slots[run->started++ % SLOTS];
@@ -208,7 +208,7 @@ static bool report_tiles(uint64_t count, const RenderObserver *observer, RenderP
     return wanted;
 }
 
-// Runs the launches. A stopped pass ends with a whole tile.
+// Runs the launches. After the observer stops the pass, the tiles in progress are still finished.
 static bool run_launches(PassRun *run, const RenderObserver *observer, RenderProgress *progress,
                          Error *error)
 {

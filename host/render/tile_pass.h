@@ -12,8 +12,8 @@ typedef struct {
     size_t sizes[2];          // bytes per pixel of each output; 0 if the kernel does not write it
     uint64_t first;           // the number of the first tile to draw
     Framebuffer *framebuffer; // receives the first output; NULL if `take` receives it
-    // Receives each launch's outputs row by row, except an output for the framebuffer. `tile` is
-    // the launch's rectangle (tile_next). The rectangles come in the order of the tiles' numbers.
+    // Receives each launch's outputs row by row, but a framebuffer takes the first output. `tile`
+    // is the launch's rectangle (tile_next). The rectangles come in the order of tile numbers.
     void (*take)(void *context, const Tile *tile, void *const values[2]);
     void *context;
 } TilePass;

@@ -55,7 +55,8 @@ def _open():
     """Opens $CLRT_LIBRARY, the wheel's library or the system's."""
     own = _FOLDER / "libclrt.so.0"
     try:
-        # PoCL then compiles kernels in three quarters of the time, and shares them with the program.
+        # With this setting, PoCL compiles kernels in three quarters of the time. The program has
+        # the same setting, so it can use the kernels that the library has cached.
         os.environ.setdefault("POCL_WORK_GROUP_SPECIALIZATION", "0")
         return ffi.dlopen(os.environ.get("CLRT_LIBRARY", str(own if own.exists() else own.name)))
     except OSError as error:

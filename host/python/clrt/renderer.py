@@ -155,5 +155,5 @@ def devices() -> list[dict[str, Any]]:
     return [result_of("device_get", i) for i in range(result_of("device_count"))]
 
 
-# Returns the renderer of Scene.render, which the first call opens.
+# Returns the renderer that Scene.render and trimesh use by default. The first call opens it.
 default_renderer = functools.cache(Renderer)
