@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws the plain picture with the kernels that clrt chooses, and certifies a copy.
+// Draws the plain picture with the kernels that clrt chooses, then certifies a copy of it.
 #include "certainty/certified.h"
 
 #include "extremes/support/check.h"

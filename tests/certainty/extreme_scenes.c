@@ -120,7 +120,7 @@ static Scene soup(void)
     return scene;
 }
 
-// Two planes cross at an angle of 1e-6 radians. The third plane, behind the light, casts no shadow.
+// Two planes cross at an angle of 1e-6 radians. A plane beyond the light casts no shadow on them.
 static Scene crossing(void)
 {
     Scene scene = parsed_format("size 384 384\n"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Makes all decisions of a sample's rays on the stored scene as real arithmetic would. Callers use
-// 113 bits if 64 bits leave decisions unsettled. The code is independent of the kernels and uses
-// other methods.
+// Returns the decisions that real arithmetic would make for all rays of a sample in the stored
+// scene. Callers use numbers of 113 bits if numbers of 64 bits leave decisions unsettled. The code
+// is independent of the kernels and uses other methods.
 #pragma once
 
 #include "certainty/real_tree.h"

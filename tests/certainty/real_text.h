@@ -2,8 +2,8 @@
 // Traces a ray tree without recursion and returns its decisions. real_64.c and real_113.c include
 // this file with two number types. The sign of a sum is settled if the sum's magnitude exceeds the
 // ray's tolerance times a bound on the sum's terms. Camera rays have the tolerance TOLERANCE, which
-// is over 1000 roundings. Each reflection multiplies the tolerance by GROWTH. At ordinary shapes,
-// errors grow far less.
+// is over 1000 times the error of a rounding. Each reflection multiplies the tolerance by GROWTH.
+// At ordinary shapes, errors grow far less.
 #include "certainty/real.h"
 
 #include <math.h>
@@ -19,8 +19,8 @@ typedef enum { MISSES, MEETS, UNCLEAR } Outcome;
 
 // A hit or a possible hit of a ray.
 typedef struct {
-    NUMBER t, low;      // INFINITY for none; a hit's true t is in [low, t + (t - low)], and a
-                        // possible hit's true t is at least low
+    NUMBER t, low;      // INFINITY without a hit. The true t of a hit is in [low, t + (t - low)].
+                        // The true t of a possible hit is at least low.
     uint32_t id, place; // place: index in the flat scene's spheres or triangles
     NUMBER v, w;        // weights of a triangle's second and third corner
     bool front;
@@ -86,8 +86,8 @@ static Vector unit(Vector a)
     return stepped(vector(0, 0, 0), 1 / ROOT(dot(a, a)), a);
 }
 
-// Returns whether the ray certainly misses the triangle: seen along the ray, all corners are on
-// one side of a line through the ray.
+// Returns whether all corners are certainly on one side of a plane that contains the ray. The ray
+// then misses the triangle.
 static bool is_aside(const Path *path, const Vector corners[3])
 {
     const Vector d = unit(path->direction);
@@ -216,8 +216,8 @@ static bool nearest_is_settled(const Nearest *nearest)
     return nearest->other > stop->t + (stop->t - stop->low);
 }
 
-// Returns whether two triangles have the same corners, which are stored sorted. A ray hits both
-// triangles at the same point, and a ray that starts on one also starts on the other.
+// Returns whether two triangles have the same corners. Corners are stored in sorted order. A ray
+// hits coincident triangles at the same point, and starts on both of them or on neither.
 static bool are_coincident(const TriangleData *one, const TriangleData *other)
 {
     return memcmp(one->a, other->a, sizeof one->a) == 0 &&
@@ -343,10 +343,10 @@ static int side_of_normal(const Path *path, const Surface *surface, Vector apart
     return clear_sign(dot(surface->normal, apart), error);
 }
 
-// Returns 1 if the light is on the path's side of the face, -1 if it is on the other side, and 0 if
-// the side is not settled. For a sphere seen from outside, the result is 1, because the normal
-// alone decides. From inside it is -1, because no light is in front of both the face and the
-// normal.
+// Returns 1 if the light and the path are on the same side of the face, -1 if they are on opposite
+// sides, and 0 if the light's side is not settled. For a sphere seen from outside, the result is
+// always 1, because side_of_normal alone decides. For a sphere seen from inside, the result is -1,
+// because no light is in front of both the face and the normal.
 static int side_of_face(const Surface *surface, Vector light)
 {
     if (surface->is_sphere)
@@ -422,7 +422,7 @@ static NUMBER component_of(Vector v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-// Returns the coordinate that all corners share, or else the point's coordinate.
+// Returns the corners' coordinate if all corners share it, otherwise the point's coordinate.
 static NUMBER level_coordinate(const Surface *surface, int axis)
 {
     const TriangleData *t = surface->triangle;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Builds a tree of stored triangles for tests. Unlike clrt's trees, this tree halves the triangles
-// in their stored order, in which neighbors are near each other. Boxes are so wide that rounding
-// cannot matter.
+// Builds a tree of stored triangles for tests. Unlike clrt's trees, this tree halves the list of
+// stored triangles. Triangles that are close in this list are also close in the scene. Boxes are so
+// wide that rounding cannot matter.
 #pragma once
 
 #include "accel/flat.h"

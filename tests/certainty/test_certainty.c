@@ -101,8 +101,8 @@ typedef struct {
     float share;
 } Seen;
 
-// Returns whether the plain picture has the mark's first hit and number of lights. The colors of
-// silhouettes and glass do not depend on lights.
+// Returns whether the plain picture and the mark have the same first hit and number of lights at
+// the hit. At silhouettes and glass, which no light colors, the numbers of lights are not compared.
 static bool is_alike(const Certified *certified, const CertaintyMark *mark, const Seen *seen)
 {
     if (seen->primitive != mark->first_id)

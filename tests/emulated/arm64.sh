@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Tests that clrt on 64-bit ARM, emulated by qemu, renders the recorded pictures in one form of the
-# kernels. For fp64, which has no records, this machine's test_hashes renders the expected pictures.
-# The first run makes a Debian 12 for ARM and cross-builds clrt for it. The script exits with 77 if
-# this machine lacks programs or rights. PICTURES are sizes, or "refined".
+# kernels. No pictures are recorded for fp64, so this machine's test_hashes renders the expected
+# ones. The first run makes a Debian 12 for ARM and cross-builds clrt for it. The script exits with
+# 77 if this machine lacks programs or rights. PICTURES are sizes, or "refined".
 # Usage: arm64.sh FOLDER TEST_HASHES FORM PICTURES...
 set -eu
 folder=$(realpath -m "$1") native=$2
@@ -25,7 +25,7 @@ make_root() {
     rm -rf "$root.new"
     mmdebstrap --quiet --arch=arm64 --variant=extract --include=$packages \
         --hook-dir=/usr/share/mmdebstrap/hooks/merged-usr bookworm "$root.new"
-    # The linker would follow absolute links into this machine's libraries.
+    # Makes absolute links relative. The linker would follow them into this machine's libraries.
     find "$root.new/usr/lib" -type l -lname '/*' | while read -r link; do
         ln -sfn "$(realpath -m --relative-to="${link%/*}" "$root.new$(readlink "$link")")" "$link"
     done
@@ -54,7 +54,7 @@ emulated() {
         XDG_CACHE_HOME="$cache" CLRT_COURSE="$course" CLRT_TEST_KERNEL="$CLRT_TEST_KERNEL" "$@"
 }
 
-# records COMMAND...: runs a command of test_hashes, and prints the records of its pictures.
+# records COMMAND...: runs a command of test_hashes, and prints the lines that end with a hash.
 records() {
     "$@" | grep -E ' [0-9a-f]{32}$'
 }

@@ -22,7 +22,7 @@ from skips import leave  # noqa: E402
 
 CLRT = str(pathlib.Path(sys.argv[1]).resolve())
 SCENE = str(ROOT / "scenes/reflections.scn")
-# SLOW gives each of the PARTS parts 32 tiles, and keeps each host busy for a few seconds.
+# SLOW is drawn in PARTS parts. Each part has 32 tiles, and keeps a host busy for a few seconds.
 PARTS = 8
 SLOW = [SCENE, "-s", "512x512", "--tune", "tile=32x32", "--aa=16", "--precision=fp64", "-j", "1"]
 TURN = [SCENE, "-s", "96x72", "--aa=8", "-j", "1", "--turntable", "1000"]
@@ -111,8 +111,8 @@ class Farm(unittest.TestCase):
         job = self.submit_slow()
         task, host = wait_for(lambda: self.host_with_tiles(job))
         self.cluster.cut_off(host)
-        # Stops the old process until the new process detects it. Then the old process continues to
-        # write.
+        # Stops the old process until the new process reports that another process draws this part.
+        # Then the old process continues to write.
         found = subprocess.run(["pgrep", "-f", f"{self.folder}/drawing.{task}.exr"], stdout=subprocess.PIPE, text=True, check=True)
         old = [int(number) for number in found.stdout.split()]
         for number in old:
@@ -141,8 +141,8 @@ class Farm(unittest.TestCase):
     def test_a_controller_that_restarts(self):
         job = self.submit_slow()
         wait_for(lambda: self.host_with_tiles(job))
-        # Slurm stores its state every few seconds. A restart loses jobs submitted after that,
-        # and the tool cannot detect this.
+        # Slurm saves its state every few seconds. A restart loses the jobs that were submitted
+        # since the last save, and the tool cannot detect this loss.
         submitted, state = time.time(), self.home / "state/job_state"
         wait_for(lambda: state.exists() and state.stat().st_mtime > submitted)
         self.cluster.unplug(CONTROLLER)

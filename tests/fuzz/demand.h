@@ -9,7 +9,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-// Reports a finding unless the promise holds. Unlike assert, demand does not depend on NDEBUG.
+// Aborts if the promise is false. libFuzzer reports this. Unlike assert, demand ignores NDEBUG.
 static inline void demand(bool promise)
 {
     if (!promise)

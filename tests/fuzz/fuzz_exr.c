@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: reads any bytes as an EXR part, like clrt merge. Reads the part's settings, and
-// each tile both compressed and decoded. libOpenEXRCore is not instrumented, so guard values after
-// the end of the picture detect wrong writes.
+// libFuzzer target: reads any bytes as an EXR part, as clrt merge does. Reads the settings of the
+// part, then each tile twice: without decoding and with decoding. libOpenEXRCore is not
+// instrumented, so guard values after the picture detect writes past its end.
 #include "demand.h"
 
 #include "image/exr_file.h"

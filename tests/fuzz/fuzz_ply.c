@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: parses any bytes as a PLY file. A parsed mesh must satisfy mesh/mesh.h, with
-// and without computed normals. A failure must return a message and no mesh. The mesh of the
-// tolerant reader must satisfy mesh.h too, and be valid input for clrt check.
+// and without computed normals. A failure must return a message and no mesh. A mesh that
+// ply_parse_tolerantly returns must also satisfy mesh.h, and be valid input for clrt check.
 #include "demand.h"
 
 #include "check/census.h"

@@ -277,8 +277,8 @@ def draw_lamps(scene, rng):
     scene.mesh(path)
 
 
-# The kinds of scenes: the function, whether a floor is added, and the camera's (least distance, largest
-# distance, further parameters).
+# The kinds of scenes. Each has the function that draws its objects, whether a floor is added, and
+# the arguments of Scene.camera.
 KINDS = [(draw_spheres, True, (5, 9)), (draw_tiles, False, (4, 8, 0.8)), (draw_ball, True, (3.5, 8, 0.9)),
          (draw_strips, False, (4, 9)), (draw_mirrors, False, (5, 9)), (draw_boxes, True, (5, 10)),
          (draw_lamps, True, (5, 10)), (draw_dust, True, (5, 9)), (draw_terrain, False, (5, 9))]

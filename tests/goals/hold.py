@@ -24,8 +24,8 @@ import summary
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 GOALS = "0.02,0.01,0.005,0.002"
 
-# The error of a reference is at most this fraction of the smallest goal, unless that takes more
-# than REFERENCE_SAMPLES samples per pixel.
+# A reference takes samples until its error is at most this fraction of the smallest goal, but at
+# most REFERENCE_SAMPLES per pixel.
 REFERENCE_PART = 0.2
 REFERENCE_SAMPLES = 65536
 
@@ -33,11 +33,12 @@ REFERENCE_SAMPLES = 65536
 LARGEST_SIDE = 24
 THRESHOLDS = [0.3, 0.2, 0.1, 0.05, 0.04, 0.02, 0.01, 0.005, 0.002]
 
-# The fixed settings for comparison follow rays at least as far as the smallest goal's picture.
+# Goals are compared with fixed settings (--aa and --aa-adaptive). With these options, fixed
+# settings follow rays at least as far as the picture of the smallest goal does.
 LEVELS = ["--max-level", "auto", "--encode", "raw"]
 
-# The number of pictures that a timed process draws. The fastest picture counts. To measure
-# processor time, a process draws pictures for about PROCESS_SECONDS.
+# The number of pictures that a timed process draws. The fastest picture counts. Processes that
+# measure processor time instead draw pictures for about PROCESS_SECONDS.
 FRAMES = 3
 PROCESS_SECONDS = 0.5
 

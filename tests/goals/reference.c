@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Draws a reference picture with an own error of at most ERROR, or with up to MOST samples per
-// pixel. Prints the samples and the own error as JSON. Arguments: SCENE WIDTH HEIGHT ERROR MOST
-// FILE.pfm
+// Draws a reference picture. Takes samples until the estimate of the picture's own error is at most
+// ERROR, or until each pixel has MOST samples. Prints the number of samples and the own error as
+// JSON. Arguments: SCENE WIDTH HEIGHT ERROR MOST FILE.pfm
 //
 // Every pixel has two independent sequences, and the picture is the mean of both. A sequence is
 // Sobol's in two dimensions after Owen's nested scrambling ("Randomly permuted (t,m,s)-nets and
@@ -23,7 +23,7 @@
 #define FIRST_SAMPLES 16
 #define LIST_SAMPLES  (1u << 20)
 
-// In the generated scenes, further reflections add less to a color than a float can show.
+// In the generated scenes, later reflections add less to a color than a float can show.
 #define LEVELS 200
 
 typedef struct {
@@ -57,7 +57,7 @@ static uint32_t scrambled(uint32_t coordinate, uint64_t seed)
     return result;
 }
 
-// Computes an unscrambled point. The bits of y are sums of binomial coefficients modulo 2.
+// Computes an unscrambled point. The direction numbers of y are rows of Pascal's triangle mod 2.
 static void sobol_point(uint32_t index, uint32_t point[2])
 {
     uint32_t y_bits = GRID / 2;
@@ -69,7 +69,7 @@ static void sobol_point(uint32_t index, uint32_t point[2])
     }
 }
 
-// A range of samples in each pixel and half.
+// A range of samples in both sequences (halves) of each pixel.
 typedef struct {
     uint32_t first, count;
 } SampleRange;
@@ -116,7 +116,7 @@ static bool take_range(Reference *reference, Renderer *renderer, const FrameData
     return true;
 }
 
-// Stores the mean of both halves, and computes its error from their difference.
+// Stores the mean of the two halves, and computes the own error from the difference of the halves.
 static void store(Reference *reference, Framebuffer *picture)
 {
     const size_t pixels = (size_t)picture->width * picture->height;

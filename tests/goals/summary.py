@@ -9,13 +9,13 @@ import pathlib
 # Errors up to this multiple of the goal meet the goal.
 MARGIN = 1.1
 
-# With 95 % confidence, 5 % of the errors may exceed their bounds. More are accepted unless their
-# probability is below CHANCE.
+# Bounds have 95 % confidence, so 5 % of the errors may exceed them. A larger share is a failure
+# only if its probability is below CHANCE.
 ABOVE_MOST = 0.05
 CHANCE = 0.01
 
 # The promise. At least HELD_LEAST of the pictures meet their goal, at most MISSED_MOST have status
-# 1, and no bound is 0. At most WIDE_MOST of the pictures with status 0 have an error above WIDE
+# 1, and no bound is 0. Among the pictures with status 0, at most WIDE_MOST have an error above WIDE
 # times the goal, and none has an error above WIDEST times the goal.
 HELD_LEAST = 0.95
 MISSED_MOST = 0.05

@@ -9,7 +9,7 @@ kernel void read_memory(global const float4 *values, uint count, global float *s
     sums[get_global_id(0)] = sum.x + sum.y + sum.z + sum.w;
 }
 
-// 2 * 8 * `count` operations for each work-item, in 8 independent chains.
+// Each work-item computes 2 * 8 * `count` operations, in 8 independent chains.
 kernel void multiply_and_add(global const float4 *values, uint count, global float *sums)
 {
     float8 chain = (float8)(values[0], values[1]) + (float)get_global_id(0);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Compiles the kernels for two GPUs without running them. Tests that render_tile is small enough for
-# many threads at once: a GPU divides its registers among the threads, and a thread's own memory
-# (local, scratch) is slow. Usage: test_registers.py KERNEL_FOLDER CACHE_FOLDER
+# Compiles the kernels for two GPUs without running them. Tests that render_tile needs few
+# registers, because a GPU divides them among its threads. Tests that render_tile needs little local
+# or scratch memory, which is slow. Usage: test_registers.py KERNEL_FOLDER CACHE_FOLDER
 import functools
 import pathlib
 import re

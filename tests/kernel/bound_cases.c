@@ -14,8 +14,8 @@ uint32_t bound_case_choose(uint32_t count)
     return random_below(&seed, count);
 }
 
-// Returns a random coordinate. One in four is just above a power of two times range, where relative
-// rounding errors are largest.
+// Returns a random coordinate. A quarter of the coordinates, divided by range, are just above a
+// power of two. There, relative rounding errors are largest.
 static float coordinate(double range)
 {
     const double v = random_between(&seed, -range, range);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Returns the numbers whose bounds docs/numerics.md derives, as the kernels compute them.
+// Computes the numbers whose errors docs/numerics.md bounds, in the same way as the kernels.
 
-// Returns the height and the threshold that height_over computes before it rejects uncertain
-// heights.
+// Returns the height that height_over computes, and the threshold up to which height_over returns 0
+// instead.
 static inline Real2 height_and_doubt(const Corners *corners, Real3 point, float blur)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -22,9 +22,10 @@ static inline void store3(global Scalar *values, Real3 v)
     values[2] = v.z;
 }
 
-// Stores a sphere's discriminant, computed with sums of two floats, and three values computed with
-// plain floats: its negative as in sphere_is_passed, the power of the origin as in plain_side, and
-// the projection as in leads_away. The triangle's corners give the center and the radius.
+// Stores four values of a sphere. The first is the discriminant, computed with sums of two floats.
+// The others are computed with plain floats: the discriminant's negative as in sphere_is_passed,
+// the power of the origin as in plain_side, and the projection as in leads_away. The triangle's
+// corners give the sphere's center and radius.
 static inline void probe_sphere(const Ray *ray, const Corners *corners, global Scalar *values)
 {
     const Real3 a = corners->a, b = scaled3(0x1p-25f, corners->b), o = ray->origin;
@@ -86,8 +87,8 @@ kernel void probe_bounds(global const float *rays, global const TriangleData *tr
 }
 
 #ifdef CLRT_CERTIFY_CONE_CL
-// Stores the certificate's bounds for an exact ray: margin, behind, blur, size, and the depths of a
-// hit.
+// Stores the bounds of certify_triangle.cl for an exact ray: margin_of, behind_of, the blur and
+// size of the projected triangle, and the least and largest depth of a hit.
 kernel void probe_margins(global const float *rays, global const TriangleData *triangles,
                           global Scalar *results)
 {

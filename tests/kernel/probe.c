@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-// The embedded sources of kernels/certify.cl, which computes in fp64, and kernels/ladder.cl.
+// The embedded sources of kernels/certify.cl, for probes in fp64, and of kernels/ladder.cl.
 extern const char certify_source[], ladder_source[];
 
 static bool probe_open(Probe *probe, const char *path, Precision precision, Error *error)

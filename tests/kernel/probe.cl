@@ -73,9 +73,9 @@ kernel void probe_units(global const float *vectors, global float *results)
     vstore3((float3)(unit.x, unit.y, unit.z), item, results);
 }
 
-// Each case is a ratio of indices and a cosine. The results are a Refraction's cosine beyond the
-// surface, its reflectance, one minus the reflectance, and the refracted direction. The normal is
-// +z.
+// Each case is a ratio of refractive indices and the incoming ray's cosine. The results are the
+// refracted ray's cosine, the reflectance, one minus the reflectance, and the refracted direction.
+// The normal is +z.
 kernel void probe_refractions(global const float *cases, global float *results)
 {
     const uint item = get_global_id(0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Measures the errors that docs/numerics.md bounds, with numbers of 113 bits, whose own errors are
-// below 2^-60 of any bound. Prints the largest share of each bound that an error reaches. No share
-// may exceed 1. The search starts with random rays, and then changes the worst ones. With
-// CLRT_TEST_TIER, the search is longer.
+// Measures the errors that docs/numerics.md bounds, by comparison with numbers of 113 bits. The
+// errors of these numbers are below 2^-60 of any bound. Prints for each bound the largest error
+// divided by the bound. No quotient may exceed 1. The search starts with random rays, and then
+// varies the rays with the largest errors. With CLRT_TEST_TIER, the search is longer.
 #include "kernel/bound_cases.h"
 #include "kernel/probe.h"
 #include "oracle/quad.h"
@@ -139,7 +139,8 @@ static void note(int i, Bound bound, Quad error, Quad most)
     worst_triangles[bound] = triangles[i];
 }
 
-// A case in exact numbers. The axes are in the order of the shear.
+// A case in exact numbers. As in the kernels' shear, the axis of the direction's largest component
+// is the last in `axes`.
 typedef struct {
     int axes[3];
     Quad origin[3], direction[3], length;
@@ -192,7 +193,7 @@ static void check_corners(int i, const Exact *exact)
 }
 
 // Stores the edge functions of the rounded corners in `edges`. Returns false if the error of a
-// product may underflow. Even then, the signs must not be opposite.
+// product may underflow. Even then, no edge function of the kernel may have the opposite sign.
 static bool check_edges(int i, Quad edges[3])
 {
     float(*s)[3] = traced[i].sheared;
@@ -224,7 +225,7 @@ static void check_distance(int i, const Exact *exact, const Quad weights[3], Qua
     note(i, DEPTH, error, 14 * U * exact->depth / d * (1 + 16 * U));
     note(i, DEPTH_ERROR, error, found->error);
     note(i, TIE, 2 * error, found->tie);
-    // Smaller edge functions underflow in sums of two floats.
+    // For smaller edge functions, the low parts of sums of two floats underflow.
     if (magnitude(sum) * exact->depth > 0x1p-90)
         note(i, NEARNESS,
              magnitude((Quad)found->near_high + found->near_low - rounded * found->inverse_z),

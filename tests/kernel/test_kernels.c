@@ -43,8 +43,8 @@ TEST(host_and_device_agree_on_the_layout)
 }
 
 // Each squaring doubles the relative error and adds one rounding, so the error is 2^-24 per unit of
-// the exponent. The other path rounds the argument x of exp(-x) a few times. The result then
-// changes by x exp(-x) times the rounding. This change is below 1e-6 for any exponent.
+// the exponent. The second result is exp(-x) for an x that is rounded a few times. A relative error
+// r of x changes exp(-x) by r x exp(-x). This change is below 1e-6 for any exponent.
 TEST(powers_are_close_to_exact_ones)
 {
     static const float exponents[] = {0, 1, 2, 7, 50, 200, 1000, 1024};
@@ -151,7 +151,7 @@ TEST(highlights_of_any_shininess_are_exact_to_a_thousandth)
         const ProbeInput inputs[2] = {{cases, sizeof cases}, {0}};
         assert_true(probe_run(&probe, "probe_highlights", inputs, CASES,
                               (ProbeInput){results, sizeof results}));
-        // Above a million, highlights are single points in any picture, so any value will do.
+        // Above shininess 1e6, highlights are single points, and any result in [0, 1] is accepted.
         const double limit = values[value] <= 1e6 ? 1e-3 : 1;
         for (int i = 0; i < CASES; i++) {
             assert_true(error_of(&cases[i], (double)results[i]) <= limit);
@@ -160,9 +160,9 @@ TEST(highlights_of_any_shininess_are_exact_to_a_thousandth)
     }
 }
 
-// In fp64, distant and huge spheres and narrow highlights must be correct to the last bits of
-// double, so that float arithmetic is detected. The exact values are closed forms in long double.
-// The limit is four roundings of double.
+// In fp64, hits of distant and huge spheres must be correct to the last bits of double, and so must
+// narrow highlights. A step in float arithmetic would exceed the limit of four roundings of double.
+// The exact values are closed forms in long double.
 #define ROUNDINGS 0x1p-51
 
 typedef struct {
@@ -238,8 +238,8 @@ TEST(distances_of_ground_spheres_are_exact_in_fp64)
     }
 }
 
-// Rounding the argument x changes exp(-x) by x exp(-x) times the rounding. With squaring, each unit
-// of the exponent costs a rounding.
+// A relative error r of the argument x changes exp(-x) by r x exp(-x). The error of squaring is one
+// rounding per unit of the exponent.
 TEST(powers_are_right_in_fp64)
 {
     static double values[CASES][2], results[CASES][2];
@@ -277,8 +277,8 @@ static bool exact_refraction(double ratio, double cosine, double *beyond, double
 
 #define ANGLES 1000
 
-// Allows for rounding, and for the effect of an error of 4 u in the cosine. Near the angle of total
-// reflection, this effect is larger.
+// Allows for rounding, and for the effect of an error of 4 * 2^-24 in the cosine. The effect is
+// largest near the angle of total reflection.
 static void expect_refraction(const float given[2], const float result[6])
 {
     const double ratio = (double)given[0], cosine = (double)given[1], change = 4 * 0x1p-24;

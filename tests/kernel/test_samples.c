@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-// Positions count halves of a sub-pixel.
+// The side of a pixel, in the unit of positions: half a sub-pixel.
 #define SIDE (2 * LADDER_GRID)
 
 static Probe probe;
@@ -71,8 +71,8 @@ static double offset_of(uint32_t place)
     return place % (SIDE / COUNT) / (double)(SIDE / COUNT) - 0.5;
 }
 
-// With random offsets, the correlation has a standard deviation of 1/64. If one number per pixel
-// were XORed with all points, the offsets of some pairs would be equal.
+// With random offsets, the correlation of two samples has a standard deviation of 1/64. If one
+// number per pixel were XORed with all points, some pairs of samples would have equal offsets.
 TEST(samples_of_a_pixel_share_no_offset)
 {
     static PixelRequest requests[PIXELS];

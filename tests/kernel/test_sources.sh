@@ -21,8 +21,8 @@ for form in "0 -DCLRT_PACKET=0" "0 -DCLRT_GPU=1" "1 -DCLRT_PACKET=0" "1 -DCLRT_P
   for source in $sources; do
     accepts "$source" $no_fp64 -DCLRT_SIGNATURES=1 -DCLRT_WIDE_NODES=$form
   done
-  # The scene's switches in all four combinations of every two (Kleitman and Spencer, "Families of
-  # k-independent sets", 1973).
+  # Among these seven sets of the scene's switches, any two switches have all four combinations
+  # (Kleitman and Spencer, "Families of k-independent sets", 1973).
   for bits in 11111111 11110000 10001110 01001001 00100101 00010010 00000000; do
     switches=
     rest=$bits

@@ -122,8 +122,8 @@ class Installed(unittest.TestCase):
         # The camera looks along -(3, -5, 3) from (3, -5, 3).
         self.assertAlmostEqual((3 * (3 - x) + 5 * (5 + y) + 3 * (3 - z)) / 43 ** 0.5, float(depth), delta=0.01)
 
-    # This is one test, because compiling the example's kernels takes long. Not even root can create
-    # a folder in /proc, so PoCL has no cache at first.
+    # This is one test, because compiling the example's kernels takes long. HOME is /proc, where not
+    # even root can create a folder. PoCL therefore has no cache at first.
     def test_kernels_lie_in_the_chosen_folder_and_a_damaged_one_is_compiled_again(self):
         program, cache, home = (self.work / name for name in ("cached", "cache", "home"))
         self.build_by_pkg_config(program)
@@ -205,8 +205,8 @@ class Installed(unittest.TestCase):
         self.build_by_pkg_config(program, "-g", source=source)
         expected = self.draw_with_the_program("80x60")
         # Valgrind's virtual processor has no AVX-512. Kernels for AVX2 or SSE2 are equal with and
-        # without valgrind. The first run compiles them without valgrind, which is fifty times as
-        # fast. Kernels with nodes of two compile in half the time.
+        # without valgrind. The first run compiles them without valgrind, because valgrind is fifty
+        # times as slow. Kernels with nodes of two compile in half the time.
         target = "avx2" if " avx2 " in pathlib.Path("/proc/cpuinfo").read_text() else "sse2"
         cache = pathlib.Path(os.environ["XDG_CACHE_HOME"]) / "valgrind"
         cache.mkdir(parents=True, exist_ok=True)

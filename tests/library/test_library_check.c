@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests clrt_check with meshes made of arrays. test_python compares checks of files with the
-// program's.
+// Tests clrt_check with meshes made of arrays. test_python compares the library's checks of files
+// with the program's checks.
 #include "library/faults.h"
 #include "library/renderer.h"
 

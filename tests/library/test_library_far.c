@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays from far away hit spheres as exactly as their doubles allow.
+// Rays from far away hit spheres as exactly as the doubles of a ray allow.
 #include "unit/cmocka_all.h"
 
 #include <clrt.h>
@@ -19,8 +19,8 @@ static ClrtScene *scene_with(double radius)
     return scene;
 }
 
-// Even rays pass the center of the unit sphere at 0.99, and odd rays at 1.01. All rays are parallel
-// to the diagonal of x and y.
+// Even rays pass the unit sphere's center at a distance of 0.99, and odd rays at 1.01. All rays are
+// parallel to the diagonal of x and y.
 static void aim(double origins[RAYS][3], double directions[RAYS][3], double far)
 {
     for (int i = 0; i < RAYS; i++) {

@@ -40,8 +40,8 @@ static char *copy_environment(void)
     return copy;
 }
 
-// Opens all drivers before the test copies the environment, because PoCL sets a variable for hwloc
-// when it opens.
+// Opens all drivers before the test copies the environment, because PoCL's driver sets a variable
+// for hwloc when it is opened.
 static void open_driver(void)
 {
     cl_platform_id platforms[16];

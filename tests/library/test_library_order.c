@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shuffles the triangles of closed meshes. Every triangle occurs twice, so every hit is an exact
-// tie. A third of the rays go to vertices, and another third go along axes to vertices. There,
-// neighboring triangles tie exactly, too.
+// tie. A third of the rays go to vertices, and another third go along axes to vertices. At a
+// vertex, its triangles tie exactly, too.
 #include "library/closed_meshes.h"
 #include "library/renderer.h"
 #include "unit/random.h"
@@ -110,7 +110,7 @@ static void trace(Order order, Results *results)
     free(faces);
 }
 
-// Returns whether no copy of the face precedes the primitive.
+// Returns whether the primitive is at most the index of each copy of the face.
 static bool is_lowest(Order order, uint32_t primitive, uint32_t face)
 {
     for (int copy = 0; copy < COPIES; copy++)

@@ -147,7 +147,7 @@ TEST(hits_have_a_place_on_the_mesh)
                                    second * vertices[face[1]][axis] +
                                    third * vertices[face[2]][axis];
             facing += all.normals[i][axis] * directions[i][axis];
-            // The errors along and across the ray are at most 18 * 2^-24 of a distance below 6.
+            // Along and across the ray, errors are at most 18 * 2^-24 times a distance below 6.
             assert_true(fabs(point - on_face) < 12 * 18 * 0x1p-24);
         }
         assert_int_equal(all.fronts[i], facing <= 0);
@@ -242,7 +242,7 @@ static void trace_aims(size_t first, size_t count, Results *results)
     assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
 }
 
-// clrt traces rows of rays in blocks (ray_grid.h). Batches of 20 rays are too small for this.
+// clrt traces rows of rays in blocks (ray_grid.h). Batches of 20 rays are too small for blocks.
 TEST(rays_in_rows_have_the_hits_of_rays_in_small_batches)
 {
     static const size_t widths[] = {16, 100, 133, 3000, 9999};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests requests beyond a plain picture: goals, crops, turns, levels, statistics, channels,
-// certainty and references. Most of them are compared with the program's, bit for bit.
+// certainty and references. Most results must equal the program's results, bit for bit.
 #include "base/error.h"
 #include "image/image_read.h"
 #include "library/faults.h"
@@ -38,7 +38,7 @@ static ClrtPicture request(void)
     return (ClrtPicture){.size = sizeof(ClrtPicture), .width = WIDTH, .height = HEIGHT};
 }
 
-// Draws the picture and expects the program's. Returns the results.
+// Draws the picture and expects the program's picture. Returns the results.
 static ClrtResult expect_program(ClrtPicture picture, const char *options)
 {
     ClrtError error;
@@ -183,7 +183,7 @@ TEST(in_glass_every_kernel_and_tile_selects_the_same_level)
     }
 }
 
-// With this goal, the cut rays cause a larger part of the error than the samples.
+// With this goal, rays cut at max_level cause a larger part of the error than the sampling does.
 TEST(in_glass_an_error_includes_the_cut_rays_of_a_chosen_level)
 {
     ClrtPicture picture = request();
@@ -353,8 +353,8 @@ TEST(channels_are_the_programs)
     picture.channel_count = 11;
     picture.result = &result;
     assert_true(clrt_render(renderer, scene, &picture, rgb, NULL));
-    // The library traces packets. Without cached kernels, the program would trace single rays,
-    // which need another number of tests.
+    // The library traces packets. Without cached kernels, the program would trace single rays, and
+    // its channels would count other numbers of tests.
     StoredImage image = program_channels("--aa=2 --aov all --tune kernel=packet");
     expect_channel(&image, rgb, false, (const char *const[]){"R", "G", "B"}, 3);
     for (uint32_t i = 0; i < 11; i++)

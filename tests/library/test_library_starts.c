@@ -4,8 +4,8 @@
 // of the triangles along the ray decides whether the ray hits the other triangle (docs/numerics.md,
 // "Closed mirrors", step 5).
 //
-// fp64 is not tested. Rays would have to start closer to the vertex than the error with which the
-// library moves starts onto their triangle.
+// fp64 is not tested, because rays would have to start within a tiny distance of the vertex. The
+// library moves starts onto their triangle, and the error of this move is larger than the distance.
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 
@@ -44,8 +44,8 @@ static void set_corner(Pair *pair, int triangle, int corner, double turn)
     position[2] = height(pair, triangle, position[0], position[1]);
 }
 
-// The vertex is at the origin. Two small triangles make it the center of the scene, so that
-// coordinates close to it keep their bits.
+// The vertex is at the origin. Two small triangles make the vertex the center of the scene, so that
+// normalization does not round coordinates close to the vertex.
 static Pair random_pair(void)
 {
     static const double far[6][3] = {{1, 1, 1},    {1, 0.99, 1},    {0.99, 1, 1},

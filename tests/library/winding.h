@@ -12,7 +12,7 @@ typedef enum {
     POINT_ON_SURFACE // within rounding, or exactly
 } PointPlace;
 
-// Stores the places of points (X Y Z), by winding numbers modulo 2. A point within 2^-21 of a
+// Stores the PointPlace of each point, by winding numbers modulo 2. A point within 2^-21 of a
 // triangle's plane, near the triangle, counts as on the surface.
 void winding_places(const ClosedMesh *mesh, const double (*points)[3], size_t count,
                     uint8_t *places);

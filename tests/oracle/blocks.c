@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Collects successive triangles in blocks, and intersects rays with them. Triangles are enlarged by
 // TOLERANCE of their size, so that rounding lets no ray pass between two of them. Float rounding is
-// sixty thousand times as large.
+// sixty thousand times as large as TOLERANCE.
 #include "oracle/blocks.h"
 
 #include <stdlib.h>

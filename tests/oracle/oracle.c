@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Traces and shades by the rules of the course and of clrt. A light shines on a point if the
 // interpolated normal faces the light, and nothing but glass occludes the light. A ray never hits
-// the triangle that it leaves, and hits a sphere that it leaves only at the far wall. A reflected
-// ray that would enter the surface is mirrored out of the surface.
+// the triangle that it leaves. A ray that leaves a sphere can hit this sphere only at the far wall.
+// A reflected ray that would enter the surface is mirrored out of the surface.
 #include "oracle/oracle.h"
 
 // A light grazes a face if the sine of the light's height over the face is below this limit. A
 // float tracer moves a point off its face by up to 2^-20 of the scene. A grazing light may then
-// reach the point across the edge of a neighbor at a distance of 2^-12 of the scene.
+// reach the point over the edge of a neighboring face, up to 2^-12 of the scene away.
 #define HORIZON 0x1p-8
 
 bool oracle_make(Oracle *oracle, const Scene *scene, Error *error)
@@ -98,8 +98,8 @@ static Vec3 times(Vec3 a, Vec3 b)
     return vec3(a.x * b.x, a.y * b.y, a.z * b.z);
 }
 
-// Returns the part of each channel of a light that passes the glass on a ray, or zero if the ray
-// also hits anything else. As in the renderer, a new ray starts at each crossing.
+// Returns for each color channel the fraction of a light that passes the glass along a ray. Returns
+// 0 if the ray also hits anything else. As in the renderer, a new ray starts at each crossing.
 static Vec3 light_let_through(const Oracle *oracle, OracleRay ray, OracleDecisions *decisions)
 {
     Vec3 passed = {1, 1, 1};
@@ -217,9 +217,9 @@ typedef struct {
     double reflectance; // 1 for total reflection
 } Bent;
 
-// Applies Snell's law to the direction's part along the surface, and Fresnel's equations to the
-// sines and tangents of the sum and of the difference of both angles. At right angles to the
-// surface, both angles are zero, and the reflectance depends only on the index.
+// Applies Snell's law to the direction's component along the surface. Fresnel's equations take the
+// sines and tangents of the sum and of the difference of both rays' angles to the normal. For a ray
+// along the normal, both angles are 0, and the reflectance depends only on the index.
 static Bent bend(const OracleSurface *surface, double ior)
 {
     const bool is_sphere = vec3_dot(surface->normal, surface->face) < 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A second ray tracer as a reference. It traces a Scene on the host in fp64, in the scene's
 // coordinates, by recursion and without a tree. It shares no method with the kernels. Besides a
-// color, it returns the decisions behind the color. The decisions distinguish errors from samples
-// on the other side of an edge.
+// color, it returns the decisions behind the color. Tests use the decisions to distinguish a
+// renderer's errors from samples that are merely on the other side of an edge.
 #pragma once
 
 #include "image/framebuffer.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Moves a scene into the normalized frame and rounds its numbers as the host rounds them for a
-// device: to a float, or for spheres to the sum of two floats. The oracle then traces the same
-// numbers as the kernels.
+// Moves a scene into the normalized frame and rounds its numbers as the host does for a device.
+// Spheres become sums of two floats, and all other numbers become floats. The oracle then traces
+// the same numbers as the kernels.
 #pragma once
 
 #include "oracle/oracle.h"

@@ -19,7 +19,8 @@ static Vec3 diffuse_of(const Scene *scene, uint32_t material)
 // most this.
 #define LEAN 0x1p-10
 
-// The layers of cubes perpendicular to an axis. A coordinate's place is rate * coordinate + shift.
+// The layers of cubes perpendicular to an axis. rate * coordinate + shift is the coordinate in
+// cubes, and its integer part is the layer's index.
 typedef struct {
     double rate, shift;
     double step; // 2^-19 of a cube plus 2^-19 of clrt's unit of normalized length, in cubes

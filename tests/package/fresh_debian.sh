@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs the README's two commands in a bare Debian without /dev/pts, terminal and locale, on a copy of
-# this checkout. Exits with status 77 if this machine cannot create bare Debians. Needs root,
-# mmdebstrap and git. Usage: fresh_debian.sh SUITE [FOLDER]. SUITE is bookworm or trixie. If FOLDER is
-# given, the tests' compiled kernels are copied to it.
+# Runs the README's commands tools/render and tools/test on a copy of this checkout, in a bare
+# Debian that has no /dev/pts, no terminal and no locale. Exits with status 77 if this machine
+# cannot create bare Debians. Needs root, mmdebstrap and git. Usage: fresh_debian.sh SUITE [FOLDER].
+# SUITE is bookworm or trixie. If FOLDER is given, the tests' compiled kernels are copied to it.
 set -eu
 . "$(dirname "$(readlink -f "$0")")/bare_debian.sh"
 

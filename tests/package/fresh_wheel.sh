@@ -25,7 +25,7 @@ run_in_root "
     python3 -m venv /root/build
     time /root/build/bin/pip wheel -q . --no-deps -w /root/wheels
     ls -l /root/wheels
-    # A checkout can be installed in the same way.
+    # pip also installs the checkout itself.
     /root/build/bin/pip install -q .
     cd / && /root/build/bin/python -c "import clrt; print(clrt.__version__, clrt.__file__)"' || exit 1
 wheels=$root/root/wheels

@@ -29,7 +29,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 from pictures import read_exr, read_png  # noqa: E402 pylint: disable=wrong-import-position
 
 CLRT, SCENES = sys.argv[1], pathlib.Path(sys.argv[2])
-# This scene needs no models, because builds under sanitizers make none.
+# This scene contains no models, because builds with sanitizers do not generate models.
 REFLECTIONS = SCENES / "reflections.scn"
 CUBE = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], float)
 SIDES = np.array([(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4),
@@ -151,7 +151,7 @@ class Pictures(unittest.TestCase):
             self.assertEqual(hits.primitive[0], ray["primitive"])
 
     def test_notebooks_show_the_pixels_of_the_programs_png(self):
-        # The background's values times 255 are within rounding of 26.5, 100.5 and 200.5.
+        # Multiplied by 255, the background's values are 26.5, 100.5 and 200.5, up to rounding.
         text = "background 0.10392157 0.39411765 0.7862745\nlight 0 0 9 0.7\nmaterial 1\nsphere 0 0 0.5 1"
         with tempfile.TemporaryDirectory() as folder:
             scene, file = pathlib.Path(folder, "a.scn"), pathlib.Path(folder, "a.png")

@@ -21,8 +21,8 @@
 
 static Cache cache;
 
-// Overrides the C library's function, so that drivers stay loaded and the sanitizer can attribute
-// their blocks. The loader binds calls to this function only if it is exported.
+// Overrides dlclose of the C library, so that drivers stay loaded. The sanitizer can then report
+// which driver allocated a block. The loader binds calls to this function only if it is exported.
 __attribute__((visibility("default"))) int dlclose(void *handle)
 {
     (void)handle;
