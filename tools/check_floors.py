@@ -44,8 +44,8 @@ BELOW |= {
 CORE = ["base", "mesh", "scene", "accel"]
 FOREIGN = re.compile(r"(CL|OpenCL|GL|GLFW|epoxy|OpenImageIO|assimp)/|(dlfcn|pthread|jansson|png)\.h$")
 
-# The only file of the core that starts threads, and the only one that asks the loader for the path
-# of clrt's library.
+# In the core, only thread_pool.c starts threads, and only foreign.c asks the loader for the path of
+# clrt's library.
 EXCEPTIONS = [("base/thread_pool.c", "pthread.h"), ("base/foreign.c", "dlfcn.h")]
 
 # Host and kernels share one header. Only one host file includes it, for all layers above.

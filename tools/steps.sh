@@ -52,7 +52,7 @@ step() {
     step_had_no_work || echo "$name: done in $((SECONDS - begun)) s; next: $next" >&2
 }
 
-# Returns whether the last step was a build of files that are all up to date.
+# Returns whether the last step was a build that had nothing to do.
 step_had_no_work() {
     grep -q "^ninja: no work to do" "$step_log"
 }

@@ -18,7 +18,7 @@ import time
 from benchmark import common, ply, scenes
 
 MOST_APART = 0.01
-# clrt's values for scenes without these statements.
+# clrt's defaults for the statements that a scene omits.
 SETTINGS = {"size": ["512", "512"], "background": ["1", "1", "1"], "ambient": ["0.05"],
             "max_level": ["3"]}
 

@@ -9,7 +9,7 @@ from benchmark import common
 FOLDER = common.ROOT / "tests" / "bench"
 OWN = ["creature", "figure", "coral"]
 
-# The course's meshes, each with a camera that frames it like the meshes of tests/bench.
+# The course's meshes, each with a camera like those of the scenes in tests/bench.
 FROM_COURSE = {"cow": "2.0 -0.7 0.9  0.16 0.18 0.29  24", "buddha": "1.9 -1.1 1.0  -0.02 0 0.47  25"}
 
 VARIANTS = ["mirrors", "shadows", "lights"]

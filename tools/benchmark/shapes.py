@@ -52,7 +52,7 @@ def spring(along, across):
     """A smooth wire that winds around a ring."""
     def vertex(i, j):
         u, v = math.tau * i / along, math.tau * j / across
-        # The wire's direction has the components (ahead, beside) along the ring and the winding.
+        # The wire's direction has the component `ahead` along the ring and `beside` along the coil.
         ahead, beside = RING + COIL * math.cos(COILS * u), COILS * COIL
         length = math.hypot(ahead, beside)
         cosine, sine = math.cos(COILS * u), math.sin(COILS * u)

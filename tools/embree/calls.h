@@ -42,7 +42,7 @@ static inline void leave_out(Rays *rays, Mask valid)
 }
 #elif LANES == 16 && !defined(__AVX512F__)
 // Without AVX-512, Embree splits packets of 16 into two of 8. Debian's Embree 3.13 then asserts
-// that masked rays are finite, too.
+// that even masked rays have finite numbers.
 static inline void leave_out(Rays *rays, Mask valid)
 {
     rays->origin = points_choose(valid, rays->origin, (Points){0});

@@ -114,7 +114,7 @@ static double time_picture(const PeerPicture *picture, Framebuffer *framebuffer)
 }
 
 // Finds for each kind of ray whether Embree's coherent flag is faster. The kinds are independent,
-// so they are tested one after another. Returns the seconds with all kinds coherent.
+// so they are tested one after another. Returns the seconds with the flag set for all kinds.
 static double tune(PeerPicture *picture, Framebuffer *framebuffer)
 {
     for (int kind = 0; kind < RAY_KINDS; kind++)

@@ -2,7 +2,7 @@
 // Traces and shades a tile like kernels/trace.cl, with LANES rays per SIMD packet. Each call of
 // Embree traces PACKETS packets. CMakeLists.txt compiles this file once for each mode. Unlike in
 // clrt, all triangles are visible from both sides, and rays start or end at a fixed distance from
-// the surface. Most users of Embree do this, because filter functions are slower.
+// the surface. Most users of Embree trace in this way, because filter functions are slower.
 #include "calls.h"
 #include "peer_draw.h"
 
@@ -319,7 +319,7 @@ static bool trace_level(PeerTile *tile, RayKind kind, Paths paths[PACKETS])
 
 static void store(const PeerTile *tile, uint32_t x, uint32_t y, const Paths *paths)
 {
-    // Paths that are still active see the background.
+    // Paths that are still active after the last level see the background.
     const Points color =
         points_add(paths->color, points_scale(points_all(tile->scene->background),
                                               choose(paths->active, paths->weight, all(0))));

@@ -7,8 +7,8 @@
 #include <ctype.h>
 #include <string.h>
 
-// Writes the words of list that do not begin with a capital, each after a space and the key. Names
-// in capitals stand for any value.
+// Writes a space, the key and the word for each word of list. Skips words that begin with a
+// capital, because they stand for any value.
 static void write_words(FILE *stream, const char *key, const char *list, const char *separators)
 {
     for (; list[0] != '\0'; list += strspn(list, separators)) {

@@ -29,8 +29,8 @@ static void visit_edges(const Surface *surface, Edges *edges, bool fill)
         }
 }
 
-// A counting sort. The second visit fills each vertex's range from its end, so first[v + 1] becomes
-// the start of this range. Shifting the table down by one corrects this.
+// A counting sort. The second visit fills the range of each vertex v from its end. Afterward,
+// first[v + 1] is the start of v's range, so the last loop shifts the table down by one.
 static void sort_edges(const Surface *surface, Edges *edges)
 {
     const size_t count = surface->vertex_count;

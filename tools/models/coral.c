@@ -9,8 +9,8 @@
 #define HOLLOW_RADIUS 0.33
 #define PERIODS       8.0 // lattice cells per unit
 
-// Returns the gyroid's level function divided by about its slope at the surface, which approximates
-// the distance to the surface.
+// Returns the gyroid's level function divided by its approximate slope at the surface. The quotient
+// approximates the distance to the surface.
 static double gyroid(Vec3 p)
 {
     const Vec3 sine = vec3(wave_sine(p.x), wave_sine(p.y), wave_sine(p.z));

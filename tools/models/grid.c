@@ -13,8 +13,8 @@
 
 #define BLOCK_SAMPLES 4
 
-// Fields are distances to first order only. A block is skipped if its center is farther from the
-// surface than twice the center's distance to the block's corners.
+// Fields only approximate distances. A block is skipped if the field at its center is more than
+// twice the distance from the center to the block's corners.
 #define BLOCK_CAUTION 2.0
 
 // The depth of a sample that is moved inside, in cells. The depth is small, so that the surface
@@ -26,8 +26,8 @@ static int smaller_count(int a, int b)
     return a < b ? a : b;
 }
 
-// The height is the integral of the shrinking cell sizes. x and y shrink like z, so that cells
-// remain nearly cubes.
+// Higher cells are smaller, so the height is the integral of the cell sizes. x and y shrink at the
+// same rate, so that cells remain nearly cubes.
 Vec3 grid_point(const Grid *grid, Vec3 at)
 {
     const Vec3 straight = vec3_add(grid->low, vec3_scale(at, grid->cell));
@@ -35,7 +35,7 @@ Vec3 grid_point(const Grid *grid, Vec3 at)
     return vec3(straight.x * size, straight.y * size, 0.5 * straight.z * (1 + size));
 }
 
-// Solves grid_point's height for the size: z = (1 - size * size) / (2 * taper).
+// Solves the height of grid_point, z = (1 - size * size) / (2 * taper), for the size.
 double grid_cell_size(const Model *model, Vec3 point)
 {
     return model->cell * sqrt(1 - 2 * model->taper * point.z);
@@ -107,7 +107,7 @@ static bool touches_across_the_cube(unsigned mask)
     return false;
 }
 
-// Turns the cell's outside corner nearest to the surface into an inside corner.
+// Turns one outside corner of the cell into an inside corner: the one nearest to the surface.
 static void repair_cell(Grid *grid, size_t cell)
 {
     float *nearest = NULL;

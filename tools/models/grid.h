@@ -20,9 +20,9 @@ static inline size_t grid_sample(const Grid *grid, int x, int y, int z)
     return ((size_t)z * (size_t)grid->size[1] + (size_t)y) * (size_t)grid->size[0] + (size_t)x;
 }
 
-// Returns the index after the last cell. A cell has the index of the sample at its low corner.
-// Samples on the high faces start no real cell: the corners of such a cell wrap around to other
-// faces. All samples on the grid's faces are outside, so the surface never crosses these cells.
+// Returns the index after the last cell. A cell has the index of the sample at its low corner. Even
+// the samples on the high faces have cells, whose corners wrap around to other faces. All samples
+// on the grid's faces are outside, so the surface never crosses these cells.
 size_t grid_cell_end(const Grid *grid);
 
 // Returns a mask of the cell's corners that are inside. In a corner's number, bit 0 means +x, bit 1
@@ -34,8 +34,8 @@ static inline size_t grid_sample_count(const Grid *grid)
     return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2];
 }
 
-// Returns the position that is `at` steps of the grid from its first sample. Integers give the
-// positions of samples.
+// Returns the position that is `at` cells away from the grid's first sample, along each axis.
+// Integers give the positions of samples.
 Vec3 grid_point(const Grid *grid, Vec3 at);
 
 // Returns the size of a model's cells at a point in world coordinates.

@@ -3,9 +3,9 @@
 #include "figure.h"
 #include "shape.h"
 
-// A pointed petal with half width radii.y and half length 0.93 radii.z. In q's frame, x points out
-// of the petal's back and z to its tip. Two shifted, mirrored halves of an ellipsoid form the ridge
-// and the point.
+// A pointed petal. Its half width is radii.y, and its half length is 0.93 * radii.z. In q's frame,
+// x points out of the petal's back and z points to its tip. Two shifted, mirrored halves of an
+// ellipsoid form the ridge and the point.
 static double blade(Vec3 q, Vec3 radii)
 {
     const double shift = 0.6 * radii.y;

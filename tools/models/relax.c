@@ -19,8 +19,8 @@
 // detail than the grid, a full step would fold the surface.
 #define LONGEST_STEP 0.5
 
-// The distance of the gradient's samples along each axis, in cells. This smooths creases that
-// triangles cannot show.
+// The distance of the gradient's samples along each axis, in cells. This distance smooths creases
+// that triangles cannot show.
 #define GRADIENT_REACH 0.3
 
 // Six steps remove every fold in the models. A vertex moves only while it belongs to a bad quad.
@@ -30,7 +30,7 @@
 // triangle has 0.29.
 #define LEAST_AREA 0.09
 
-// The weight of a diagonal's length relative to its distance from the surface.
+// The weight of a diagonal's length. The weight of its distance from the surface is 1.
 #define LENGTH_FAULT 0.1
 
 typedef struct {
@@ -112,8 +112,8 @@ static void sum_facings(const Surface *surface, Vec3 *facings)
     }
 }
 
-// Returns whether the triangle of this corner and the next two is a needle or folded over. Its area
-// along the vertex normals is then small compared with its edges.
+// Returns whether the triangle of this corner and the next two is a needle or folded over. This is
+// true if the area, seen along the mean vertex normal, is too small for the lengths of the edges.
 static bool triangle_is_bad(const Surface *surface, const uint32_t quad[4], int corner)
 {
     const uint32_t first = quad[corner], second = quad[(corner + 1) % 4];

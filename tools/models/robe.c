@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The figure's robe: the torso, offset by the cloth's thickness and open in front, wide sleeves,
-// and covered crossed legs. Folds are waves added to the fields.
+// The figure's robe: a cloth over the torso, wide sleeves, and a cloth over the crossed legs. The
+// robe is open in front. Folds are waves added to the fields.
 #include "figure.h"
 #include "shape.h"
 
-// Returns the height of a fold, -1.05 to 0.57; along counts folds. Crests are round, and valleys
-// are narrower.
+// Returns the height of a fold, from -1.05 to 0.57. `along` increases by 1 from fold to fold.
+// Crests are round, and valleys are narrower.
 static double fold(double along)
 {
     return 0.8 * wave_sine(along) + 0.25 * wave_cosine(2 * along);

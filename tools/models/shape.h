@@ -8,8 +8,8 @@
 #include "base/vec.h"
 #include "wave.h"
 
-// At this distance from a part, a bound of the part's field is sufficient, because the blend widths
-// at the part are smaller.
+// Farther than this from a part, a bound of the part's field is sufficient. There, the exact value
+// does not matter, because blends are narrower.
 #define SHAPE_FAR 0.05
 
 static inline double shape_smaller(double a, double b)
@@ -81,8 +81,8 @@ static inline double shape_sphere(Vec3 p, Vec3 center, double radius)
     return shape_length(vec3_sub(p, center)) - radius;
 }
 
-// Divides the ellipsoid's implicit function by its gradient, which gives the distance to first
-// order.
+// Returns the ellipsoid's implicit function divided by the length of its gradient. The quotient is
+// the distance to first order.
 static inline double shape_ellipsoid(Vec3 p, Vec3 center, Vec3 radii)
 {
     const Vec3 d = vec3_sub(p, center);

@@ -12,7 +12,7 @@
 #define BELLY  0.38
 #define PERIOD 0.92
 
-// Returns the approximate distance from the side.
+// Returns the approximate distance from the vase's outer side.
 static double side_field(Vec3 p)
 {
     const double turns = (p.z - BELLY) / PERIOD;
@@ -34,7 +34,7 @@ static Vec3 mixed(Vec3 a, Vec3 b, double part)
     return vec3_add(vec3_scale(a, 1 - part), vec3_scale(b, part));
 }
 
-// Returns 1 inside the line of this width, and 0 outside.
+// Returns 1 on a line of this width and 0 beside it. `distance` is from the line's middle.
 static double line(double distance, double width)
 {
     return shape_step(fabs(distance), width / 2 + 0.004, width / 2 - 0.004);

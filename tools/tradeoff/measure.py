@@ -13,12 +13,12 @@ import sys
 from benchmark import common
 from tradeoff import front, goals, grid, uniform
 
-# The number of pictures that a process draws, one fewer for time goals. The first picture includes
-# late initialization, so only the others are timed.
+# The number of pictures that a process draws. With a time goal, the process draws one picture
+# fewer. The first picture includes late initialization, so only the others are timed.
 FRAMES = 3
 
-# With --processor-time, a process draws enough frames that those after the first take at least this
-# number of seconds, but draws at most MOST_FRAMES.
+# With --processor-time, the frames after a process's first frame together take at least this number
+# of seconds. However, no process draws more than MOST_FRAMES.
 PROCESSOR_SECONDS = 0.5
 MOST_FRAMES = 1000
 
@@ -65,7 +65,8 @@ def draw(setting, scene, options, picture, *more):
 def first_row(place, setting, scene, options, folder):
     """Draws a setting's picture with statistics, and compares it with the reference."""
     picture, report = folder / f"{place}.pfm", folder / f"{place}.json"
-    # Without this, clrt would draw settings with few samples by kernels that compile sooner.
+    # Compiles the kernels first. Otherwise, settings with few samples would select kernels that
+    # compile sooner.
     kernels = [word for word in setting.words if not word.startswith(("--aa=", "--max-level"))]
     run_clrt(["warm", "-q", scene, *kernels])
     draw(setting, scene, options, picture, f"--json={report}")

@@ -9,7 +9,7 @@ import numpy
 
 from tradeoff import front, perception
 
-# Weights relative to the time of the slowest picture.
+# Weights of the squared error, in units of the slowest picture's time.
 WEIGHTS = numpy.array([0, *numpy.geomspace(0.05, 1e6, 100)])
 
 

@@ -31,7 +31,7 @@ figure img { width: 100%; box-sizing: border-box; border: 1px solid #e5e7eb;
 figcaption, .note { font-size: 0.85rem; color: #4b5563; }
 """
 
-# How a round measures the time of a setting, by clock.
+# For each clock, the text that explains how a round measures times.
 ROUNDS = {
     "time": "In each round, the tracing time of the faster of two frames counts (time goals: of "
             "one), after an uncounted frame.",
