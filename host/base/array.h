@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Growable arrays of any type. `ARRAY(Light) lights = {0};` declares one, and array_push appends to
-// it. The anonymous union lets one function grow arrays of every type within C's aliasing rules.
+// it. The anonymous union lets one function grow all arrays without violating C's aliasing rules.
 #pragma once
 
 #include "base/error.h"
@@ -34,6 +34,6 @@ void *memory_raw(size_t count, size_t size, Error *error);
 // Returns a copy of text, which the caller frees, or NULL if memory runs out.
 char *text_copy(const char *text, Error *error);
 
-// Like memory_raw, but unused elements take no physical memory. The array has no huge pages, and is
-// not aligned to 64 bytes.
+// Like memory_raw, but unused elements take no physical memory. The array does not use huge pages,
+// and is not aligned to 64 bytes.
 void *memory_sparse(size_t count, size_t size, Error *error);

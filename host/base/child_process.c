@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Starts a child by posix_spawn, collects its output through a socket, and kills it at a limit.
+// Starts a child by posix_spawn, collects its output through a socket, and kills the child at a
+// limit of time or size (ChildLimits).
 //
-// Invariant: a child never outlives child_end. All faults of a child, such as crashes, endless
-// loops or endless output, become a ChildFate in the parent.
+// Invariant: when child_end returns, the child has ended. All faults of a child, such as crashes,
+// endless loops or endless output, become a ChildFate in the parent.
 #include "base/child_process.h"
 
 #include "base/array.h"
@@ -22,8 +23,8 @@
 #define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
 
 // Returns the environment with which this process was started, or an empty one if /proc is missing.
-// Reading environ would be unsafe, because OpenCL drivers call setenv in other threads. The result
-// points into bytes. The caller frees both.
+// Reading environ would be unsafe, because OpenCL drivers call setenv in other threads. The strings
+// of the result are in *bytes. The caller frees both.
 static char **environment_at_start(File *bytes, Error *cause)
 {
     Error unused = {0};

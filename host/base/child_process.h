@@ -16,8 +16,8 @@ typedef struct {
 // Starts the program words[0]. Its arguments are `words`, which NULL terminates. Its standard
 // output is the socket, and its standard input and error are /dev/null. Its environment is the
 // initial environment of this process. Any thread may call child_spawn, even while another thread
-// changes the environment. On failure, returns false and stores the reason without a file name in
-// *cause.
+// changes the environment. On failure, returns false and stores the reason in *cause, without a
+// file name.
 bool child_spawn(ChildProcess *child, const char *const words[], Error *cause);
 
 // Kills the child, unless it has already ended, and closes the socket. Returns the child's status

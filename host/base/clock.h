@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wall time. Only pictures with --time depend on it.
+// Wall time. A picture depends on the clock only with --time.
 #pragma once
 
 #include <time.h>

@@ -32,8 +32,8 @@ static bool read_all(File *file, FILE *stream, size_t expected, size_t most, Err
     return ok;
 }
 
-// Fails if a large file has holes. Incomplete downloads have holes, and hostile files may have
-// holes to claim more bytes than they occupy on disk.
+// Fails if a large file has holes. Incomplete downloads have holes, and hostile files may use holes
+// to claim more bytes than they occupy on disk.
 static bool check_holes(int file, off_t size, const char *name, Error *error)
 {
     const off_t start = lseek(file, 0, SEEK_CUR);

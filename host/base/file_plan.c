@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Identifies existing files by device and inode, and new files by folder and name. Follows symbolic
-// links first. Sorting makes equal files adjacent, so checking a million frames is fast.
+// links first. Sorting makes equal files adjacent, so even a million outputs are checked quickly.
 #include "base/file_plan.h"
 
 #include "base/file.h"
@@ -45,7 +45,7 @@ static char *follow_links(const char *path, Error *error)
     return end;
 }
 
-// Identifies a new file. If its folder is missing, inode stays 0, which no file has.
+// Identifies a new file. If the folder is missing, inode stays 0, a number that no file has.
 static bool identify_new(PlannedFile *file, Error *error)
 {
     struct stat status;

@@ -21,8 +21,8 @@ static bool name_beside_library(char path[COMPANION_PATH_SIZE])
     return true;
 }
 
-// Searches the folder of the running program first. Other programs that use clrt's library find
-// clrt-foreign beside the library, as in a Python package, or in the installation folder.
+// Searches near the running program, then beside clrt's library, then in the installation folder.
+// Programs that use the library, such as Python, need the last two places.
 static bool find_program(char path[COMPANION_PATH_SIZE], Error *cause)
 {
     if ((file_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER) && access(path, X_OK) == 0) ||

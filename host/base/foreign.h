@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Runs clrt-foreign, the program that reads files with Assimp and OpenImageIO. Hostile files can
-// crash these libraries. A separate process with limits on time and memory keeps such crashes out
-// of clrt: if clrt-foreign crashes, hangs or exhausts its memory, the read fails with one error
-// message. The limits do not confine a library that a hostile file has taken over.
+// crash these libraries. clrt-foreign is therefore a separate process with limits on time and
+// memory. If it crashes, hangs or exhausts its memory, the read fails with one error message. The
+// limits do not confine a library that a hostile file has taken over.
 //
 // The output of clrt-foreign is a sequence of records. Each record is a ForeignHead and its data.
 //
@@ -34,13 +34,13 @@ typedef struct {
     ChildLimits limits;
 } ForeignReader;
 
-// Replaces characters that are not printable ASCII by `substitute`, because a terminal could
-// interpret them. `size` is the length of text.
+// Puts `substitute` in place of characters that are not printable ASCII, because a terminal could
+// interpret these characters. `size` is the length of text.
 void foreign_make_printable(char *text, size_t size, char substitute);
 
-// Runs clrt-foreign and collects its output. The arguments of clrt-foreign are `words`, and the
-// last words may be NULL. On failure, returns false and stores the reason in *cause, without the
-// name of the file. The caller frees stream.
+// Runs clrt-foreign and collects its output. The arguments of clrt-foreign are `words`, in which
+// NULL marks unused entries at the end. On failure, returns false and stores the reason in *cause,
+// without the name of the file. The caller frees stream.
 #define FOREIGN_WORDS 3
 bool foreign_run(File *stream, const ForeignReader *reader, const char *const words[FOREIGN_WORDS],
                  Error *cause);

@@ -4,8 +4,8 @@
 // the power of ten:
 // 1. If the integer and the power are exact doubles, one multiplication or division is correctly
 // rounded (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990).
-// 2. For powers from 10^-27 to 10^27, 128-bit integers hold enough of the result. Only their
-// conversion to double rounds.
+// 2. For powers from 10^-27 to 10^27, a 128-bit integer holds the exact product or a long enough
+// quotient. Only the conversion of this integer to double rounds.
 // 3. All other numbers are rewritten as DIGITSeEXPONENT for strtod. This form has no decimal point,
 // so no locale misreads it.
 //
@@ -77,7 +77,7 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
 }
 
 // Returns the integer with the digits from text to end, times ten to the power of exponent. Keeps
-// only the first SUFFICIENT_DIGITS digits. If a later digit is not zero, a digit 1 follows them.
+// only the first SUFFICIENT_DIGITS digits. If a dropped digit is not zero, appends a digit 1.
 static double round_slowly(const char *text, const char *end, int64_t exponent)
 {
     char spelled[SUFFICIENT_DIGITS + 32];

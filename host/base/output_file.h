@@ -23,8 +23,8 @@ bool output_file_begin(OutputFile *file, const char *path, Error *error);
 // receives the reason without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
-// Creates the file from the bytes that `write` writes to its stream. If `write` fails, it returns
-// false with the reason in cause or errno. The error message names the path.
+// Creates the file from the bytes that `write` writes to its stream. On failure, `write` must
+// return false with the reason in cause or errno. The error message names the path.
 typedef bool WriteStream(void *context, FILE *stream, Error *cause);
 bool output_file_write(const char *path, WriteStream *write, void *context, Error *error);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each call of thread_pool_run with several tasks is a generation. The pool's workers and the
 // caller's thread take tasks from a common counter until none is left. The call returns when all
-// tasks are finished. It does not wait for workers that wake too late for a task.
+// tasks are finished. It does not wait for workers that wake too late to take a task.
 //
 // Generations often follow each other closely, and waking a thread takes long. Idle workers
 // therefore first poll for the next generation, and then sleep.
@@ -16,8 +16,8 @@
 #define THREADS_MAX    256
 #define LOOKS_FOR_WORK 200 // polls before a thread sleeps, about 0.1 ms
 
-// The number of the generation in the upper 32 bits, and the number of its tasks that no thread has
-// taken yet. Both change at once, so a late worker cannot take a task of a later generation.
+// Upper 32 bits: the number of the generation. Lower 32 bits: the number of its tasks not yet
+// taken. A compare-and-swap covers both, so a late worker cannot take a task of a later generation.
 typedef uint64_t PoolState;
 
 struct ThreadPool {
@@ -38,8 +38,8 @@ static uint32_t generation_of(PoolState state)
     return (uint32_t)(state >> 32);
 }
 
-// Runs tasks of the generation until none is left. A thread with a task may read the pool's work,
-// because thread_pool_run waits for the task.
+// Runs tasks of the generation until none is left. While a thread has a task, pool->work stays
+// valid, because thread_pool_run waits for the task.
 static void take_tasks(ThreadPool *pool, uint32_t generation)
 {
     PoolState state = atomic_load(&pool->state);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copies the compressed tiles of parts into one file. The tiles of a whole picture are stored row
-// by row, so the sizes of all tiles determine their places. Threads can then write in any order.
+// by row, so their sizes determine where each tile starts. Threads can then write in any order.
 #include "jobs/exr_join.h"
 
 #include "image/exr_write.h"
@@ -55,7 +55,8 @@ typedef struct {
 } TileJoin;
 
 // Fills bytes with the tile's head and compressed data. Returns false if the tile is damaged, or if
-// its size has changed since the first pass. Does not check the size of the picture's last tile.
+// its size has changed since the first pass. Does not check the last tile's size, because no start
+// follows.
 static bool read_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {
     const ExrJoin *join = work->join;

@@ -60,7 +60,7 @@ static bool is_regular(const Journal *journal)
 }
 
 // Locks the journal. On file systems without locks, flock fails with an error other than
-// EWOULDBLOCK. This failure is ignored, and journal_claim is then the only protection.
+// EWOULDBLOCK. take_lock ignores this, because journal_claim also prevents concurrent appends.
 static bool take_lock(Journal *journal, Error *error)
 {
     journal->is_busy =
@@ -121,8 +121,8 @@ bool journal_read(Journal *journal, void *bytes, size_t size)
     return false;
 }
 
-// Copies the records read so far into `stream`, a locked file without the journal's name. Fails if
-// another process has claimed the journal.
+// Copies the records read so far into `stream`, a locked file that does not have the journal's name
+// yet. Fails if another process has claimed the journal.
 static bool fill_file(Journal *journal, FILE *stream, Error *error)
 {
     const long end = ftell(journal->stream);
@@ -142,7 +142,7 @@ bool journal_claim(Journal *journal, Error *error)
     Error cause = {0};
     if (!output_file_begin(&file, journal->path, error))
         return false;
-    // output_file_end closes file.lock, but the stream then still holds the lock.
+    // output_file_end closes file.lock. The stream owns a duplicate, which keeps the lock.
     const int copy = fcntl(file.lock, F_DUPFD_CLOEXEC, 0);
     FILE *stream = copy < 0 ? NULL : fdopen(copy, "ab+");
     const bool filled = fill_file(journal, stream, error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the settings of an EXR file and copies its tiles. All files of one picture have equal
-// settings texts, except for the entries on parts and tiles.
+// Reads the settings of an EXR file and copies its tiles. The files of one picture store equal
+// settings, except for the entries `part` and `tile`.
 #include "jobs/stored_tiles.h"
 
 #include "base/processors.h"

@@ -6,8 +6,8 @@
 // sets no environment variables. The OpenCL drivers that it loads may do all this.
 //
 // A failed call returns false or NULL and stores the reason in *error, unless error is NULL. It
-// changes nothing else, unless its comment says so. Calls copy arrays and structs, so the caller
-// may free or reuse them afterwards.
+// changes nothing else, unless the function's comment says so. Calls copy arrays and structs, so
+// the caller may free or reuse them afterwards.
 //
 // Threads may call functions concurrently for different scenes and renderers. Several renderers may
 // draw one scene while no thread changes it. A renderer draws one picture at a time.
@@ -97,7 +97,7 @@ typedef enum {
 // SILHOUETTE, shaded is diffuse. For MATTE, shaded is diffuse * (ambient + kd * D), where D sums
 // light * cosine over the visible lights, and light is intensity * color. BLINN_PHONG adds specular
 // * ks * S, where S sums light * (normal . half vector) ^ shininess. shaded is limited to 1. GLASS
-// refracts and reflects rays. It uses only diffuse, the color of refracted light, and ior.
+// refracts and reflects rays. It uses only ior and diffuse, the color of refracted light.
 //
 // If check_size is above 0, the colors even and odd replace diffuse in cubes of this size. Even and
 // odd cubes alternate along each axis, and a cube has a corner at 0 0 0. A point of a triangle
@@ -277,18 +277,18 @@ typedef struct {
 // POCL_WORK_GROUP_SPECIALIZATION to 0, kernels compile in three quarters of the time, and are
 // shared with the program clrt.
 //
-// This call, clrt_device_count and clrt_device_get read environment variables, and PoCL's first
-// call sets some. During these calls, other threads must not use the environment, because
+// This call, clrt_device_count and clrt_device_get read environment variables, and the first OpenCL
+// call makes PoCL set some. During these calls, other threads must not use the environment, because
 // most versions of getenv and setenv are not thread-safe. Later calls only read the environment,
 // and only while they compile or store kernels.
 //
 // The library stores compiled kernels with checksums in the subfolder clrt of $POCL_CACHE_DIR,
 // $XDG_CACHE_HOME or ~/.cache. It compiles damaged kernels again. PoCL stores files of its own in
 // $POCL_CACHE_DIR, $XDG_CACHE_HOME/pocl or ~/.cache/pocl. If PoCL cannot write these files, it
-// finds no device. A lock protects them while several processes compile.
+// finds no device. Processes that share these files compile one at a time.
 CLRT_API ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *error);
 
-// Frees the renderer. Stores its kernels if they are new, which takes up to a second. Accepts NULL.
+// Frees the renderer. Storing its new kernels in the cache takes up to a second. Accepts NULL.
 CLRT_API void clrt_renderer_free(ClrtRenderer *renderer);
 
 // Pictures
@@ -326,8 +326,7 @@ typedef struct {
     uint32_t samples;       // per pixel and axis; 1 with a goal
     uint32_t max_level;     // rays of this level see only the background
     double truncation;      // bound on the error that max_level causes in any color; with glass,
-                            // bound on this error's root mean square, from the weights of the cut
-                            // rays
+                            // bound on the RMSE that max_level causes
     bool goal_missed;       // the error may be above its goal, or the first pass took longer than
                             // `seconds`
     double error, error_bound; // for goals of error and time: estimate of the RMSE, and its 95 %
@@ -346,10 +345,10 @@ typedef struct {
 // With this max_level, even camera rays see only the background.
 enum { CLRT_LEVEL_NONE = -1 };
 
-// A request for a picture. The zero value draws the scene's first view as `clrt SCENE -o FILE`
-// does. At most one of contrast, error and seconds may be above 0. The one above 0 is the picture's
-// goal. A goal decides where to take samples, so it excludes `samples`, a crop, a tile size and the
-// channels boxtests, tritests and certainty.
+// A request for a picture. If only `size` is set, clrt draws the scene's first view as `clrt SCENE
+// -o FILE` does. At most one of contrast, error and seconds may be above 0. The one above 0 is the
+// picture's goal. A goal decides where to take samples, so it excludes `samples`, a crop, a tile
+// size and the channels boxtests, tritests and certainty.
 typedef struct {
     size_t size;
     uint32_t width, height;                      // in pixels, each at most 131072; 0: the scene's
@@ -363,10 +362,10 @@ typedef struct {
     double error;      // adds samples until the RMSE is at most this; at most 1; below 1.6e-4, the
                        // renderer must have CLRT_FP64
     double seconds;    // adds samples for this time; at most 1e6
-    int32_t max_level; // rays of this level see the background; at most 1000; 0: the scene's, or
-                       // chosen by error; CLRT_LEVEL_NONE: camera rays see the background
-    double truncation; // above 0: selects the smallest max_level whose error is at most this, as
-                       // measured with glass in a coarse picture of the whole frame
+    int32_t max_level; // rays of this level see the background; CLRT_LEVEL_NONE, or at most 1000;
+                       // 0: selected by truncation or error, or the scene's if both are 0
+    double truncation; // above 0: selects the smallest max_level whose error is at most this; in
+                       // scenes with glass, a coarse picture of the whole frame measures the error
     uint32_t reference_samples; // per pixel of clrt_reference; even, at most 65536; 0 means 256
 
     uint32_t tile_width, tile_height; // the unit of progress; changes no bit; 0 means 128
@@ -382,8 +381,9 @@ typedef struct {
 
 // Draws the scene into rgb, an array of 3 * width * height floats: R G B in [0, 1], top row first.
 // With a crop, width and height are the crop's. If the channel certainty is requested, pixels that
-// it repairs in fp64 get their fp64 colors. The first picture of a new or changed scene also builds
-// its tree, if it has one. Later pictures reuse the tree, even with another size or camera.
+// are certain in fp64, but not in float, get the colors of fp64. The first picture of a new or
+// changed scene also builds the scene's tree, if clrt uses one. Later pictures reuse the tree, even
+// with another size or camera.
 //
 // Returns false with CLRT_STOPPED if progress stops the picture before its last tile. If the
 // picture is stopped or the device fails, rgb contains complete tiles, and its other values are
@@ -411,9 +411,10 @@ CLRT_API void clrt_hash(const float *rgb, uint32_t width, uint32_t height, char 
 // finite, if their far is NaN, or if their direction is shorter than 1e-300 or longer than 1e300.
 //
 // `starts` names the primitive on which each ray starts. The ray does not hit this primitive again,
-// except a sphere from inside. If the ray's near is 0, clrt also moves its origin onto the plane of
-// the triangle, and the ray passes neighbors that only rounding puts in its way. The call then
-// fails if the origin is farther than 2^-15 from the plane, in the units that clrt_trace describes.
+// unless near is 0 and the ray hits a sphere from inside. If near is 0, clrt also moves the origin
+// onto the plane of the triangle. The ray then does not hit neighbors that only rounding places
+// ahead of the origin. The call fails if the origin is farther than 2^-15 from the plane, in the
+// units that clrt_trace describes.
 typedef struct {
     size_t size;
     size_t count;
@@ -452,16 +453,16 @@ typedef struct {
 // and not on the batch, the threads or the device. A ray through an edge or vertex of a closed mesh
 // hits the mesh.
 //
-// These statements are exact for the scene in the units in which clrt traces it. clrt centers the
-// scene in double precision, scales it by a power of two so that the longest side of the box around
-// all triangles is in [1, 2), and rounds coordinates to float. If an origin has a coordinate above
-// 4 in magnitude, the origin first moves along the ray toward the box. With spheres, the limit is
-// about 4 times the scene's largest coordinate, but at least 4.
-// In these units, the error of a distance is at most 18 * 2^-24 times the distance of the
-// triangle's farthest corner from the origin, measured along the longest axis of the direction.
+// These statements hold exactly in the units in which clrt traces the scene. clrt centers the scene
+// in double precision, scales it by a power of two so that the longest side of the box around all
+// triangles is in [1, 2), and rounds coordinates to float. If an origin has a coordinate above 4 in
+// magnitude, the origin first moves along the ray toward the box. With spheres, the limit is about
+// 4 times the scene's largest coordinate, but at least 4. In these units, a hit's distance is off
+// by at most 18 * 2^-24 times the distance from the origin to the triangle's farthest corner, if
+// both are measured along the axis of the direction's largest component.
 //
-// A certain ray hits the same primitive in exact arithmetic, both on the caller's doubles and on
-// the stored floats. Rays through edges, and rays to almost equal distances, are uncertain.
+// For a certain ray, exact arithmetic on the caller's doubles or on the stored floats finds the
+// same primitive. Rays through edges, or with hits at almost equal distances, are uncertain.
 CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                          const ClrtHits *hits, ClrtError *error);
 
@@ -475,8 +476,8 @@ CLRT_API bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, con
                              const ClrtHits *hits, ClrtError *error);
 
 // Stores in inside[i] whether the ray's origin is inside the meshes, which must be closed. An
-// origin is inside if its ray crosses an odd number of triangles. The result does not depend on the
-// direction, except for origins within rounding of a surface. NULL directions are fastest.
+// origin is inside if its ray crosses an odd number of triangles. The direction has no effect,
+// unless the origin is so close to a surface that rounding decides. NULL directions are fastest.
 CLRT_API bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                             uint8_t *inside, ClrtError *error);
 
@@ -602,8 +603,8 @@ typedef struct {
     double tint[3];  // the color of the glass on the way; multiplies both
 } ClrtExplainedLight;
 
-// These functions fill a struct with a part of the explanation. place contains the numbers of the
-// sample, the ray and the light, as far as the part needs them. All numbers start at 0.
+// These functions fill a struct with a part of the explanation. `place` is the number of a sample,
+// {sample, ray} for a ray, or {sample, ray, light} for a light. All numbers start at 0.
 CLRT_API bool clrt_explanation_get_pixel(const ClrtExplanation *explanation,
                                          ClrtExplainedPixel *pixel, ClrtError *error);
 CLRT_API bool clrt_explanation_get_sample(const ClrtExplanation *explanation, uint32_t place,

@@ -41,8 +41,8 @@ struct ClrtScene {
     uint64_t state; // a number unique to the scene and its latest change
 };
 
-// Ends a change. If ok, gives the scene a new state, which renderers notice. Otherwise, error
-// receives the cause.
+// Ends a change. If ok, gives the scene a new state, by which renderers notice the change.
+// Otherwise, error receives the cause.
 bool scene_handle_changed(ClrtScene *scene, bool ok, const Error *cause, ClrtError *error);
 
 // Fails with CLRT_ARGUMENT if the scene has no material with this number.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "library/ray_grid.h"
 
-// The most rays of a beam, the largest height of a block, and the bounds of a row's length.
+// Limits of the rays in a beam, of the rows in a block, and of the rays in a row.
 #define BEAM_RAYS   64
 #define BLOCK_ROWS  8
 #define LEAST_WIDTH 16
@@ -13,8 +13,8 @@ static Vec3 step_after(const ClrtRays *rays, size_t index)
     return vec3_sub(vec3_add(b.origin, b.direction), vec3_add(a.origin, a.direction));
 }
 
-// Returns whether a row ends at the ray. `step` leads from the first ray of the first row to the
-// second ray.
+// Returns whether a row ends at the ray. `step` is the vector from the first ray's point at t = 1
+// to the second ray's.
 static bool ends_row(const ClrtRays *rays, size_t index, Vec3 step)
 {
     return vec3_dot(step_after(rays, index), step) < 0;

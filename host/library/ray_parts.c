@@ -14,14 +14,14 @@
 #include <math.h>
 #include <string.h>
 
-// Half the side of the smallest cube. All triangles are within [-1, 1] on each axis.
+// The smallest value of RayPart::cube. All triangles are within [-1, 1] on each axis.
 #define LEAST_CUBE 2.0
 
 // The largest distance of a ray's start from the plane of its triangle.
 #define OFF_PLANE 0x1p-15
 
-// Rays that start beyond this distance from the normalized origin hit nothing (intersect.cl). All
-// cubes are nearer, because spheres are (normalize.h), so only rays that miss the cube start there.
+// Rays that start beyond this distance from the normalized origin hit nothing (intersect.cl). Only
+// rays that miss the cube start there. The limits of spheres (normalize.h) keep all cubes nearer.
 #define FARTHEST 0x1p45
 
 typedef struct {
@@ -62,7 +62,7 @@ static double sum_of(Vec3 v)
 }
 
 // Returns the power of two that scales a size from [1e-300, 1e300] into [1, 2). The bit operations
-// replace ilogb and scalbn. Together with fmax, those took 15 % of a call's processor time.
+// replace ilogb and scalbn. These two functions and fmax took 15 % of a call's processor time.
 static double power_to_one(double size)
 {
     uint64_t bits;
@@ -73,7 +73,8 @@ static double power_to_one(double size)
     return power;
 }
 
-// Moves a point along the ray. Adds the sizes of the step and of the new point to *sizes.
+// Moves a point along the ray. Adds the sizes of the step and of the new point to *sizes, which
+// bounds the rounding errors.
 static void advance(Vec3 *origin, Vec3 direction, double t, double *sizes)
 {
     const Vec3 way = vec3_scale(direction, t);
@@ -81,7 +82,7 @@ static void advance(Vec3 *origin, Vec3 direction, double t, double *sizes)
     *sizes += sum_of(way) + sum_of(*origin);
 }
 
-// Stores a ray's direction and its limit, and a bound on the rounding of doubles as its doubt.
+// Stores a ray's direction, limit and doubt. The doubt bounds the errors of fp64 arithmetic.
 // Returns the ray's normalized origin. A ray that can hit nothing gets a limit below 0.
 static Vec3 convert(RayPart *part, const GivenRay *given)
 {
@@ -261,7 +262,7 @@ static void store_place(const RayScene *scene, uint32_t id, const ClrtHits *hits
         hits->triangles[result] = place->number;
 }
 
-// Returns the index of an entry's result in the caller's arrays.
+// Returns the index of the entry's hit number i in the caller's arrays.
 static size_t result_of(const RayPart *part, size_t entry, size_t i)
 {
     return ray_part_number(part, entry) * part->room + i;

@@ -7,8 +7,8 @@
 // The largest number of rays in a part.
 #define PART_RAYS 16384
 
-// A part of a batch, on its way to the device and back. The caller sets first, size, sequence and
-// start, and ray_part_begin sets the members before them.
+// A part of a batch, on its way to the device and back. ray_part_begin sets the members from scene
+// to room. The caller sets those from first to start, and ray_part_fill sets the others.
 typedef struct {
     const RayScene *scene;
     Vec3 center; // of the scene's normalization, like scale
@@ -33,8 +33,8 @@ static inline size_t ray_part_number(const RayPart *part, size_t entry)
     return part->first + part->order[entry];
 }
 
-// Makes entries of the part's rays that have part->start. Fails if a ray starts on a primitive that
-// does not exist or is too far from the ray's origin.
+// Makes an entry of each of the part's rays whose kind of start is part->start. Fails if a ray
+// starts on a primitive that does not exist or is too far from the ray's origin.
 bool ray_part_fill(RayPart *part, const ClrtRays *rays, ClrtError *error);
 
 // Stores in each ray the index of the triangle on which the ray starts. The index refers to the

@@ -57,7 +57,7 @@ static bool cast(Batch *batch, RayQuery query, HitData *hits, ClrtError *error)
            check_fail_for(error, CLRT_DEVICE, &cause);
 }
 
-// Stores the results of which each ray has only one.
+// Stores the results that have one entry per ray, whatever room is: flags, certain and counts.
 static void store_ray(const Batch *batch, size_t entry)
 {
     const RayResults *results = &batch->results;
@@ -74,7 +74,7 @@ static void store_ray(const Batch *batch, size_t entry)
         hits->counts[ray] = batch->counts[entry];
 }
 
-// Traces the part's rays with this start.
+// Traces the part's rays whose kind of start is `start`.
 static bool trace_part(Batch *batch, RayStart start, ClrtError *error)
 {
     RayPart *part = &batch->part;

@@ -14,7 +14,7 @@ static double tangent_of_half(double degrees)
     return sine_of_degrees(degrees / 2) / cosine_of_degrees(degrees / 2);
 }
 
-// Returns half the image plane's height, in normalized units for orthographic cameras.
+// Returns half the image plane's height: at distance 1 or, if orthographic, in normalized units.
 static double half_height_of(const Viewpoint *viewpoint, double scale, uint32_t width,
                              uint32_t height)
 {
@@ -31,8 +31,8 @@ CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normaliz
     const Vec3 right = vec3_normalize(vec3_cross(forward, vec3_normalize(viewpoint->up)));
     const Vec3 down = vec3_cross(forward, right);
     const double half_height = half_height_of(viewpoint, normalization->scale, width, height);
-    // The kernels count samples in half steps from the picture's center. Pixels are square, so both
-    // axes have the same step.
+    // The kernels count positions in half sub-pixels from the picture's center. Sub-pixels are
+    // square, so both axes have the same step.
     const double half_step = half_height / ((double)height * samples);
     CameraData camera = {.orthographic = viewpoint->height > 0};
     vec3_store(camera.eye, normalize_point(normalization, viewpoint->eye));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Viewpoint -> CameraData: a picture's rays, in normalized coordinates. The file also turns
-// viewpoints as on a turntable.
+// viewpoints for --turntable.
 #pragma once
 
 #include "scene/normalize.h"
@@ -18,7 +18,7 @@ static inline double camera_reduction(const CameraData *camera, double depth)
     return camera->orthographic != 0 ? 1 : depth;
 }
 
-// Moves all samples to the right and down, in units of the distance between neighboring samples.
+// Moves all samples by `right` and `down`, in units of the distance between neighboring samples.
 void camera_shift(CameraData *camera, double right, double down);
 
 // Returns the viewpoint with its eye rotated about an axis parallel to up. The axis passes through

@@ -21,7 +21,7 @@ const MaterialProperty material_properties[] = {
     {"color", offsetof(Material, diffuse), 3, 0, 1, USED_BY_GLASS},
     {"ior", offsetof(Material, ior), 1, IOR_LEAST, IOR_MOST, USED_BY_GLASS}};
 
-// The numbers of a checker are its size and its colors.
+// The property `checker` fills the members check_size and checks, which must therefore be adjacent.
 _Static_assert(offsetof(Material, checks) == offsetof(Material, check_size) + sizeof(float), "");
 
 static bool unknown_property(Tokens *tokens, Token property, const Material *material)

@@ -47,8 +47,8 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
     return true;
 }
 
-// Adds the model's files to the scene's inputs and hashes. The first file is the model itself, for
-// which the inputs get the caller's path.
+// Adds the model's files to the scene's inputs and hashes. The first file is the model itself. The
+// inputs name it by the caller's path.
 static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
 {
     if (!scene_add_input(scene, path, error))
@@ -175,8 +175,8 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
     return ok;
 }
 
-// Considers the objects from index `first` on that lack normals. Computes the crease angle that
-// suits their shape.
+// Computes the crease angle that suits the shape of the objects from index `first` on. Ignores
+// objects that have all normals.
 static bool choose_crease(const Scene *scene, size_t first, double *degrees, Error *error)
 {
     EdgeAngles angles = {0};

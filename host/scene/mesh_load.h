@@ -10,8 +10,8 @@
 #define NO_CREASE (-2)
 
 // The outputs of clrt-foreign for the files of a scene, kept so that each file is read once. An
-// output that would bring the total above FOREIGN_KEPT_MOST bytes is not kept, so each statement
-// reads its file again.
+// output that would bring the total above FOREIGN_KEPT_MOST bytes is not kept. Each statement with
+// its path then reads the file again.
 #define FOREIGN_KEPT_MOST ((size_t)256 << 20)
 typedef struct {
     char *path;
@@ -44,8 +44,8 @@ bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLo
 // a message that names the file.
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
 
-// Drops or computes the normals of the scene's objects from index `first` on. Leaves meshes read by
-// ply_parse_tolerantly unchanged, because clrt check reports the vertices of the file. On failure,
-// returns false with a message that names the file.
+// Drops or computes the normals of the scene's objects from index `first` on. Does not change
+// meshes that ply_parse_tolerantly has read, because clrt check reports the vertices of the file.
+// On failure, returns false with a message that names the file.
 bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
                        Error *error);

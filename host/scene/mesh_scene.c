@@ -66,9 +66,9 @@ static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
     return stands_on_y && !stands_on_z ? UP_Y : UP_Z;
 }
 
-// The following functions frame the meshes. The eye has a fixed distance, and planes through the
-// eye bound the picture. For each axis of the picture, touch() finds two planes of equal slope that
-// touch the meshes.
+// The following functions frame the meshes. The eye has a fixed distance from its look-at point,
+// and planes through the eye bound the picture. For each axis of the picture, touch() finds two
+// planes of equal slope that touch the meshes.
 
 #define VIEWS         6
 #define DISTANCE      4.0 // of the eye from the look-at point, in radii
@@ -175,8 +175,8 @@ static Viewpoint view_from(const Framing *framing, Vec3 back, Vec3 up)
                        .width_degrees = field_of_view(width)};
 }
 
-// Adds the six viewpoints. In each, the meshes span 80 % of the picture's width or height, and at
-// most 80 % of the other. The sphere with this center and radius must contain all meshes.
+// Adds the six viewpoints. In each view, the meshes span 80 % of the picture's width or height, and
+// at most 80 % of the other. The sphere with this center and radius must contain all meshes.
 static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},
@@ -206,9 +206,9 @@ static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}, false},
                                 {{26, -14, 18}, 0.20, {0.9, 0.95, 1}, false},
                                 {{-8, 26, 16}, 0.30, {1, 1, 1}, false}};
 
-// Sizes in radii of the meshes. The floor is the top of a sphere that is too large to look curved.
-// The lights are so distant that the floor has the even color of the background, and no horizon is
-// visible.
+// The unit of both constants is half the diagonal of the meshes' bounding box. The floor is the top
+// of a sphere that is too large to look curved. The lights are so distant that the floor has the
+// even color of the background, and no horizon is visible.
 #define FLOOR_RADIUS   1e4
 #define LIGHT_DISTANCE 1e4
 

@@ -55,7 +55,7 @@ Vec3 normalize_light(const Normalization *normalization, const Light *light)
                          : normalize_point(normalization, light->position);
 }
 
-// The shift is reduced by an even number of cubes, which keeps its precision far from the origin.
+// remainder() subtracts an even number of cubes, so the shift stays precise far from the origin.
 void normalize_checker(Material *material, const Normalization *normalization)
 {
     const double size = (double)material->check_size;

@@ -48,8 +48,8 @@ bool scene_init(Scene *scene, Error *error)
            array_push(&scene->materials, mirror, error);
 }
 
-// Returns a viewpoint of the course's viewer, from azimuth and rotation in degrees and the distance
-// from the origin.
+// Converts a viewpoint of the course's viewer program: two angles in degrees, and the distance from
+// the origin.
 static Viewpoint course_viewpoint(double azimuth, double rotation, double distance)
 {
     const double level = distance * cosine_of_degrees(azimuth);

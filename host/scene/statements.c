@@ -278,8 +278,8 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
 // Meshes with fewer triangles usually show flat faces on purpose.
 #define ROUND_TRIANGLES 100
 
-// Adds a note for each mirroring mesh whose reflections show flat triangles, because neither its
-// file nor the scene gives normals.
+// Adds a note for each reflective mesh without normals, because its triangles look like separate
+// flat mirrors.
 static bool note_flat_mirrors(Scene *scene, Objects added, const MeshLoadOptions *options,
                               Error *error)
 {

@@ -5,9 +5,9 @@
 #include "render/aov_pass.h"
 #include "session/picture.h"
 
-// Computes the certainty of each pixel and replaces the colors of pixels repaired in fp64. Stops
-// when the observer returns false. Fails on devices without double arithmetic, denormal numbers or
-// correctly rounded division.
+// Computes the certainty of each pixel. Pixels that are certain in fp64, but not in float, get the
+// colors of fp64. Stops when the observer returns false. Fails on devices without double
+// arithmetic, denormal numbers or correctly rounded division.
 bool session_certify(Session *session, const SessionPicture *request,
                      const RenderObserver *observer, const CertifiedPicture *picture, Error *error);
 

@@ -15,7 +15,7 @@
 #define TREELESS_TRIANGLES 32
 
 // The seconds to compile an uncached program.
-// Measure: `clrt warm SCENE --tune specialize=always`.
+// Measure: the time of `clrt warm SCENE --tune specialize=always`.
 #define COMPILE_SECONDS 1.5
 
 // The fraction of tracing time that specialization saves (0 to 7 % with packets).
@@ -23,7 +23,7 @@
 // specialize=never.
 #define SPECIALIZED_SAVES 0.03
 
-// The rays that one core traces per second in a scene of medium size, and the rays of one sample.
+// The rays that one core traces per second in a scene of medium size, and the rays per sample.
 // Measure: rays.total / trace / cores and rays.total / samples.total of `clrt SCENE --json`.
 #define RAYS_PER_SECOND 3e6
 #define RAYS_PER_SAMPLE 2.0

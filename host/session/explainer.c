@@ -194,7 +194,7 @@ static void take_ray(const Explainer *explainer, ExplainedSample *sample, uint32
     take_surface(ray, &notes, sample->lights + (size_t)level * explainer->frame.light_count);
 }
 
-// Traces the sample at a place of the sample grid, and reads the number of its rays.
+// Traces the sample at a place of the sample grid, and reads the number of the sample's rays.
 static bool trace_records(Explainer *explainer, const cl_uint place[2], Error *error)
 {
     const Renderer *renderer = &explainer->renderer;

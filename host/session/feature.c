@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // A pixel's samples are treated as a square lattice. A disk at a random place contains a point of
 // the lattice if the disk's center lies within a disk of the same size around the point. The
-// probability is therefore the part of a lattice cell that a disk around the cell's point covers.
-// Bisection finds the diameter for which the mean over all pixels is PROBABILITY.
+// probability that the disk contains a point is therefore the fraction of a lattice cell that a
+// disk around the cell's point covers. Bisection finds the diameter for which the mean over all
+// pixels is PROBABILITY.
 #include "session/feature.h"
 
 #include <math.h>
 
 #define PROBABILITY 0.95
 
-// The last interval of diameters is smaller than the spacing of floats near 1.
+// After this many steps, the interval of diameters is smaller than the spacing of floats near 1.
 #define BISECTIONS 32
 
 // A disk of this diameter always contains a point of a lattice with spacing 1.

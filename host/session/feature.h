@@ -13,5 +13,5 @@ typedef struct {
 
 // Returns the smallest diameter, in pixels, for which a disk at a random place of the picture
 // contains a sample with a probability of 95 %. The samples of a pixel count as a square lattice.
-// At least one share must have pixels.
+// At least one of the shares must have pixels.
 double feature_smallest(const SampleShare *shares, size_t count);

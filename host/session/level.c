@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws a coarse picture with more and more levels, until the weights of the cut rays are small
-// enough (kernels/branches.cl). Each further level multiplies the time of a picture by about 1.4.
+// Draws a coarse picture with one more level each time, until the rays that max_level cuts off have
+// small weights (kernels/branches.cl). Each level multiplies the time of a picture by about 1.4.
 //
 // Invariant: the sums of the weights are integers, so the level does not depend on the kernels'
 // form, on threads or on tiles.
@@ -14,8 +14,8 @@
 // The largest number of pixels of the coarse picture, except for very narrow pictures.
 #define COARSE_PIXELS 4096
 
-// A ray that enters a ball and leaves it has this many levels. Small pieces of glass that the
-// coarse picture misses get them too.
+// A path through a ball has this many levels. Pictures have at least as many, because the coarse
+// picture can miss small pieces of glass.
 #define LEVEL_LEAST 3
 
 static RenderSettings coarse_settings(const RenderSettings *settings)
@@ -28,7 +28,7 @@ static RenderSettings coarse_settings(const RenderSettings *settings)
         .width = columns, .height = rows, .samples = 1, .tile_width = columns, .tile_height = rows};
 }
 
-// Draws the coarse picture, and stores the error that cut rays of settings.max_level cause there.
+// Draws the coarse picture, and stores a bound on the error that settings.max_level causes in it.
 static bool measure(Renderer *renderer, const CameraData *camera, double *truncated, Error *error)
 {
     Framebuffer colors;

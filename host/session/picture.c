@@ -14,7 +14,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-// If cut rays cause more than this fraction of an error goal, another level costs less than the
+// If max_level causes more than this fraction of an error goal, another level costs less than the
 // samples that it saves.
 #define TRUNCATED_MOST 0.9
 
@@ -87,8 +87,8 @@ bool session_prepare(Session *session, const SessionPicture *request, PictureRes
     return open_renderer(session, request, &renderer, result, error);
 }
 
-// In scenes with glass, replaces the bound on the error of max_level by the root mean square, over
-// the samples, of the weight that max_level cuts off. The samples so far must be spread evenly.
+// In scenes with glass, measures the bound on the error of max_level: the root mean square of the
+// weights that max_level cuts off in the samples. The samples so far must be spread evenly.
 static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
 {
     const Renderer *renderer = &drawing->renderer;
@@ -173,7 +173,7 @@ static bool needs_level(const PictureDrawing *drawing, const Ladder *ladder)
            pixel_requests_are_whole(&ladder->requests);
 }
 
-// Takes a sample in each pixel. If cut rays cause too much of an error goal, adds a level and
+// Takes a sample in each pixel. If max_level causes too much of an error goal, adds a level and
 // starts again.
 static bool open_ladder(PictureDrawing *drawing, const LadderSetup *setup, Ladder *ladder,
                         Error *error)

@@ -71,7 +71,7 @@ static bool launch(const RayCaster *caster, const RayCast *cast, Error *error)
     return kernel_run(kernel, &run, error);
 }
 
-// Only the reads wait for the device.
+// The write and the launch return at once, and the reads wait for the device.
 bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, uint32_t *counts,
                      Error *error)
 {

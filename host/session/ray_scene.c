@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Unless the caller sets one_sided, all meshes of the compiled scene are two-sided, so rays also
-// hit one-sided triangles from behind.
+// Unless the caller sets one_sided, compiles all meshes as two-sided, so that rays also hit their
+// triangles from behind.
 #include "session/ray_scene.h"
 
 #include <stdlib.h>

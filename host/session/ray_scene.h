@@ -20,9 +20,9 @@ typedef struct {
     bool is_loaded, one_sided;
 } RayScene;
 
-// Compiles the session's scene in a layout of nodes, unless ray_scene has a scene with the same
-// value of one_sided. A RayScene must always get the same layout. If compiling fails, ray_scene is
-// left without a scene.
+// Compiles the session's scene in a layout of nodes, unless ray_scene already has the scene with
+// this value of one_sided. A RayScene must always get the same layout. If compiling fails,
+// ray_scene is left without a scene.
 bool ray_scene_take(RayScene *ray_scene, Session *session, NodeLayout layout, bool one_sided,
                     Error *error);
 

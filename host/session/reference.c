@@ -105,8 +105,8 @@ static bool draw_passes(Reference *reference, Error *error)
     return ok;
 }
 
-// Stores the mean of the two halves. Returns the RMSE of the mean, estimated from the halves'
-// difference.
+// Stores the mean of the even and the odd picture. Returns the mean's RMSE, estimated from the
+// difference of the two pictures.
 static double join_halves(const Reference *reference, Framebuffer *mean)
 {
     const size_t pixels = (size_t)mean->width * mean->height;

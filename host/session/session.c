@@ -4,7 +4,8 @@
 // too, would save no measurable time.
 //
 // Two choices save time and never change a picture. Small pictures use kernels that compile faster,
-// and kernels are specialized if that saves more time than compiling takes (costs.h).
+// and kernels are specialized for the scene if this saves more time than compiling them takes
+// (costs.h).
 #include "session/session.h"
 
 #include "base/clock.h"
@@ -69,7 +70,7 @@ static bool is_compiled(const Session *session, const KernelEntry *entry, Kernel
 
 // Pair kernels compile faster than packets, but trace more slowly. Until packets are compiled, pair
 // kernels draw small pictures of small scenes, if this saves time in total. With a kernel_folder,
-// the session does not change the choice.
+// keeps the choice that open_device made.
 static void choose_quick_kernels(Session *session, const SessionWork *work)
 {
     const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32};

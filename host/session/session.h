@@ -97,7 +97,7 @@ SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Erro
 
 BvhBuilder session_builder(const ClrtSettings *settings);
 
-// Returns the kernels that the settings request. The combination may be impossible.
+// Returns the kernels that the settings request. The request may be invalid (kernel_is_valid).
 KernelRequest session_kernel_request(const ClrtSettings *settings);
 
 // Returns the scene in the layout of session->choice, or NULL.
@@ -118,5 +118,5 @@ const Kernel *session_kernel(Session *session, const RendererUse *use, const Sce
 bool session_renderer(Session *session, const RendererUse *use, const RenderSettings *settings,
                       Renderer *renderer, Error *error);
 
-// Returns the choice of kernels that certify: double arithmetic on the same float scene.
+// Returns the choice of kernels that compute certainty: double arithmetic on the same float scene.
 KernelChoice session_exact_choice(void);
