@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // If preloaded, this library makes a driver crash at the first launch of a kernel. CLRT_CRASH
-// selects the crash: "abort", "libc", "exit", "segv", "bus" or "ill". "libc" crashes in a function
-// of the C library. With the suffix "-thread", a thread of the driver crashes. With the suffix
-// "-two", two threads crash at once. "own" crashes in the program's code. "fpe" crashes at the
-// first call of OpenCL, before PoCL installs its handler for divisions by zero.
+// selects the crash: "abort", "exit", "segv", "bus", "ill", "libc" (in a function of the C library)
+// or "own" (in the program's code). With the suffix "-thread", a thread of the driver crashes. With
+// the suffix "-two", two threads crash at once. "fpe" crashes at the first call of OpenCL instead,
+// before PoCL installs its handler for divisions by zero.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <pthread.h>
@@ -28,8 +28,8 @@ static void touch_lost_page(void)
         zero = page[0];
 }
 
-// Jumps to the halt instruction at the end of the program's entry code. The CPU forbids this
-// instruction in user mode.
+// Crashes in the program's code: jumps to the halt instruction at the end of the entry code. The
+// CPU forbids this instruction in user mode.
 static void halt(void)
 {
     void (*run)(void);

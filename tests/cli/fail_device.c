@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // If preloaded, this library makes the device fail as if it ran out of memory or were lost.
 // CLRT_FAIL_NAME names an OpenCL function of this file. The function's first CLRT_FAIL_CALL - 1
-// calls succeed, and all later calls fail. The text of CLRT_FIRST_LINES precedes every program.
-// Macros in this text can make the device round wrongly.
+// calls succeed, and all later calls fail. The text of CLRT_FIRST_LINES precedes the source of
+// every OpenCL program. Macros in this text can make the device round wrongly.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <stdatomic.h>

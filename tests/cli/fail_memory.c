@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// If preloaded, this library makes clrt's calls of malloc, realloc and posix_memalign fail, except
-// the first CLRT_FAIL_MEMORY - 1 calls. calloc, strdup and all calls by libraries succeed.
+// If preloaded, this library makes clrt run out of memory: calls of malloc, realloc and
+// posix_memalign fail from number CLRT_FAIL_MEMORY on. calloc, strdup and all calls by libraries
+// succeed.
 #include <dlfcn.h>
 #include <errno.h>
 #include <link.h>

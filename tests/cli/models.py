@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Encodes meshes of Python numbers in several formats. The function of a format returns the content
-# of a file.
+# Encodes meshes of Python numbers in several formats. Each format has a function that returns the
+# content of a file.
 import io
 import json
 import math

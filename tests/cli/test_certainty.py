@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests --aov certainty: the channel, the counts, and the repaired pixels of the picture.
+# Tests --aov certainty: the channel, its counts, and the pixels that clrt repairs in fp64.
 # Usage: test_certainty.py CLRT NO_FP64, with the library of tests/cli/no_fp64.c
 import sys
 

@@ -33,11 +33,11 @@ SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine 
           "within": "camera 0.2 0.2 0.2 1 0 0 45\nmesh closed.ply\nsides two\nlight 9 9 9 1\nmesh open.ply\n",
           # The camera is in the bounding box of the tetrahedron, but not in the tetrahedron.
           "beside": "camera 0.6 0.6 0.6 0 0 0 45\nmesh closed.ply\nlight 9 9 9 1\n",
-          # The first camera looks away from the mesh. The others look past the mesh: their pictures are 4
-          # wide at a distance of 1.
+          # The first camera looks away from the mesh. The others look past the mesh. At a distance of 1
+          # unit, they see a width of 4 units.
           "behind": "size 40 20\ncamera 5 0.5 0.5 9 0.5 0.5 90\ncamera 0.5 -3 0.5 9 -3 0.5 90\n"
                     "camera 5.1 -1 0 5.1 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
-          # The picture is 2 wide at any distance.
+          # The camera sees a width of 2 units at any distance.
           "parallel": "size 40 20\ncamera 2.6 -9 0 2.6 9 0 orthographic 1\nmesh closed.ply\nlight 9 9 9 1\n",
           "touched": "size 40 20\ncamera 1.9 -9 0 1.9 9 0 orthographic 1\nmesh closed.ply\nlight 9 9 9 1\n",
           "edge": "size 40 20\ncamera 3.9 -1 0 3.9 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",

@@ -74,7 +74,7 @@ REFUSALS = [
     (5, "no/: cannot be written: it is a folder", ["none.scn", "--format", "pfm", "-o", "no/"]),
     (5, "no/a.pfm: cannot be written: No such file or directory", ["none.scn", "-o", "no/a.pfm"]),
 ]
-# These options change no bit of the picture. A row may have expected statistics.
+# These options change no bit of the picture. Each row has options, and expected statistics or None.
 SAME = {"-q": None, "-j 1": None, "-j 2": None, "--tune bvh=sah": None, "--tune specialize=never": None,
         "--tune bvh=none": {"tests__box": 0, "bvh__builder": "none"},
         "--tune bvh=midpoint": {"bvh__builder": "midpoint"},
@@ -296,7 +296,7 @@ class Compiled(Work):
         expected = self.run_clrt(*SMALL, "b.pfm", "--tune", "kernel=packet")
         self.assertEqual(expected.returncode, 0)
         self.assert_same_bytes("a.pfm", "b.pfm")
-        # A run affects the next run's choice only if both runs may use the same compiled kernels.
+        # A run affects the next run's choice of kernels only if both runs may use the same compiled kernels.
         self.draws_by("ray, pair")
         self.draws_by("packet, wide", "--stats")
         self.draws_by("ray, pair")

@@ -22,7 +22,7 @@ def channels_in_rows(path):
     data, display = (struct.unpack("<4i", attributes[name]) for name in ("dataWindow", "displayWindow"))
     width = data[2] - data[0] + 1
     _, channels = read_exr(path)
-    # The values become texts, because NaN does not equal itself.
+    # The values become strings, because NaN does not equal itself.
     rows = {name: [list(map(repr, values[at : at + width])) for at in range(0, len(values), width)]
             for name, values in channels.items()}
     return rows, data, display

@@ -15,7 +15,7 @@ import grammar
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 VIM = ROOT / "tools/editors/vim"
 TEXTMATE = ROOT / "tools/editors/vscode/clrt.tmLanguage.json"
-# The roles of Vim's groups and of the first words of TextMate's scopes.
+# Maps Vim's groups, and the first one or two words of TextMate's scopes, to roles.
 ROLES = {"clrtStatement": "statement", "clrtUnknown": "unknown", "clrtProperty": "word", "clrtConstant": "word",
          "clrtNumber": "number", "clrtString": "string", "clrtComment": "comment", "keyword": "statement",
          "invalid": "unknown", "support": "word", "constant.language": "word", "constant.numeric": "number",

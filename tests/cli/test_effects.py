@@ -16,7 +16,7 @@ from pictures import pfm
 from work import CLRT, ROOT, SCENE, main
 
 PLAIN = [SCENE, "-s", "24x16", "-o", "a.pfm"]
-# With "auto", the cache would decide whether the kernels are specialized.
+# With specialize=auto, the kernel cache would decide whether the kernels are specialized.
 PICTURE = PLAIN + ["--json=a.json", "--tune", "specialize=never"]
 FLAT = "flat.ply"
 CHECK = ["check", FLAT]

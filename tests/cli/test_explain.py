@@ -15,7 +15,7 @@ MIRRORS = (f"{HEAD}light 0 0 2 1\nmaterial mirror\nsphere 0 3 0 1\nsphere 0 -3 0
            "camera 0 0 0 0 1 0 90\n")
 BALL = "light 0 -5 0 0.5\nmaterial plain\nsphere 0 0 0 1\ncamera 0 -5 0 0 0 0 90\n"
 LAMP = "light 0 0 4 1\nmaterial plain\nply_file floor.ply\nsphere 0 0 1 0.5\n"
-# The first light is only behind the face. The second light is behind the face and the normal.
+# The face is turned away from both lights. The vertex normals are turned away only from the second light.
 LEANING = "size 5 5\nlight 11 -2 -5 1\nlight -9 -2 -5 1\nmaterial 1\nply_file leaning.ply\nup 0 1 0\n" \
           "camera 1 -2 4 1 -2 0 90\n"
 
@@ -48,27 +48,28 @@ BY_HAND = [
                                   normal=[0, -1, 0])}], {"color": [0.28] * 3}),
     # The direction (-0.8, 1, 0.8) misses the sphere.
     (BALL, "0,0", [{"hit": None, "direction": [-0.529813, 0.662266, 0.529813]}], {"color": [0, 0, 1]}),
-    # The light is 4 above the hit point, with a ball between them. The distance from the hit point is
-    # 0.5 to the ball's lowest point and sqrt(16 + 0.16) to the eye.
+    # The light is 4 units above the hit point, with a ball between them. From the hit point, the
+    # distance to the ball's lowest point is 0.5, and the distance to the eye is sqrt(16 + 0.16).
     (LAMP + "camera 1e-3 -4 0.4 1e-3 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4, 1, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.5), normal=[0, 0, 1])}], {"color": [0.08] * 3}),
-    # The half angle of the ball's shadow cone has the sine 0.5 / 3. The shadow on the floor has a
-    # radius of 4 * 0.169031 = 0.676123. At x = 0.65, the light is sqrt(0.65^2 + 16) away. The
-    # ball's center is 0.481188 off the shadow ray. The point of this ray that is nearest to the center is
-    # 1.091310 along the ray. The ray meets the ball sqrt(0.25 - 0.481188^2) before this point.
+    # The half angle of the ball's shadow cone has the sine 0.5 / 3. The shadow's radius on the floor is
+    # 4 * 0.169031 = 0.676123. At x = 0.65, the distance to the light is sqrt(0.65^2 + 16). The distance of
+    # the ball's center from the shadow ray is 0.481188. The point of this ray that is nearest to the
+    # center is 1.091310 along the ray. The ray meets the ball sqrt(0.25 - 0.481188^2) before this point.
     (LAMP + "camera 0.65 -4 0.4 0.65 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("blocked", 4.052468, 0.987053, blocker={"kind": "sphere", "number": 1},
                                     blocker_distance=0.955450))}], {}),
-    # At x = 0.7, nothing occludes the light. Its distance is sqrt(0.49 + 16), and the cosine is 4 / 4.060788.
+    # At x = 0.7, nothing occludes the light. The light's distance is sqrt(0.49 + 16), and the cosine is
+    # 4 / 4.060788.
     (LAMP + "camera 0.7 -4 0.4 0.7 0 0 90\n", "2,2",
      [{"hit": floor(4.019950, light("reaches", 4.060788, 0.985030))}], {"color": [0.474012] * 3}),
     # Each mirror ball halves the weight, and rays of level 3 see the background. The balls add 0.453553 with
     # weights 1/2, 1/4 and 1/8. The background adds 1/8 of blue.
     (MIRRORS, "2,2", [mirror_ball(0, 1, 2), {**mirror_ball(1, 2, 4), "direction": [0, -1, 0]},
                       mirror_ball(2, 1, 4)], {"color": [0.396859, 0.396859, 0.521859]}),
-    # The line x = 0 is 0.999 from the ball's center. Half the chord is sqrt(1 - 0.999^2), so the
-    # ray from y = -5 hits after 4.955290. The light is 4 to the left of the hit.
+    # The line x = 0 is at a distance of 0.999 from the ball's center. Half the chord is sqrt(1 - 0.999^2), so
+    # the ray from y = -5 hits at a distance of 4.955290. The light is 4 units to the left of the hit point.
     ("light -4 -0.0447102 0 1\nmaterial plain\nsphere 0.999 0 0 1\ncamera 0 -5 0 0 0 0 90\n", "2,2",
      [{"hit": sphere(1, 4.955290, light("reaches", 4, 0.999), normal=[-0.999, -0.0447102, 0])}], {}),
     # The eye is 0.001 above the floor. The ray meets the floor at a distance of 4.
@@ -83,15 +84,15 @@ BY_HAND = [
       {"hit": sphere(1, 2, light("behind"), point=[0, -1, 0])}, {"hit": sphere(1, 2, light("behind"))}],
      {"color": [0.0875, 0.0875, 0.2125]}),
     # From below, the one-sided floor is invisible. The two-sided floor is one unit higher and visible, and
-    # its normal is turned down. The one-sided floor occludes the light one unit below, because the shadow
-    # ray meets the floor's front.
+    # its normal is turned down. The light is below both floors. The one-sided floor occludes it, because
+    # the shadow ray meets this floor's front.
     ("light 1 -2 -1 1\nmaterial plain\nply_file floor.ply\nsides two\nmesh floor.ply translate 0 0 1\n"
      "up 0 1 0\ncamera 1 -2 -2 1 -2 0 90\n", "2,2",
      [{"hit": floor(3, light("blocked", 2, blocker={"kind": "triangle", "id": 0}, blocker_distance=1),
                     primitive={"kind": "triangle", "id": 2, "number": 0}, point=[1, -2, 1],
                     normal=[0, 0, -1])}], {"color": [0.08] * 3}),
-    # The light is 10 beside and 5 below the hit point. The normal faces the light, and the cosine is
-    # (0.6 * 10 - 0.8 * 5) / sqrt(125). The face points up, away from the light.
+    # The light is 10 units to the side of the hit point and 5 units below it. The normal faces the light, and
+    # the cosine is (0.6 * 10 - 0.8 * 5) / sqrt(125). The face points up, away from the light.
     ("light 11 -2 -5 1\nmaterial plain\nply_file leaning.ply\nup 0 1 0\ncamera 1 -2 4 1 -2 0 90\n", "2,2",
      [{"hit": floor(4, light("behind_face", 11.180340, 0.178885), normal=[0.6, 0, 0.8])}],
      {"color": [0.08] * 3}),

@@ -16,8 +16,8 @@ from cache_work import PICTURE
 from work import FORMATS, NO_OPENCL, ROOT, SCENE, Work, has_private_disks, main, needs_exr
 
 FAIL_MEMORY, FAIL_DEVICE, SET_ENVIRONMENT = (os.path.abspath(word) for word in sys.argv[3:6])
-# LARGE's picture does not fit on a disk of DISK_SIZE bytes in any format. Its kernels do not depend
-# on the cache.
+# LARGE's picture does not fit on a disk of DISK_SIZE bytes in any format. Its --tune fixes the
+# choice of kernels, which otherwise depends on the kernel cache.
 LARGE = [SCENE, "-s", "400x300", "-q", "--tune=kernel=wide,specialize=never"]
 DISK_SIZE = 8192
 
@@ -118,7 +118,7 @@ class Inputs(Faults):
                 self.assert_fails(run, 3, "mesh.ply")
 
 
-# Small or endless inputs could take hours or all memory.
+# Without limits, endless inputs and even some small inputs could take hours or all memory.
 class Sizes(Faults):
     SECONDS, MEGABYTES = 10, 1000
     PICTURE = ["-s", "8x8", "-q", "-o", "a.pfm"]
@@ -250,8 +250,8 @@ class Device(Faults):
 
 
 class Memory(Faults):
-    # Lets all allocations from number `first` on fail, and increases `first` until clrt succeeds. The
-    # steps grow. Returns the number of runs that failed.
+    # Repeats runs in which allocation number `first` and all later allocations fail. Increases
+    # `first` by growing steps until clrt succeeds. Returns the number of failed runs.
     def count_failures(self, *words):
         first, failures = 1, 0
         self.compile_kernels(*words)

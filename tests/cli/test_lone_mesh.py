@@ -130,7 +130,7 @@ class Upright(Random):
 
     @unittest.skipUnless(ASSIMP, "this build is without Assimp")
     def test_formats_have_their_axes(self):
-        # The octahedron stands on a point with any axis up, so its shape selects no axis.
+        # Whichever axis is up, the octahedron stands on a point, so its shape suggests no up axis.
         points = [(1.0, 0.0, 0.0), (0.0, 2.0, 0.0), (0.0, 0.0, 3.0), (-1.0, 0.0, 0.0), (0.0, -2.0, 0.0), (0.0, 0.0, -3.0)]
         triangles = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
         files = {

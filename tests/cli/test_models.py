@@ -86,7 +86,7 @@ class Formats(Work):
         self.assertEqual(len({plain, smooth, self.picture("round.scn")}), 3)
         self.converts_to_flat("a.ply")
 
-    # A lone mesh has its own cameras, so the flat picture comes from the mesh's converted scene.
+    # The flat picture needs the lone mesh's cameras, so its scene is converted from the mesh.
     def converts_to_flat(self, name):
         self.clrt("convert", name, "lone.scn")
         self.expect_same(name, "lone.scn", "--aa=1")
@@ -258,7 +258,7 @@ class Hostile(Work):
         self.write(a_glb=models.glb(POINTS, TRIANGLES, change=double))
         self.assert_small_failure("Assimp needs more memory than the limit for a file of this size")
 
-    # The memory must stay below 800 MB, because a further gigabyte takes seconds.
+    # clrt must fail with less than 800 MB, because filling a further gigabyte would take seconds.
     def assert_small_failure(self, sentence, setting=":"):
         before = ["bash", "-c", f'{setting}; exec "$@"', "bash"]
         status, text = self.run_within(60, 800, "a.glb", "-o", "a.pfm", before=before)

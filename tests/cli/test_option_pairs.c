@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tests every pair of options with every command, in both orders. clrt either rejects the pair with
-// a sentence that names one of the options, or each option has the same effect as alone. clrt
-// rejects exactly the documented pairs.
+// Tests every pair of options with every command, in both orders. Among options that the command
+// accepts, clrt must reject exactly the documented pairs. Its message must name one of the options.
+// If clrt accepts a pair, each option must have the effect that it has alone.
 #include "cli/options/option.h"
 #include "unit/cmocka_all.h"
 
@@ -72,8 +72,8 @@ static const struct {
     {"quit-after", "1"},
 };
 
-// Returns whether this test covers the option. Other tests cover the rest: --help and --version
-// ignore the other options, each key of --tune is a row of its own, and a second -o is an error.
+// Returns whether this test covers the option. Other tests cover the rest. --help and --version
+// ignore the other options. Each key of --tune is a row of its own. A second -o is an error.
 static bool is_walked(const Option *option)
 {
     return option->kind != OPTION_ACTION && option->set != set_tune && option->set != set_output;
@@ -124,7 +124,7 @@ static void parse(Parsed *parsed, const Words line, const Option *first, const O
     parsed->ok = options_parse(&parsed->options, count, words, &parsed->error);
 }
 
-// Copies the members that depend on several options or on the line.
+// Copies the members that no single option determines.
 static void copy_derived(Options *to, const Options *from)
 {
     to->action = from->action;
@@ -135,7 +135,7 @@ static void copy_derived(Options *to, const Options *from)
     to->part_paths = from->part_paths;
 }
 
-// Fails unless the parsed options are the options of the line, changed by the pair.
+// Fails unless `found` equals the options of `line` plus both options of the pair.
 static void expect_effects(const Options *found, const Words line, const Option *pair[2])
 {
     Parsed expected;
@@ -166,8 +166,8 @@ static void expect_sentence(const char *text, const Option *pair[2])
         fail_msg("--%s and --%s: %s", pair[0]->name, pair[1]->name, text);
 }
 
-// clrt rejects these pairs, unless some values or further options allow them. --help lists the
-// pairs of exclusion_table, which always exclude each other.
+// clrt rejects these pairs, but accepts some of them with certain values or with further options.
+// The pairs of exclusion_table always exclude each other, and --help lists them.
 static const char *const conflicts[][2] = {
     {"resume", "aa-adaptive"}, {"resume", "error"},          {"resume", "time"},
     {"frames", "view"},        {"frames", "reference"},      {"frames", "hash"},
@@ -206,7 +206,7 @@ static void expect_documented(const Parsed *both, const Words line, const Option
     parse(&one, line, pair[0], NULL);
     parse(&other, line, pair[1], NULL);
     const bool is_documented = is_conflict(name[0], name[1]) || is_conflict(name[1], name[0]);
-    // A line with --hash is a command of its own.
+    // --hash selects another command, whose message for an unsuitable option starts with "clrt ".
     const bool is_of_command = strncmp(both->error.text, "clrt ", 5) == 0;
     const bool is_rejected = !both->ok && one.ok && other.ok && !is_of_command;
     if (is_rejected ? !is_documented : is_documented && both->ok)

@@ -49,7 +49,7 @@ TEST(settings_that_cost_or_buy_speed_are_classed)
     }
 }
 
-// The help of options of class bounded must contain the bound.
+// If an option has CLASS_BOUNDED, its help text must contain the bound of the error.
 TEST(bounded_settings_name_their_bound)
 {
     for (size_t i = 0; i < option_count; i++)

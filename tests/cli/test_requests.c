@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests that every option and command of the program has a counterpart in clrt.h, or a reason why
-// only the program has it. Also tests that each member of the library's requests is set by some
-// option, except library_members, and that small error goals select fp64.
+// only the program has it. Also tests that some option sets each member of the library's requests,
+// except library_members. Also tests that small error goals select fp64.
 #include "base/file.h"
 #include "cli/options/option.h"
 #include "unit/cmocka_all.h"
@@ -206,7 +206,7 @@ TEST(every_setting_of_a_request_is_an_option_or_the_librarys_own)
     expect_members_reached("ClrtLoad");
 }
 
-// Parses a command line of these words, of which the last may be NULL, and of a small error.
+// Parses a command line with a small error goal and `words`, which end at NULL or after five words.
 static bool parse_small_error(Options *options, const char *const words[5], Error *error)
 {
     char *line[] = {"clrt", "--error=0.015%", NULL, NULL, NULL, NULL, NULL, NULL};

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Tests runs that are killed or stopped at any moment and then resumed. The final file must equal the
-# file of an uninterrupted run. Under the final name, only EXR files that are marked incomplete may be incomplete.
+# Tests runs that are killed or stopped at any moment and then resumed. The final file must equal the file of an
+# uninterrupted run. Only an EXR file that is marked incomplete may be incomplete under its final name.
 # Usage: [CLRT_KILLS=N] [CLRT_SEED=N] test_resume.py CLRT FORMATS [TEST...]
 import ctypes
 import fcntl

@@ -14,7 +14,7 @@ import unittest
 from skips import has_terminals, leave, needs_terminal
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Without /dev/pts, apt-get fails if its status goes to standard output.
+# Imitates apt-get on a machine without /dev/pts: fails if the status goes to standard output.
 APT = """#!/bin/sh
 echo "$*" >>"$LOG"
 case "$*" in *Status-Fd=1*) exec 3>&1 ;; esac

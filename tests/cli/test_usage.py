@@ -171,7 +171,7 @@ class Notes(Work):
 
     def test_explain_counts_the_nodes_that_verbose_counts(self):
         scene = str(SCENES / "simple.scn")
-        # A wide node contains several nodes of the tree. The tree's leaves depend on the kernel.
+        # The number of tree nodes depends on the kernel. A wide node contains several tree nodes.
         for nodes, stored in ("wide", "1 wide node"), ("pair", "16 pair nodes"):
             words = [scene, "--tune", f"kernel={nodes}"]
             told = self.run_clrt(*words, "-s", "8x6", "-o", "a.pfm", "-v").stderr

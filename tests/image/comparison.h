@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts the pixels that differ from the expected picture, by the oracle's explanations.
+// Counts differing pixels, separately for each of the oracle's explanations.
 #pragma once
 
 #include "oracle/oracle.h"

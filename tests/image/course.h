@@ -10,8 +10,8 @@
 // Writes the path of scenes/NAME.
 void course_path(char path[COURSE_PATH_SIZE], const char *name);
 
-// Returns whether the file exists. If not, prints that the test skips it.
+// Returns whether the file exists. If not, prints a skip message.
 bool course_has(const char *path);
 
-// Returns whether scenes/models was made (CLRT_WITH_MODELS). If not, prints that the test skips it.
+// Returns whether scenes/models was made (CLRT_WITH_MODELS). If not, prints a skip message.
 bool models_are_made(void);

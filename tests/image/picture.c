@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the stages one after another. A stage that fails leaves an empty value. Consecutive pictures
+// Runs the stages one after another. If a stage fails, its result is empty. Consecutive pictures
 // with the same compiler options and GPU share a session, so their kernels are compiled or loaded
 // once.
 #include "image/picture.h"
@@ -138,8 +138,8 @@ static void pretend_gpu(Device *device, uint32_t units)
     device->compute_units = units;
 }
 
-// Returns the choice with 0 lanes if it names as many lanes as the processor's registers have.
-// Programs for both choices are equal, but would be compiled twice.
+// Replaces 16 lanes by 0, which stands for the device's own number, if that number is 16. The
+// programs for both choices are equal, but would be compiled twice.
 static KernelChoice without_usual_lanes(KernelChoice choice)
 {
 #ifdef __x86_64__

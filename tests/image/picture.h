@@ -10,7 +10,7 @@
 // A callback that receives a picture and an explainer for its pixels.
 typedef void PictureVisit(Explainer *explainer, const Framebuffer *picture, void *context);
 
-// A callback that draws the picture by a renderer with sample_entry.
+// A callback that draws the picture. The renderer's kernel is sample_entry (render/sampler.h).
 typedef bool PictureDraw(void *context, Renderer *renderer, const CameraData *camera,
                          Framebuffer *picture, Error *error);
 

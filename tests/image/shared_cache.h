@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel cache of a test program. cache_open may be called only once in a process, because a
-// second call would open an empty cache in the first call's private folder for PoCL.
+// The kernel cache of a test program. A process may call cache_open only once. The first call sets
+// POCL_CACHE_DIR to a private folder, so a second call would open an empty cache there.
 #pragma once
 
 #include "device/cache.h"

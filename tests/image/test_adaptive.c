@@ -39,7 +39,7 @@ TEST(every_form_threads_and_tree_refine_the_same)
 #define SIDE 240
 
 // With this contrast, the error must be at most 1.1 times the error of `side` x `side` samples per
-// pixel. The picture must take at most 1 / `times` as many samples.
+// pixel. The refined picture must take at most 1 / `times` as many samples as these.
 typedef struct {
     float contrast;
     uint32_t side, times;

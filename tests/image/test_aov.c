@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests the channels besides the colors. Compares them with the oracle and with the picture's
-// counters. All channels must be equal for all tile sizes. All but the counts of tests must be
-// equal in the fp32 forms of form_few.
+// counters. All channels must be equal for all tile sizes. All channels except the counts of tests
+// must also be equal in the fp32 forms of form_few.
 #include "image/course.h"
 #include "image/form.h"
 #include "image/rendered.h"
@@ -12,8 +12,8 @@
 
 #define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
 
-// The number of pixels in 10,000 that may differ in a decision, because rays along an edge may hit
-// either side.
+// The number of pixels in 10,000 that may show another primitive, other shadows or other bounces
+// than the oracle's. Rays along an edge may hit either side.
 #define LIMIT 2
 
 // The values of a pixel, in the order of aov_table.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests that flat floors with a checker show one layer of cubes, in every form of the kernels. The
-// expected picture is computed from the known points that orthographic rays hit.
+// A checker divides space into cubes. Tests that a flat floor shows one layer of cubes, in every
+// form of the kernels. The expected picture is computed from known hit points of orthographic rays.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
@@ -13,9 +13,9 @@
 #define SIDE 65
 #define VIEW 4.0
 
-// A square floor perpendicular to an axis. Its triangles face different sides. Two of its corners
-// are higher by `bend`, and two are lower. A triangle outside the picture keeps the floor away from
-// the center of normalized coordinates, where rounding would not show.
+// A square floor perpendicular to an axis. Its two triangles face opposite sides. Two of its
+// corners are higher by `bend`, and two are lower. A triangle outside the picture moves the center
+// of normalized coordinates away from the floor, because near the center rounding would not show.
 typedef struct {
     double size; // of a cube
     int axis;
@@ -61,8 +61,8 @@ static long cube_of(double coordinate, double size)
     return lround(floor(coordinate / (double)(float)size + 1e-6));
 }
 
-// Returns whether the floor's square at a pixel is odd. Seen from above, columns go right along the
-// axis after the floor's, and rows go down along the third axis.
+// Returns whether the floor's square at a pixel is odd. Seen from above, the axis after the floor's
+// points right in the picture, and the third axis points up.
 static bool square_is_odd(const Floor *floor, int column, int row)
 {
     const double across = (column - SIDE / 2) * VIEW / SIDE, down = (row - SIDE / 2) * VIEW / SIDE;
@@ -94,8 +94,8 @@ static bool layer_is_odd(const Floor *floor, const KernelChoice *form)
     return odd != 0;
 }
 
-// A floor between two layers shows the layer behind it, even if rounding puts some of the floor's
-// corners into the other layer.
+// A floor exactly between two layers shows the layer behind it, even if rounding puts some of the
+// floor's corners into the layer in front of it.
 TEST(a_floor_between_layers_shows_the_layer_behind_it)
 {
     static const double sizes[] = {0.5, 0.3}, bends[] = {0, 1e-9, -1e-13};

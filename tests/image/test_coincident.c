@@ -132,7 +132,7 @@ TEST(the_lowest_id_that_may_be_met_is_seen_at_every_pixel)
 }
 
 // Smooth and flat objects with mirrors, shadows and lights on both sides. The first %s stands for
-// the sides, the second for the copies.
+// the value of `sides`, and the second %s for the statements of the copies.
 #define STATEMENTS                                                                                 \
     "background 0.2 0.3 0.5\nmax_level 5\nlight 2 -1 2.5 0.5\nlight -1 1.4 -1.7 0.4\n"             \
     "define bright matte diffuse 0.9 0.7 0.3 reflectivity 0.4\nmaterial 2\nsphere 1 0.1 0.8 0.3\n" \

@@ -142,7 +142,7 @@ TEST(explanations_give_the_bits_of_pixels_in_every_form)
     check_scene(SOURCE_SCENE("tests/image/glass.scn"), 1);
 }
 
-// Checkers have programs of their own and the same code in all forms, so one form suffices.
+// Checkers need separate programs, but their code is the same in all forms, so one form suffices.
 TEST(explanations_of_checkers_give_the_bits_of_pixels)
 {
     check_in_form(&form_few[0], SOURCE_SCENE("tests/image/checkered.scn"), 1);

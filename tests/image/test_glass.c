@@ -69,8 +69,8 @@ TEST(straight_rays_leak_through_no_turned_cube)
     assert_true(most >= 6); // a ray crosses two meshes, and its shadow ray crosses a cube
 }
 
-// Expects each ray that hits no glass to be outside: the rays before it must cross an even number
-// of surfaces.
+// Expects each ray that hits no glass to be outside of all glass: the rays before it must have
+// crossed an even number of surfaces.
 static void expect_outside(const Explainer *explainer, const ExplainedSample *sample)
 {
     uint32_t crossings[GLASS_LEVELS + 1] = {0};
@@ -137,8 +137,8 @@ static Framebuffer drawn_behind(const char *front)
     return picture;
 }
 
-// Rays start anew at the surface of the glass, so they differ by rounding. At the edges of other
-// shapes, rounding may decide which shape a ray hits.
+// At the surface of the glass, a new ray continues the path, so pixels with and without the glass
+// differ by rounding. At the edges of other shapes, rounding may decide which shape a ray hits.
 TEST(a_ball_of_index_one_is_invisible)
 {
     uint32_t differing = 0;

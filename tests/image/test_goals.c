@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests pictures with error goals. Every form of the kernels must draw the same picture. Also tests
-// the largest goal, a picture of one color, and parts that no pixel's center shows. tests/goals
-// measures whether clrt meets the goals.
+// the largest goal, a picture of one color, and parts that are not visible at any pixel's center.
+// tests/goals measures whether clrt meets the goals.
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
@@ -31,8 +31,8 @@ TEST(every_form_threads_and_tree_refine_the_same)
     }
 }
 
-// Controls are at least 32 random pixels of each stratum of unrefined pixels (ladder_strata.h), or
-// all pixels of a smaller stratum. clrt refines them to check that centers are representative.
+// Controls check that centers are representative. clrt refines at least 32 random pixels of each
+// stratum (ladder_strata.h) as controls, or all pixels of a smaller stratum.
 TEST(with_a_goal_of_any_error_only_controls_are_refined)
 {
     uint64_t samples;
@@ -117,9 +117,9 @@ TEST(parts_that_no_center_sees_are_found)
         assert_true(dots_error(seed, &dots) < 1.1);
 }
 
-// Only random controls find these parts, so the test limits the rate of failures. With a prior that
-// does not depend on the reflectivity, 27 of 200 such pictures exceed 1.1 times the goal, instead
-// of 3.
+// Only random controls find these parts, so the test limits the rate of failures. The errors of 3
+// of 200 such pictures exceed 1.1 times the goal. With a prior that ignored the reflectivity, 27
+// would exceed it.
 #define MIRRORED 40
 
 TEST(parts_that_only_a_mirror_shows_are_missed_in_at_most_1_of_20_pictures)

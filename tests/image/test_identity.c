@@ -322,7 +322,7 @@ static void expect_extreme_specials_same(const KernelChoice *choice)
     expect_special_same(63, choice);
 }
 
-// Rays and packets share the code of most switches. Only the kernels of rays, which compile sooner,
+// Rays and packets share the code of most switches. Kernels of rays compile sooner, so only these
 // are tested with all four combinations of every two switches (Kleitman and Spencer, "Families of
 // k-independent sets", 1973).
 TEST(specialized_rays_draw_the_general_rays_picture)

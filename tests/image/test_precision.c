@@ -12,14 +12,14 @@
 
 #include <string.h>
 
-// The largest difference by rounding: two float steps below 1 and two steps of 2^-32, to which clrt
-// rounds colors before it stores floats.
+// The largest difference by rounding: two float steps below 1, plus two steps of 2^-32. clrt rounds
+// colors to multiples of 2^-32 before it stores floats.
 #define ROUNDED 0x1.01p-23f
 
 #define FP64 (&form_all[FORMS_FP32])
 
-// Pictures have 1 / part of the scene's width and height. Every step-th pixel of every step-th row
-// is compared. The oracle would take minutes for all pixels of a mesh.
+// A picture's width and height are 1 / `part` of the scene's. Every step-th pixel of every step-th
+// row is compared. The oracle would take minutes for all pixels of a mesh.
 typedef struct {
     uint32_t part, step;
 } Share;
@@ -49,8 +49,8 @@ static uint32_t count_differing(const Framebuffer *picture, const Framebuffer *e
     return differing;
 }
 
-// Returns the number of pixels that differ from the oracle's. `stored` has the scene's numbers as
-// stored for the device.
+// Returns the number of pixels that differ from the oracle's. `stored` traces the numbers that the
+// device stores for the scene.
 static uint32_t view_differences(const Oracle *stored, const Normalization *normalization,
                                  const PictureRequest *request, uint32_t step)
 {
@@ -122,9 +122,8 @@ TEST(every_pixel_of_unusual_scenes_is_the_oracles)
         check_oracle(unusual_scenes[scene], unusual);
 }
 
-// share is the permitted number of pixels, per 100,000 pixels, at which fp32 and fp64 differ by
-// more than an 8-bit step. Mirrors that face each other amplify every rounding. Only the showcase
-// has many such mirrors.
+// In at most `share` of 100,000 pixels, fp32 and fp64 may differ by more than an 8-bit step.
+// Mirrors that face each other amplify every rounding. Only the showcase has many such mirrors.
 TEST(fp32_differs_in_few_pixels)
 {
     static const struct {

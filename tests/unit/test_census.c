@@ -54,7 +54,7 @@ typedef struct {
     Census census;
 } Taken;
 
-// Takes the census of a scene that contains only this mesh, in the mesh's coordinates.
+// Returns the census of a scene that contains only this mesh. Normalization changes no coordinate.
 static Taken census_of_mesh(const char *points, const char *faces)
 {
     Taken taken = {0};

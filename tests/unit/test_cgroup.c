@@ -54,7 +54,7 @@ static const struct {
     File files[FILES];
     uint32_t processors;
 } cases[] = {
-    // Version 2: quotas are rounded up. The smallest quota of a group and its parents counts.
+    // Version 2: quotas are rounded up. The smallest quota among the group and its parents applies.
     {"0::/job\n", {{"job/cpu.max", "250000 100000\n"}}, 3},
     {"0::/slice/job\n",
      {{"slice/job/cpu.max", "max 100000\n"},
@@ -64,7 +64,7 @@ static const struct {
     {"0::/job\n", {{"job/cpu.max", "max 100000\n"}}, UINT32_MAX},
     // The group's path is relative to the host, but the mount starts at the container's group.
     {"0::/docker/0123456789abcdef\n", {{"cpu.max", "100000 100000\n"}}, 1},
-    // Version 1: other controllers do not count.
+    // Version 1: only the controller "cpu" limits the processors.
     {"4:cpu:/job\n", {V1("cpu/job", "-1")}, UINT32_MAX},
     {"9:memory:/other\n4:cpu:/job\n0::/\n", {V1("cpu/job", "150000")}, 2},
     {"4:cpu,cpuacct:/job\n", {V1("cpu,cpuacct/job", "50000")}, 1},

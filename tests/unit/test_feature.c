@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the size of disks that samples find with a probability of 95 %, by random disks.
+// Tests with random disks that samples find 95 % of disks of feature_smallest's diameter.
 #include "session/feature.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
@@ -17,7 +17,7 @@ static bool disk_is_found(double diameter, uint32_t side, uint64_t *state)
     return hypot(x, y) <= diameter * side / 2;
 }
 
-// Returns the share of random disks that pixels with these numbers of samples find.
+// Returns the share of random disks that the samples find. `shares` has the samples of all pixels.
 static double found_share(double diameter, const SampleShare *shares, size_t count)
 {
     uint64_t state = 1, pixels = 0;

@@ -144,11 +144,11 @@ TEST(a_missing_vertex_normal_becomes_the_faces)
     for (int corner = 0; corner < 3; corner++)
         of[order->places[corner]] = all.flat.normals[0].normals[corner];
     assert_true(of[1][0] == 0 && of[1][1] == 0 && of[1][2] == (order->reversed ? -1 : 1));
-    // Normals of the file keep their relative lengths.
+    // The normals that the file contains keep their relative lengths.
     assert_true(of[2][0] == 2 * of[0][0]);
 }
 
-// Returns the shading word of a triangle in either layout.
+// Returns the member `shading` of a triangle, in either layout of nodes.
 static uint32_t shading_of(const FlatScene *flat, uint32_t number)
 {
     if (flat->layout == NODES_WIDE)
@@ -201,7 +201,7 @@ TEST(a_selected_material_uploads_no_colors)
     assert_false(traits_of(&all.flat, false).colors);
 }
 
-// The scenes below have one sphere, so a triangle's id without marks is its number plus 1.
+// The scenes below have one sphere, so an id without marks is the triangle's number plus 1.
 #define NUMBER_OF(id) (((id) & ~TRIANGLE_MARKS) - 1)
 
 TEST(a_leaf_too_large_for_a_block_becomes_several)

@@ -75,6 +75,6 @@ TEST(the_next_launch_follows_the_time_of_the_last)
     assert_int_equal(launch_next_items(&shape, 1, 1, 1), 1);
     assert_int_equal(launch_next_items(&shape, 1000, 1000, 0), 2000);
     assert_int_equal(launch_next_items(&shape, 900000, 10, 0), 1000000);
-    // The last launch had only half of the intended items.
+    // The last launch was limited to 1000 items, but had only 500.
     assert_int_equal(launch_next_items(&shape, 1000, 500, 0.02), 750);
 }

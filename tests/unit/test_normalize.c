@@ -143,7 +143,7 @@ TEST(right_and_down_span_the_image_plane)
 {
     const CameraData camera = camera_make(&ahead, &unmoved, 100, 100, 1);
     assert_true(camera.eye[0] == 4 && camera.forward[0] == -1);
-    // At 90 degrees, half the plane's height is 1, divided into 100 half steps.
+    // At 90 degrees, half the image plane's height is 1, which is divided into 100 half steps.
     assert_true(camera.right_step[1] == 0.01f && camera.right_step[2] == 0);
     assert_true(camera.down_step[2] == -0.01f && camera.down_step[1] == 0);
 }
@@ -167,7 +167,7 @@ TEST(only_a_picture_narrower_than_the_width_widens)
     assert_memory_equal(&broad, &plain, sizeof plain);
 }
 
-// A half height of 3 has 300 half steps. Normalization scales these steps.
+// 300 rows divide half the height, 3, into 300 half steps. Normalization scales these steps.
 TEST(orthographic_pictures_have_their_height_in_scene_units)
 {
     Viewpoint flat = {.eye = {4, 0, 0}, .up = {0, 0, 1}, .height = 6};
@@ -220,7 +220,7 @@ TEST(a_shift_moves_samples_by_parts_of_their_distance)
     assert_true(camera.forward[0] == -1);
 }
 
-// The frame's center is at 2.5, -3 and 0 cubes. The cube at the scene's origin must stay even.
+// In cubes, the frame's center is (2.5, -3, 0). The cube at the scene's origin must stay even.
 TEST(checkers_move_into_the_frame)
 {
     const Normalization normalization = {{1.25, -1.5, 0}, 0.25};

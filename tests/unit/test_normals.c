@@ -172,7 +172,7 @@ TEST(a_rough_ball_is_smooth_and_a_cylinder_keeps_its_rims_by_shape)
     expect_same_normals(&solid, &sharp);
 }
 
-// Each row sets the number of edges in one window. The other windows are those of a smooth shape.
+// Each row sets the number of edges in one window. The other windows are as in a smooth shape.
 TEST(each_condition_on_the_angles_decides_the_crease)
 {
     static const size_t smooth[ANGLE_WINDOWS] = {500, 300, 200, 150, 100, 60, 40, 30,

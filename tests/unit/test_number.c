@@ -162,7 +162,7 @@ TEST(a_double_printed_with_17_digits_comes_back)
     }
 }
 
-// Expects this value of a text that joins head, a million zeros and tail.
+// Expects this value for the text that consists of head, a million zeros and tail.
 static void expect_around_zeros(const char *head, const char *tail, double expected)
 {
     const size_t zeros = 1000000, size = strlen(head) + zeros + strlen(tail) + 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests additions to a scene for which there is no memory.
+// Tests that an addition to a scene changes nothing if memory runs out.
 #include "unit/cmocka_all.h"
 
 #include "scene/scene.h"

@@ -48,7 +48,7 @@ TEST(spheres_take_the_material_before_them)
         parsed("sphere 0 0 0 1\nmaterial 2\nsphere 1 2 3 .5\nmaterial 17\nsphere 0 0 0 1\n"
                "material 2\nmaterial own\nsphere 0 0 0 1\n"
                "define own matte\nmaterial own\nsphere 0 0 0 1");
-    // Spheres have no file, so `own` is the silhouette, unless a definition has this name.
+    // Spheres have no file with materials, so `own` is the silhouette unless it is defined.
     static const uint32_t materials[] = {0, 2, 0, 0, 4};
     assert_int_equal(scene.spheres.count, 5);
     for (size_t i = 0; i < 5; i++)
@@ -126,7 +126,7 @@ TEST(glass_has_a_color_and_an_index_of_refraction)
     assert_true(plain->ior == 1.5f && plain->diffuse[1] == 1 && plain->diffuse[2] == 1);
     assert_true(green->ior == 2.4f && green->diffuse[0] == 0.5f);
     assert_true(green->reflectivity == 1);
-    // Glass needs no light. Glass need not absorb light, so no max_level bounds the error.
+    // Glass needs no light. Glass may absorb no light, so no max_level bounds the error.
     assert_null(scene_missing(&scene).kind);
     assert_true(truncation_bound(&scene, 9) == 1);
     assert_int_equal(truncation_level(&scene, 0.01), GLASS_LEVELS);
@@ -357,7 +357,7 @@ TEST(the_longest_normals_can_be_rotated)
 {
     FREED_BY(scene_free) Scene scene = parsed("mesh ../tests/unit/huge_normal.ply rotate 1 0 0 20");
     const float *normal = scene.objects.data[0].mesh.normals[0];
-    // y equals z, so the rotation by 20 degrees about x multiplies z by the cosine plus the sine.
+    // In the file, y equals z. Rotation by 20 degrees about x multiplies z by cosine plus sine.
     assert_true(isfinite(normal[2]));
     assert_true(fabsf(normal[2] / normal[0] - 1.2817128f) < 1e-6f);
 }

@@ -93,7 +93,7 @@ TEST(a_scene_without_cameras_keeps_the_courses)
     free(again);
 }
 
-// In mesh files, materials may have these names.
+// Mesh files may give their materials these names.
 TEST(names_that_no_scene_can_define_are_replaced)
 {
     static const char *const names[] = {"3d.obj:red", "a\"b",  "",          "own",

@@ -18,8 +18,8 @@ typedef struct {
     double feature, error, chance;
 } Pixel;
 
-// Squared errors are proportional to the square of the bend, but some flat pixels hide an edge. The
-// share of these pixels differs between populations. Most of these pixels are near contrast.
+// A pixel's squared error is proportional to its squared bend, except in flat pixels that hide an
+// edge. The share of such pixels differs between populations. Most of them are near contrast.
 static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
 {
     uint64_t state = seed;

@@ -295,7 +295,7 @@ TEST(a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh)
         assert_int_equal(is_cut(&world, 50, row, 0), row >= 10 && row < 110);
 }
 
-// The broader strip contains samples of these cells, and is searched first.
+// Both strips cover the tested pixels. The search starts with the broader strip.
 TEST(a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels)
 {
     FREED_BY(close_world) World world = world_of(2 * PIECE_TRIANGLES);

@@ -9,7 +9,7 @@
 
 #define SIDE 64
 
-// If parts have fewer tiles, clrt prints a note. docs/long-jobs.md has the ratios of real scenes.
+// For parts with fewer tiles, clrt prints a note. docs/long-jobs.md has the ratios of real scenes.
 #define PART_TILES    128
 #define SLOWEST_RATIO 1.25
 

@@ -7,8 +7,8 @@
 
 static const char *const aim_names[AIM_KINDS] = {"random", "edges", "vertices", "vertices_exactly"};
 
-// A set of aims is a bit mask. AIMS selects random rays, rays at edges, and rays at vertices with
-// rounded directions.
+// A set of aims (rays.h) is a bit mask: AIM(aim) is the bit of `aim`. AIMS selects random rays,
+// rays at edges, and rays at vertices with rounded directions.
 #define AIM(aim) (1u << (aim))
 #define AIMS     (AIM(AIM_RANDOM) | AIM(AIM_EDGES) | AIM(AIM_VERTICES))
 
@@ -44,8 +44,8 @@ static void judge_closed(RayBatch *batch, Scene scene, int exponent, const Close
     judge_aims(&rig, exponent, test);
 }
 
-// Returns a sphere around shape_center(exponent). It has 200 rings below exponent 20, and 20 rings
-// farther out, because floats there are too far apart for a finer sphere.
+// Returns a sphere around shape_center(exponent). The sphere has 200 rings below exponent 20. From
+// exponent 20 on, it has 20 rings, because floats are too far apart for more.
 static Scene closed_sphere(int exponent)
 {
     return shape_scene(shape_sphere(exponent < 20 ? 200 : 20, shape_center(exponent)));
@@ -101,7 +101,7 @@ EXTREME(no_ray_leaves_a_closed_bumpy_sphere_t04)
     }
 }
 
-// Far from the origin, rounding gives many triangles of a sphere two equal corners.
+// Far from the origin, many triangles of a sphere have two corners that rounding makes equal.
 static void judge_crushed_sphere(RayBatch *batch, int exponent, uint32_t rings)
 {
     char label[64];

@@ -15,8 +15,8 @@ static Vec3 point_above(Random *random)
     return point;
 }
 
-// At least half of the rays start at z = 1, where the shear is exact, and hit all triangles at
-// once.
+// At least half of the rays start at z = 1. For these rays, the shear of the triangle test is
+// exact, and all triangles are hit at the same distance.
 static void aim_at_apex(Rays rays, Random *random)
 {
     Vec3 origin = {0};

@@ -35,7 +35,7 @@ static void aim_at_joint(Rays rays, const Stage *stage, const Vec3 axes[3], Rand
     }
 }
 
-// Counts the rays that pass, by tracer and in exact arithmetic.
+// The number of rays that pass, for each ray tracer and in exact arithmetic.
 typedef struct {
     const Triangles *triangles;
     size_t leaks[TRACERS], true_leaks;

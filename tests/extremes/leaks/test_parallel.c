@@ -18,7 +18,7 @@ static Outcome judge_inside(const Studio *studio, Scene scene, uint32_t side)
                       picture_pixels(&picture) - picture_count_other(&picture, green));
 }
 
-// Returns a cube of side 2 whose faces are uneven. Vertices inside a face move perpendicular to it.
+// Returns a cube of side 2 whose faces are uneven. Vertices inside a face are moved inward.
 static Mesh uneven_cube(Random *random)
 {
     Mesh cube = shape_cube(1, CELLS);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays inside a closed shape must hit triangles whose inner sides they see. At a ridge, triangles
-// whose outer sides face the ray are at the same distance. All steps of the kernels are exact in
-// this test's star.
+// whose outer sides face the ray are at the same distance. The test's shape is a star in which all
+// steps of the kernels are exact.
 #include "support/rig.h"
 #include "support/shapes.h"
 
@@ -76,8 +76,8 @@ static void aim_at_star(const Rays *rays, const Mesh *mesh, const Stage *stage, 
     }
 }
 
-// A judge whose context is the star's Triangles. The star's center is on the inner side of every
-// triangle.
+// A judge whose context is the star's Triangles. Misses, and hits on outer sides, are wrong. The
+// star's center is on the inner side of every triangle.
 static bool judge_seen_side(void *context, const Traced *traced)
 {
     const Triangles *triangles = context;

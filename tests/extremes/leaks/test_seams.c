@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays at points well inside an open shape's outline must hit the shape, also at edges that two
+// Rays toward points well inside an open shape's outline must hit the shape, even at edges that two
 // triangles share.
 #include "support/rig.h"
 #include "support/shapes.h"
@@ -108,7 +108,7 @@ static Vec3 plane_target(PlaneTarget kind, Random *random)
     return target;
 }
 
-// Rays from a larger distance are more nearly parallel.
+// Rays start about `distance` from the plane. A larger distance makes them more nearly parallel.
 static void judge_plane(const Rig *rig, double distance, PlaneTarget kind)
 {
     static const char *const names[] = {"points", "edges", "vertices"};

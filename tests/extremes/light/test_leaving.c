@@ -36,8 +36,8 @@ static void choose_outward(Leaving *leaving, size_t ray, Vec3 normal, uint32_t l
     shape_store(leaving->outward[ray], direction);
 }
 
-// Counts two tries, a reflected ray and a shadow ray, for each ray that left a surface. The ray
-// fails if either try hits something.
+// Each ray that left a surface counts as two tries: a reflected ray and a shadow ray. The ray fails
+// if either try hits something.
 static Outcome judge_leaving(const char *test, RayBatch *batch, const Leaving *leaving)
 {
     Outcome outcome = {.test = test};

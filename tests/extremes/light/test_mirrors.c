@@ -74,7 +74,7 @@ EXTREME(no_ray_escapes_from_a_convex_mirror_t45)
     }
 }
 
-// A closed mirror. Its mesh is moved by (offset, offset, offset) and then scaled.
+// A closed mirror. The mirror's mesh is moved by (offset, offset, offset) and then scaled.
 typedef struct {
     const char *name;
     double crease_degrees, offset, scale;
@@ -209,7 +209,7 @@ static Vec3 cow_inside(Random *random)
 
 // Makes 100 million reflections in the course's cow. The cow touches itself in a point, where rays
 // could change sides, so shape_apart removes this point. Rays can also escape where parts of the
-// cow cross. When this was measured, 3 rays escaped.
+// cow cross. The limit is the measured number of escapes: 3.
 EXTREME(no_ray_escapes_from_a_mirror_cow_t45)
 {
     char path[COURSE_PATH_SIZE];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests difficult shadows: inside a closed shape with lights around it, at points of contact, and
-// from lights on surfaces and in the eye.
+// from lights that lie on surfaces or in the eye.
 #include "support/shapes.h"
 #include "support/varied_scene.h"
 #include "unit/parsed.h"
@@ -33,7 +33,7 @@ static Vec3 random_edge_point(const Mesh *mesh, Random *random, bool at_end)
 }
 
 // Returns a closed shape with sharp edges, lights all around it, and a camera inside that looks at
-// an edge or vertex. In the narrowest views, the points of neighboring pixels round to one point.
+// an edge or vertex. In the narrowest views, hit points of neighboring pixels round to one point.
 static Scene lit_from_outside(double distance, size_t view, Random *random)
 {
     Error error = {0};

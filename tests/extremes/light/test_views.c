@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares pictures with the oracle's. The lights vary in number and intensity, and the cameras in
-// field of view and place. Some vertex normals are zero or cancel out.
+// Compares pictures with the oracle's. The lights vary in number and intensity. The cameras vary in
+// field of view and position. Some vertex normals are zero or cancel out.
 #include "support/picture.h"
 #include "support/random_points.h"
 #include "support/shapes.h"
@@ -60,8 +60,8 @@ EXTREME(cameras_may_stand_anywhere_t57)
         {"on_face", "0.25 1 0.125 0 0 0"},        {"on_face_outward", "0.25 -1 0.125 0 -5 0.5"},
         {"on_plane_beside", "1 -5 0.25 0.2 0 0"}, {"along_edge", "1 -4 1 1 4 1"},
         {"in_plane_of_face", "0.5 -4 1 0.5 4 1"}};
-    // In pictures of odd size, the middle row and column of rays lie in planes and edges of the
-    // cube.
+    // The size is odd, so that the rays of the middle row and column can lie in planes and along
+    // edges of the cube.
     const PictureSettings settings = picture_settings(63);
     for (size_t i = 0; i < COUNT(views); i++) {
         Scene scene =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture's bits must not depend on the scene's size and place, the device's denormals, the order
-// of parts and triangles, or the tree. image/test_identity.c varies kernels and work-groups.
+// A picture's bits must not depend on the scene's size and place, the handling of denormals, the
+// order of parts and triangles, or the tree. image/test_identity.c varies kernels and work-groups.
 #include "support/random_points.h"
 #include "support/shapes.h"
 #include "support/varied_scene.h"
@@ -16,7 +16,7 @@ static PictureSettings usual_settings(void)
     return settings;
 }
 
-// Compares a scene's picture with the usual one. Frees the scene.
+// Compares the bits of a scene's picture with the bits of `usual`. Frees the scene.
 static Outcome compare(const char *test, const Studio *studio, const Framebuffer *usual,
                        Scene scene)
 {
@@ -117,8 +117,8 @@ EXTREME(flushing_denormals_to_zero_changes_no_picture_t47)
         "option=%s", settings.extra_options);
 }
 
-// The hash of varied_scene's picture, which is equal on every device and every target of
-// CMakeLists.txt.
+// The hash of varied_scene's picture, which is equal on every device and for every PoCL target of
+// tests/extremes/CMakeLists.txt.
 #define PICTURE_ON_RECORD "ec5c80aa50c8f17918c2bed9c22cfbeb"
 
 EXTREME(the_picture_is_the_one_on_record_t48)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces rays along the axes and in the planes of triangles. Except in random planes, every step is
-// exact in float, so the right answers are known to the bit.
+// Traces rays along the axes and in the planes of triangles. Except for rays in planes of random
+// triangles, every step is exact in float, so the right answers are known to the bit.
 #include "support/rig.h"
 #include "support/shapes.h"
 
@@ -122,8 +122,9 @@ static Scene octahedron(void)
     return scene;
 }
 
-// Returns a ray in the plane x + y + z = 0.5 toward a point of the face there. All coordinates are
-// multiples of 2^-9. The direction's largest component is 1 or -1, so that the shear is exact.
+// Returns a ray in the plane x + y + z = 0.5 toward a point of a face of the octahedron. All
+// coordinates are multiples of 2^-9. The direction's largest component is 1 or -1, so the shear is
+// exact.
 static TestRay ray_in_tilted_plane(Random *random)
 {
     const uint32_t x = 1 + random_below(random, 254), y = 1 + random_below(random, 255 - x);
@@ -167,9 +168,9 @@ typedef struct {
     size_t hits;
 } Soup;
 
-// Along each axis, the error of the ray's point at t is at most 24 roundings of the largest
-// distance between origin and corners. The proof of BVH_SLACK (shared.h) gives 22 roundings, and
-// the computation of the point adds 2.
+// Along each axis, the error of the hit point is at most 24 units. A unit is 2^-24 times the
+// largest distance from the ray's origin to a corner. The proof of BVH_SLACK (shared.h) gives 22
+// units, and the computation of the point adds 2.
 static bool judge_point(void *context, const Traced *traced)
 {
     Soup *soup = context;

@@ -8,8 +8,8 @@
 #define SMALL_Y -2.5
 
 // On the y axis, the large triangle is behind the globe, and the small one is in front of it. A
-// third triangle, opposite the large one, centers the bounds, so that the small one's coordinates
-// stay exact.
+// third triangle at y = -1e6 keeps the center of the scene's bounds at the origin, so that the
+// small triangle's coordinates stay exact.
 static Scene three_scales(void)
 {
     const double s = 1e-6, l = 1e6, y = SMALL_Y;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traces rays with directions of zeros and denormals, and unusual rays: without direction, with NaN
-// or infinity, or from very far. Unusual rays must end in time and must not disturb the rays beside
-// them.
+// Traces rays whose directions have zero or denormal components, and unusual rays: rays without
+// direction, with NaN or infinity, or from very far away. Unusual rays must end in time and must
+// not disturb the rays beside them.
 #include "support/exact.h"
 #include "support/rig.h"
 #include "support/shapes.h"
@@ -71,8 +71,8 @@ static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size
     return disturbed;
 }
 
-// Returns the hits, and stores the least of five processor times in seconds. Processor time depends
-// less than elapsed time on other processes.
+// Returns the hits, and stores the least processor time of five runs, in seconds. Processor time
+// depends less than elapsed time on other processes.
 static TestHit *trace_timed(RayBatch *batch, Rays rays, double *seconds)
 {
     TestHit *hits = NULL;
@@ -125,8 +125,8 @@ EXTREME(rays_without_direction_or_with_nan_hit_nothing_and_end_t23)
         judge_spoiled(*state, rays, values[i]);
 }
 
-// judge_exactly must accept the hit, and the hit's distance must be above 0, which excludes NaN.
-// clrt does not follow rays from beyond 2^46, so they may hit nothing.
+// A hit is wrong if its distance is NaN or not above 0, or if judge_exactly finds it wrong. clrt
+// does not follow rays that start beyond 2^46, so these rays may hit nothing.
 static bool judge_far(void *triangles, const Traced *traced)
 {
     const float *origin = traced->ray->origin;
@@ -136,7 +136,7 @@ static bool judge_far(void *triangles, const Traced *traced)
     return judge_exactly(triangles, traced) && (is_followed || traced->hit->id != NOTHING);
 }
 
-// Aims from this distance along an axis. Every second ray is slanted.
+// Makes rays that start at this distance along an axis and point back. Every second ray is slanted.
 static void aim_from(Rays rays, float distance, Random *random)
 {
     for (size_t i = 0; i < rays.count; i++) {

@@ -21,8 +21,8 @@ static double unit_in_last_place(double value)
     return scalbn(1, ilogb(value) - 23);
 }
 
-// Returns whether the ray passes the outline at less than 4 units in the last place of exact->size,
-// so that rounding may decide.
+// Returns whether rounding may decide the hit, because the ray passes the outline at a distance of
+// less than 4 units in the last place of exact->size.
 static bool is_on_outline(const ExactMeeting *exact)
 {
     return exact->distance < 4 * unit_in_last_place(exact->size);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Shears the triangle along the ray's longest axis, so that the ray becomes the origin of a plane.
-// Edge functions decide whether the triangle contains the origin. Long double loses few bits in
-// products of differences of floats.
+// A shear makes the ray parallel to the longest axis of its direction. In the plane of the other
+// two axes, the ray is then the origin. Edge functions decide whether the sheared triangle contains
+// the origin. Long double loses few bits in products of differences of floats.
 #include "exact.h"
 
 #include <math.h>
 
-// Rounding of corners, shear and edge functions moves an outline by at most this, relative to
-// Sheared::reach.
+// The largest distance by which rounding of corners, shear and edge functions moves an outline,
+// relative to Sheared::reach.
 #define DOUBT (34 * 0x1p-24L)
 
 // Bounds the error of a depth, relative to Sheared::reach. With the least accurate division that
-// OpenCL allows, the error is at most 22 units (docs/numerics.md, B8).
+// OpenCL allows, the error is at most 22 * 2^-24 (docs/numerics.md, B8).
 #define DEPTH_DOUBT (27 * 0x1p-24L)
 
 typedef struct {

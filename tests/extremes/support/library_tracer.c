@@ -17,8 +17,8 @@ static void require_library(bool ok, const ClrtError *error)
         fail_msg("%s", error->text);
 }
 
-// Closing the renderer saves new kernels. The end of the process is too late, because LLVM may be
-// gone.
+// Closing the renderer saves new kernels. Saving them at the end of the process would be too late,
+// because LLVM may already have shut down.
 TEAR_DOWN(close_renderer)
 {
     clrt_renderer_free(renderer);

@@ -23,8 +23,8 @@ typedef struct {
     const char *extra_options; // for the kernels' compiler; NULL for none
 } PictureSettings;
 
-// Returns settings for side x side pixels of one sample in tiles of 32 x 32, drawn by the general
-// program of form_choice.
+// Returns settings for side x side pixels with one sample each, in tiles of 32 x 32 pixels. The
+// program has the form of form_choice and is not specialized.
 PictureSettings picture_settings(uint32_t side);
 
 // A scene that is ready to draw.
@@ -55,8 +55,8 @@ size_t picture_pixels(const Framebuffer *picture);
 // Returns how many pixels of `other` differ in any bit from `usual`. Frees `other`.
 Outcome picture_compare(const char *test, const Framebuffer *usual, Framebuffer other);
 
-// Returns how many pixels differ from the oracle's in a way that the oracle does not explain, plus
-// the number of faulty values. Frees the scene.
+// Returns how many pixels differ from the oracle's without an explanation by the oracle, plus how
+// many values are faulty. Frees the scene.
 Outcome picture_judge(const char *test, const Studio *studio, Scene scene,
                       const PictureSettings *settings);
 

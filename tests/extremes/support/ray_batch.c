@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PoCL compiles a kernel again for each work-group size and kind of grid. Compiling needs the
-// cache's lock, which only ray_batch_open holds, so all launches have one size.
+// All launches have the same grid and work-group size, because PoCL may compile a kernel again for
+// other sizes. Compiling needs the cache's lock, which only ray_batch_open holds.
 #include "ray_batch.h"
 
 #include "base/file.h"
@@ -13,7 +13,7 @@
 
 #define BATCH_RAYS 65536
 
-// Lanes of kernels with wide nodes, if form_choice leaves the number to the device.
+// The number of lanes of kernels with wide nodes, if form_choice names none.
 #define BATCH_LANES 16
 
 static const char *const kernel_names[BATCH_TASKS] = {"batch_nearest", "batch_blocked",
@@ -196,7 +196,7 @@ static int compare_orders(const void *first, const void *second)
     return memcmp(first, second, sizeof(RayOrder));
 }
 
-// Returns the rays' orders, sorted. The caller frees them.
+// Returns a sorted array with a RayOrder for each ray. The caller frees the array.
 static RayOrder *sorted_orders(Rays rays)
 {
     RayOrder *orders = require_memory(rays.count, sizeof *orders);

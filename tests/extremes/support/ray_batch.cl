@@ -48,7 +48,7 @@ static inline Real3 filled_lanes(Real3 v, Mask lanes)
 }
 
 // Returns the rays of these lanes, which must be of one kind. The other lanes copy the first ray.
-// ray_reflected makes reflected rays, which leave their face perpendicularly.
+// Reflected rays come from ray_reflected, as if they left a face perpendicular to them.
 static inline Ray ray_of(const Tracer *tracer, const TestRays *rays, RayKind kind, Mask lanes)
 {
     const Real3 origin = filled_lanes(rays->origin, lanes);
@@ -131,7 +131,7 @@ kernel void batch_blocked(BATCH_ARGUMENTS)
     trace_rays(&tracer, rays, count, true, hits);
 }
 
-// The id stored for a ray that hits nothing while the shadow ray along it is blocked.
+// The id for a second ray that hits nothing if the shadow ray in its direction is blocked.
 #define LEAVE_SHADOWED 0xfffffffeu
 
 // Traces rays from the surfaces that these lanes' rays hit. See batch_leave.
@@ -159,8 +159,8 @@ static inline void leave_surfaces(const Tracer *tracer, const TestRays *all, con
 }
 
 // Finds the surface that each ray hits, and traces a second ray from this surface. The second ray's
-// direction is outward or its opposite, whichever leaves the face. The id can be LEAVE_SHADOWED. t
-// is 0 if the first ray hits nothing.
+// direction is `outward` or its opposite, whichever points away from the face. Stores the second
+// ray's hit. The id can be LEAVE_SHADOWED. t is 0 if the first ray hits nothing.
 kernel void batch_leave(BATCH_ARGUMENTS)
 {
     BATCH_TRACER

@@ -69,7 +69,7 @@ TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
 // The id that ray_batch_leave returns for a ray that hits nothing while its shadow ray is blocked.
 #define LEAVE_SHADOWED 0xfffffffeu
 
-// Returns the hits of rays that leave the surfaces hit by `rays`. Ray i leaves along outward[i] or
-// the opposite direction, on the side that rays.data[i] came from. t is 0 if rays.data[i] hits
-// nothing.
+// Returns the hits of rays that leave the surfaces hit by `rays`. Ray i has the direction
+// outward[i] or its opposite, whichever points to the side from which rays.data[i] came. t is 0 if
+// rays.data[i] hits nothing.
 TestHit *ray_batch_leave(const RayBatch *batch, Rays rays, const float (*outward)[3]);

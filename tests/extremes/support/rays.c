@@ -48,8 +48,8 @@ Vec3 rays_target(Aim aim, const Triangles *triangles, Random *random)
     return vec3_add(a, vec3_scale(vec3_sub(b, a), along));
 }
 
-// Returns about part * coordinate, rounded to a float whose difference from coordinate is a float,
-// too. Both are multiples of coordinate's unit in the last place.
+// Returns coordinate * part, truncated to a multiple of the coordinate's unit in the last place.
+// `part` is from 0 to 1, so the result and its difference from the coordinate are floats.
 static double exact_part(double coordinate, double part)
 {
     if (coordinate == 0)

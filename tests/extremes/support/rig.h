@@ -15,7 +15,7 @@ typedef struct {
     Peers peers;
 } Rig;
 
-// Builds the scene's tree, uploads both to the batch and frees the scene.
+// Builds the scene's tree, uploads the scene and the tree to the batch, and frees the scene.
 Rig rig_open(const char *test, RayBatch *batch, Scene scene);
 Rig rig_open_with(const char *test, RayBatch *batch, Scene scene, TreeKind tree);
 void rig_close(Rig *rig);

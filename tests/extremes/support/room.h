@@ -19,8 +19,8 @@ typedef struct {
 // center.
 Room room_inside(const Stage *stage, Vec3 center, double half_side);
 
-// Returns a point of the room. If the room has_floats, programs that do not normalize can represent
-// the point exactly.
+// Returns a point of the room. If room->has_floats, the point's scene coordinates are floats, so
+// programs that do not normalize can represent the point exactly.
 Vec3 room_point(const Room *room, Random *random);
 
 bool room_contains(const Room *room, Vec3 point);

@@ -137,7 +137,7 @@ Mesh shape_fan(uint32_t count)
     return mesh;
 }
 
-// Writes the place-th grid of cells * cells quads. spans are the grid's corner and two sides.
+// Writes grid number `place` of cells * cells quads. spans are the grid's corner and two sides.
 static void put_plane(Mesh *mesh, size_t place, const Vec3 spans[3], uint32_t cells)
 {
     const uint32_t first = (uint32_t)place * (cells + 1) * (cells + 1);
@@ -202,7 +202,7 @@ Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c)
     return mesh;
 }
 
-// Numbers the fans of the mesh in fans.parents, and returns their count.
+// Stores the number of each corner's fan in fans->parents, and returns the number of fans.
 static uint32_t find_fans(Fans *fans, const Mesh *mesh, Weld *weld)
 {
     Edges edges;

@@ -6,8 +6,8 @@
 #include "random_points.h"
 #include "scene/scene.h"
 
-// Returns the nearest float to value. The conversion goes through memory, because gcc 12 removes
-// a pair of conversions to float and back.
+// Returns the nearest float to value. A volatile variable holds the float, because gcc 12 would
+// remove a conversion to float and back.
 static inline double shape_rounded(double value)
 {
     const volatile float rounded = (float)value;
@@ -64,8 +64,8 @@ Mesh shape_soup(Random *random, uint32_t count, double size);
 Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c);
 
 // Returns a closed mesh without points in which it touches itself. If several fans of triangles
-// meet in a point, all but one move their vertex there a twentieth of the way to the fan's middle.
-// The result has no normals.
+// meet in a point, all fans but the first get a vertex of their own. This vertex is a twentieth of
+// the way from the point to the fan's middle. The result has no normals.
 Mesh shape_apart(const Mesh *mesh);
 
 // Adds mesh as a two-sided object. The scene then owns the mesh.

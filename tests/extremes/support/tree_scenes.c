@@ -11,8 +11,8 @@ const char *const tree_scene_names[TREE_SCENES] = {
 
 enum { SLIVERS = 7, COINCIDENT, NESTED, SPIRAL, MIXED, ONE_TRIANGLE };
 
-// Moves the third corner of each triangle to the middle of the other two corners, plus 1e-5 of its
-// old position.
+// Moves the third corner of each triangle almost to the middle m of the other two corners: from p
+// to m + 1e-5 * p.
 static Mesh slivers(Random *random)
 {
     Mesh mesh = shape_soup(random, 500, 0.5);
@@ -80,7 +80,7 @@ Scene tree_scene_make(size_t number)
         const double s = 0.01 * i;
         add_triangle(&scene, vec3(s, 0, 0), vec3(0, s, 0), vec3(-s, -s, 0));
     }
-    // Each triangle is half as large and half as far as the one before.
+    // Each triangle is half as large as the one before, and at half its distance from the origin.
     for (int i = 0; number == SPIRAL && i < 120; i++) {
         const double s = ldexp(1, -i);
         add_triangle(&scene, vec3(s, 0, 0), vec3(s, s, 0.2 * s), vec3(0, s, s));

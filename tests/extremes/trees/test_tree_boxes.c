@@ -17,7 +17,7 @@ typedef struct {
 } Walk;
 
 // Checks the planes of one child against `box`, the box of the triangles below it, and extends
-// `all` by this box. `children`, the most children of a node, is the step from plane to plane.
+// `all` by this box. Successive planes are `children` floats apart, one for each possible child.
 static void check_child(Walk *walk, const float *planes, size_t children, const Box *box, Box *all)
 {
     double largest = 0;

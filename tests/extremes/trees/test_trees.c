@@ -76,7 +76,7 @@ static void make_rays(Rays rays, size_t number, BatchTask task, bool from_surfac
     stage_free(&stage);
     for (size_t i = 0; i < rays.count && task == BATCH_BLOCKED; i++) {
         rays.data[i].kind = RAY_SHADOW;
-        // Doubled rays meet their target halfway, but doubled rays along an axis end at it.
+        // A shadow ray of doubled length passes its target or, along an axis, ends at its target.
         for (int axis = 0; axis < 3 && !from_surfaces && i % 16 < 8; axis++)
             rays.data[i].direction[axis] *= 2;
     }
