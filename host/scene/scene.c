@@ -85,8 +85,10 @@ bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *are
     const uint32_t count = area->cells * area->cells;
     Light point = *light;
     point.intensity /= cells * cells;
+    const AreaLight whole = {*light, *area, scene->lights.count};
     if (!array_reserve(&scene->lights.memory, &scene->lights.capacity, scene->lights.count + count,
-                       sizeof point, error))
+                       sizeof point, error) ||
+        (count > 1 && !array_push(&scene->area_lights, whole, error)))
         return false;
     for (uint32_t i = 0; i < count; i++) {
         const double column = i % area->cells, row = i / area->cells;
@@ -191,6 +193,7 @@ void scene_free(Scene *scene)
     free(scene->inputs.memory);
     free(scene->notes.memory);
     free(scene->lights.memory);
+    free(scene->area_lights.memory);
     free(scene->spheres.memory);
     free(scene->objects.memory);
     free(scene->materials.memory);

@@ -35,6 +35,13 @@ typedef struct {
     uint32_t cells; // along each side, in [1, AREA_CELLS_MOST]
 } LightArea;
 
+// A light with an area, as scene text states it. Its points are consecutive lights of the scene.
+typedef struct {
+    Light light;
+    LightArea area;
+    size_t first; // its first point
+} AreaLight;
+
 static inline Light light_white(Vec3 position, double intensity)
 {
     return (Light){position, intensity, {1, 1, 1}, false};
@@ -68,6 +75,7 @@ typedef struct {
 
 typedef struct {
     ARRAY(Light) lights;
+    ARRAY(AreaLight) area_lights; // of more than one point, in the order of their points
     ARRAY(Sphere) spheres;
     ARRAY(MeshObject) objects;
     ARRAY(Material) materials;    // the course's materials, then defined and imported materials
@@ -94,8 +102,8 @@ bool scene_init(Scene *scene, Error *error);
 // Adds the course's six viewpoints if the scene has no viewpoint.
 bool scene_complete(Scene *scene, Error *error);
 
-// Adds to the scene a point light in each cell of the area. Together, the point lights have the
-// intensity of `light`, which is not added itself. If memory runs out, adds no light.
+// Adds to the scene's lights a point light in each cell of the area. Together, the point lights
+// have the intensity of `light`. If memory runs out, adds nothing.
 bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error);
 
 // Both functions combine a hash of the bytes with scene->hash. scene_hash_mesh also changes

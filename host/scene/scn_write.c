@@ -236,17 +236,35 @@ static void write_defines(const Writer *writer)
     }
 }
 
+static void write_light(FILE *stream, const Light *light, const LightArea *area)
+{
+    fputs(light->is_sun ? "sun" : "light", stream);
+    write_vector(stream, light->position);
+    write_number(stream, light->intensity);
+    if (light->color.x < 1 || light->color.y < 1 || light->color.z < 1)
+        write_vector(stream, light->color);
+    if (area != NULL) {
+        fputs(" area", stream);
+        write_vector(stream, area->sides[0]);
+        write_vector(stream, area->sides[1]);
+        fprintf(stream, " %u", area->cells);
+    }
+    fputc('\n', stream);
+}
+
 static void write_lights(const Writer *writer)
 {
-    for (size_t i = 0; i < writer->scene->lights.count; i++) {
-        const Light *light = &writer->scene->lights.data[i];
-        fputs(light->is_sun ? "sun" : "light", writer->stream);
-        write_vector(writer->stream, light->position);
-        write_number(writer->stream, light->intensity);
-        if (light->color.x < 1 || light->color.y < 1 || light->color.z < 1)
-            write_vector(writer->stream, light->color);
-        fputc('\n', writer->stream);
+    const Scene *scene = writer->scene;
+    size_t point = 0;
+    for (size_t i = 0; i < scene->area_lights.count; i++) {
+        const AreaLight *next = &scene->area_lights.data[i];
+        for (; point < next->first; point++)
+            write_light(writer->stream, &scene->lights.data[point], NULL);
+        write_light(writer->stream, &next->light, &next->area);
+        point += (size_t)next->area.cells * next->area.cells;
     }
+    for (; point < scene->lights.count; point++)
+        write_light(writer->stream, &scene->lights.data[point], NULL);
 }
 
 static void select_material(Writer *writer, uint32_t material, bool is_own)

@@ -31,6 +31,7 @@ static void expect_same(const Scene *a, const Scene *b)
         assert_memory_equal(one, other, offsetof(Light, is_sun));
         assert_int_equal(one->is_sun, other->is_sun);
     }
+    assert_int_equal(a->area_lights.count, b->area_lights.count);
     assert_int_equal(a->viewpoints.count, b->viewpoints.count);
     assert_memory_equal(a->viewpoints.data, b->viewpoints.data,
                         a->viewpoints.count * sizeof *a->viewpoints.data);
