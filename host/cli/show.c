@@ -47,7 +47,6 @@ ExitCode show_scene(const Options *options, Session *session, Scene *scene, Erro
                    .cache = session->cache,
                    .max_level = options->picture.max_level},
         .keys = options->keys,
-        .quit_after = options->quit_after,
         .statistics = options->picture.statistics,
         .verbose = options->verbose,
         .patience = PATIENCE};

@@ -69,26 +69,17 @@ static void take_events(Viewer *viewer)
     window->event_count = 0;
 }
 
-bool viewer_has_keys(const Viewer *viewer)
+static bool has_keys(const Viewer *viewer)
 {
     return viewer->settings.keys != NULL && viewer->settings.keys[0] != '\0';
-}
-
-// Returns whether keys remain to be played or frames remain to be shown. The window then draws
-// without waiting for events.
-static bool is_playing(const Viewer *viewer)
-{
-    return viewer_has_keys(viewer) || viewer->settings.quit_after > 0;
 }
 
 // Plays the next key once the effect of the previous key is displayed.
 static void play_key(Viewer *viewer)
 {
-    if (!is_playing(viewer) || !viewer_is_settled(viewer) || viewer->is_dirty)
+    if (!has_keys(viewer) || !viewer_is_settled(viewer) || viewer->is_dirty)
         return;
     viewer->is_dirty = true;
-    if (!viewer_has_keys(viewer))
-        return;
     const Event event = {.kind = EVENT_KEY, .key = (unsigned char)*viewer->settings.keys++};
     take_event(viewer, &event);
 }
@@ -144,7 +135,7 @@ static void post_request(Viewer *viewer)
 // Returns the number of seconds that the loop may sleep.
 static double idle_seconds(const Viewer *viewer)
 {
-    const bool plays = is_playing(viewer) && viewer_is_settled(viewer);
+    const bool plays = has_keys(viewer) && viewer_is_settled(viewer);
     const bool turns = viewer->state.turning && !viewer->state.traced;
     return viewer->is_dirty || plays || turns ? 0 : REST_SECONDS;
 }

@@ -15,11 +15,10 @@ typedef struct {
     Encoding encoding;
     int exposure; // initial, in half stops
     TracerOptions tracer;
-    const char *keys;    // keys to play, starting in the OpenGL view; NULL for none
-    uint32_t quit_after; // number of frames to show; 0: until the user quits
-    bool statistics;     // print frame times at the end
-    bool verbose;        // print the state whenever it changes
-    double patience;     // seconds to wait for the worker thread at the end
+    const char *keys; // keys to play, starting in the OpenGL view; NULL for none
+    bool statistics;  // print frame times at the end
+    bool verbose;     // print the state whenever it changes
+    double patience;  // seconds to wait for the worker thread at the end
 } ViewerSettings;
 
 typedef enum { VIEWER_CLOSED, VIEWER_NO_WINDOW, VIEWER_NO_SCENE, VIEWER_NO_DEVICE } ViewerEnd;

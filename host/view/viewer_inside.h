@@ -30,7 +30,7 @@ void frame_times_free(FrameTimes *times);
 
 typedef struct {
     // The viewer has a copy, because the worker may outlive viewer_run. `keys` points to the next
-    // key to play, and `quit_after` counts the frames that remain to be shown.
+    // key to play.
     ViewerSettings settings;
     Window window;
     Views views;
@@ -80,8 +80,6 @@ bool viewer_recover(Viewer *viewer, Error *error);
 
 // Returns whether the effects of all keys played so far are complete.
 bool viewer_is_settled(const Viewer *viewer);
-
-bool viewer_has_keys(const Viewer *viewer);
 
 bool viewer_draw(Viewer *viewer, Error *error);
 

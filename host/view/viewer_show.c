@@ -203,31 +203,22 @@ static void print_news(Viewer *viewer, const Figures *figures)
         fprintf(stderr, "clrt: %s\n", text);
 }
 
-// Returns false if the camera turns and the traced picture is the same as in the previous frame.
-// Such frames are neither timed nor counted.
-static bool is_new_frame(const Viewer *viewer)
+// Times the frame if the camera turns. In the traced view, frames that show the previous frame's
+// picture are neither timed nor counted.
+static void count_frame(Viewer *viewer)
 {
-    return !viewer->state.turning || !viewer->state.traced ||
-           viewer->status.moving_frames != viewer->moving_shown;
-}
-
-static void count_frame(Viewer *viewer, bool was_settled)
-{
-    const bool is_new = is_new_frame(viewer);
+    const bool is_new =
+        !viewer->state.traced || viewer->status.moving_frames != viewer->moving_shown;
     viewer->moving_shown = viewer->status.moving_frames;
     if (!viewer->state.turning)
         viewer->frame_times.latest = 0;
     else if (is_new)
         frame_times_add(&viewer->frame_times, clock_seconds(), &viewer->failure);
-    uint32_t *left = &viewer->settings.quit_after;
-    if (was_settled && is_new && !viewer_has_keys(viewer) && *left > 0 && --*left == 0)
-        viewer->quits = true;
 }
 
 bool viewer_draw(Viewer *viewer, Error *error)
 {
     const Frame frame = frame_of(viewer);
-    const bool was_settled = viewer_is_settled(viewer);
     viewer->is_dirty = viewer->window.is_touched = false;
     if (frame.width == 0 || frame.height == 0)
         return true;
@@ -238,7 +229,7 @@ bool viewer_draw(Viewer *viewer, Error *error)
     update_title(viewer, &figures);
     glfwSwapBuffers(viewer->window.handle);
     print_news(viewer, &figures);
-    count_frame(viewer, was_settled);
+    count_frame(viewer);
     return true;
 }
 

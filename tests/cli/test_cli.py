@@ -21,10 +21,9 @@ NO_FILE = "cannot be opened: No such file or directory"
 REFUSALS = [
     (2, "a name is missing: the usage is clrt SCENE", []),
     (2, NOT_HERE, [*FILE, "--keys", "q"]),
-    (2, NOT_HERE, [*FILE, "--quit-after", "1"]),
     (2, "clrt warm takes no --hash; clrt SCENE -o FILE does", ["warm", "--hash"]),
     (2, "clrt devices takes no --aa; clrt SCENE does", ["devices", "--aa=9"]),
-    (2, "--quit-after wants an integer between 1 and 1000000, not '0'", [SCENE, "--quit-after", "0"]),
+    (2, "unknown option '--quit-after', perhaps --keys=KEYSq", [SCENE, "--quit-after", "1"]),
     (2, "unknown option '--sise', perhaps --size", [*FILE, "--sise", "4x4"]),
     (2, "unknown option '--preciasion', perhaps --precision", [*FILE, "--preciasion", "fp64"]),
     (2, "unknown option '-z'; clrt --help lists them", ["-z"]),

@@ -73,7 +73,7 @@ TRIALS = {
 }
 
 # These tests try the options that need a window.
-IN_THE_WINDOW = {"keys": "tests/view/test_keys.py", "quit-after": "tests/view/test_keys.py"}
+IN_THE_WINDOW = {"keys": "tests/view/test_keys.py"}
 
 # These values differ between two runs with the same arguments.
 MEASURED = ("seconds", "frame_seconds", "bytes", "cached")

@@ -69,7 +69,6 @@ static const struct {
     {"fail", "rmse=1%"},
     {"json", "j.json"},
     {"keys", "q"},
-    {"quit-after", "1"},
 };
 
 // Returns whether this test covers the option. Other tests cover the rest. --help and --version

@@ -50,7 +50,6 @@ static const char *const counterparts[][2] = {
     {"fail", "It compares two files."},
     {"json", "ClrtPicture::result ClrtResult::seconds clrt_explanation_get_ray"},
     {"keys", "It is for the window."},
-    {"quit-after", "It is for the window."},
     {"quiet", "The library prints nothing."},
     {"verbose", "The library prints nothing."},
     {"version", "clrt_version"},

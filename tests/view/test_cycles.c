@@ -41,7 +41,6 @@ static void show_once(const char *keys)
         .uses_bvh = true,
         .tracer = {.session = {.wanted = {.threads = 2}}, .cache = cache},
         .keys = keys,
-        .quit_after = 1,
         .patience = 60};
     if (viewer_run(&settings, &error) != VIEWER_CLOSED)
         fail_msg("%s", error.text);
@@ -83,7 +82,7 @@ bool __wrap_file_read(File *file, const char *path, Error *error)
 TEST(a_window_without_a_font_shows_pictures)
 {
     fonts_missed = 0;
-    show_once("hrR");
+    show_once("hrRq");
     assert_true(fonts_missed > 1);
     fonts_missed = -1;
 }
@@ -92,7 +91,7 @@ TEST(a_lost_context_is_made_anew)
 {
     openings = 0;
     losses = 2;
-    show_once("rBn");
+    show_once("rBnq");
     assert_int_equal(openings, 3);
     assert_true(losses < 0);
 }
@@ -142,7 +141,7 @@ TEST(many_windows_leave_nothing_behind)
     const double kept_by_drivers = bytes_kept_by_drivers();
     Usage before = {0};
     for (int cycle = 0; cycle < CYCLES; cycle++) {
-        show_once(cycle % 2 == 0 ? "" : "rB");
+        show_once(cycle % 2 == 0 ? "q" : "rBq");
         if (cycle == WARMING_UP)
             before = measure();
     }

@@ -116,10 +116,9 @@ typedef enum {
 #define REPEAT_MAX 1000
 
 // The largest values of options.
-#define EXPOSURE_MOST   8 // stops, as the window's keys allow
-#define VIEW_MOST       1000000
-#define THREADS_MOST    4096
-#define QUIT_AFTER_MOST 1000000
+#define EXPOSURE_MOST 8 // stops, as the window's keys allow
+#define VIEW_MOST     1000000
+#define THREADS_MOST  4096
 
 // Strings point into the command line or are static.
 typedef struct {
@@ -150,7 +149,6 @@ typedef struct {
     bool hash;                 // print the hash of the pixels, or check it
     const char *expected_hash; // NULL: print it
     const char *keys;          // key presses to play in the window; NULL for none
-    uint32_t quit_after;       // frames to show after the keys; 0: until the user closes the window
     BadGeometry bad_geometry;
     Limits limits;         // of ACTION_COMPARE
     uint32_t pixel[2];     // of ACTION_EXPLAIN: column and row

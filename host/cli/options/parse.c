@@ -58,6 +58,7 @@ static const struct {
     {"specialize", "--tune specialize=WORD"},
     {"bvh", "--tune bvh=WORD"},
     {"no-bvh", "--tune bvh=none"},
+    {"quit-after", "--keys=KEYSq"},
     {"expect-hash", "--hash=EXPECTED"},
     {"stats", "--json=FILE"}, // for --stats=FILE; --stats itself takes no value
 };

@@ -135,9 +135,7 @@ const Option option_table[] = {
      "write the report as JSON, to FILE or standard output; of a picture, its statistics"},
 
     {"keys", "KEYS", 0, TEXT(keys), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
-     "play these keys in the window, one per displayed frame"},
-    {"quit-after", "N", 0, COUNT(quit_after, QUIT_AFTER_MOST), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
-     "close the window after N more frames once all keys are played"},
+     "play these keys in the window, one per displayed frame; q closes it"},
 
     {"quiet", NULL, 'q', FLAG(quiet), GROUP_TALK, CLASS_NONE,
      FOR_KERNELS | FOR_COMPARE | FOR_MERGE | FOR_CONVERT, "print only errors"},
