@@ -66,6 +66,7 @@ typedef struct {
     ClrtUp up;
     bool flat;             // ignores the file's normals; otherwise, missing normals are computed
     double crease_degrees; // larger angles stay sharp; at most 180; 0 chooses 33 or 70 by the shape
+    bool soft;             // lights the mesh by areas instead of points, so its shadows are soft
 } ClrtLoad;
 
 // Reads a scene file (man 5 clrt-scene) or a mesh file, as `clrt` does. For mesh files other than

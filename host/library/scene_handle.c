@@ -151,7 +151,8 @@ ClrtScene *clrt_scene_load(const char *path, const ClrtLoad *load, ClrtError *er
     const Normals computed = given.crease_degrees > 0 ? NORMALS_SMOOTH : NORMALS_AUTO;
     const SceneLoadOptions options = {.up = (UpAxis)given.up,
                                       .normals = given.flat ? NORMALS_FLAT : computed,
-                                      .crease_degrees = given.crease_degrees};
+                                      .crease_degrees = given.crease_degrees,
+                                      .studio = given.soft ? STUDIO_SOFT : STUDIO_HARD};
     return make(path, &options, error);
 }
 

@@ -212,12 +212,39 @@ static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}, false},
 #define FLOOR_RADIUS   1e4
 #define LIGHT_DISTANCE 1e4
 
+// Soft lights are squares that face the meshes. LIGHT_SIDE is the side divided by the distance.
+#define LIGHT_SIDE  0.09
+#define LIGHT_CELLS 4
+
 bool mesh_scene_is_mesh(const char *bytes, size_t size)
 {
     return size >= 4 && memcmp(bytes, "ply", 3) == 0 && (bytes[3] == '\n' || bytes[3] == '\r');
 }
 
-static bool add_studio(Scene *scene, Error *error)
+// Returns the area of a light with this offset from the meshes' center.
+static LightArea light_area(Vec3 offset, StudioLights studio)
+{
+    const Vec3 side = vec3_normalize(vec3_cross(vec3(0, 0, 1), offset));
+    const Vec3 other = vec3_normalize(vec3_cross(offset, side));
+    const double length = LIGHT_SIDE * sqrt(vec3_dot(offset, offset));
+    return (LightArea){{vec3_scale(side, length), vec3_scale(other, length)},
+                       studio == STUDIO_SOFT ? LIGHT_CELLS : 1};
+}
+
+static bool add_lights(Scene *scene, StudioLights studio, Vec3 center, double radius, Error *error)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < 3; i++) {
+        Light light = lights[i];
+        const Vec3 offset = vec3_scale(light.position, LIGHT_DISTANCE * radius);
+        const LightArea area = light_area(offset, studio);
+        light.position = vec3_add(center, offset);
+        ok = scene_add_area_light(scene, &light, &area, error);
+    }
+    return ok;
+}
+
+static bool add_studio(Scene *scene, StudioLights studio, Error *error)
 {
     BoundingBox box = bounding_box_empty();
     for (size_t object = 0; object < scene->objects.count; object++)
@@ -229,20 +256,16 @@ static bool add_studio(Scene *scene, Error *error)
     const Vec3 center = vec3_add(box.low, half);
     const double radius = sqrt(vec3_dot(half, half)), depth = FLOOR_RADIUS * radius;
     const Sphere floor = {vec3(center.x, center.y, box.low.z - depth), depth, MESH_FLOOR};
-    scene->viewpoints.count = scene->lights.count = scene->spheres.count = 0;
+    scene->viewpoints.count = scene->spheres.count = 0;
+    scene->lights.count = scene->area_lights.count = 0;
     scene->has_course_views = false;
-    bool ok = mesh_frame_add_views(scene, center, radius, error) &&
-              (is_empty || array_push(&scene->spheres, floor, error));
-    for (int i = 0; ok && i < 3; i++) {
-        Light light = lights[i];
-        light.position = vec3_add(center, vec3_scale(light.position, LIGHT_DISTANCE * radius));
-        ok = array_push(&scene->lights, light, error);
-    }
-    return ok;
+    return mesh_frame_add_views(scene, center, radius, error) &&
+           (is_empty || array_push(&scene->spheres, floor, error)) &&
+           add_lights(scene, studio, center, radius, error);
 }
 
-// Adds the up axis and the choice of normals to the hash, because all parts of a picture must agree
-// on them.
+// Adds the up axis, the choice of normals and the studio to the hash, because all parts of a
+// picture must agree on them.
 static void hash_choices(Scene *scene, const SceneLoadOptions *options)
 {
     const char *up = up_axis_names[scene->mesh_up];
@@ -250,14 +273,16 @@ static void hash_choices(Scene *scene, const SceneLoadOptions *options)
     scene_hash_input(scene, up, strlen(up));
     if (options->normals != NORMALS_AUTO)
         scene_hash_input(scene, normals, sizeof normals);
+    if (options->studio != STUDIO_HARD)
+        scene_hash_input(scene, &options->studio, sizeof options->studio);
 }
 
-static bool turn_and_frame(Scene *scene, UpAxis up, Error *error)
+static bool turn_and_frame(Scene *scene, UpAxis up, StudioLights studio, Error *error)
 {
     for (size_t object = 0; object < scene->objects.count; object++)
         mesh_turn_up(&scene->objects.data[object].mesh, up);
     scene->mesh_up = up;
-    return add_studio(scene, error);
+    return add_studio(scene, studio, error);
 }
 
 // Returns the up axis that a Collada file names. Assimp would turn such files, but clrt-foreign
@@ -312,8 +337,10 @@ bool mesh_scene_fill(Scene *scene, const File *ply, const char *path,
               mesh_load_normals(scene, 0, &mesh, error);
     scene->mesh_seconds = clock_seconds() - start;
     const bool is_auto = options->up == UP_AUTO;
-    ok = ok && turn_and_frame(
-                   scene, is_auto ? up_axis_of_file(scene, path, ply != NULL) : options->up, error);
+    if (ok) {
+        const UpAxis up = is_auto ? up_axis_of_file(scene, path, ply != NULL) : options->up;
+        ok = turn_and_frame(scene, up, options->studio, error);
+    }
     if (ok)
         hash_choices(scene, options);
     return ok;

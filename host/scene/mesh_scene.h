@@ -11,13 +11,18 @@ typedef enum {
     NORMALS_SMOOTH // compute the normals that the file lacks
 } Normals;
 
-// The options of scn_load. {0} suits most callers. In scene text, statements choose the up axis and
-// the normals. For scene text, scn_load therefore fails unless `up` and `normals` are 0.
+// Whether the lights around a lone mesh are points or have areas.
+typedef enum { STUDIO_HARD, STUDIO_SOFT } StudioLights;
+
+// The options of scn_load. {0} suits most callers. In scene text, statements choose the up axis,
+// the normals and the lights. For scene text, scn_load therefore fails unless `up`, `normals` and
+// `studio` are 0.
 typedef struct {
     bool is_tolerant;      // reads PLY meshes with ply_parse_tolerantly
     UpAxis up;             // of a lone mesh file
     Normals normals;       // of a lone mesh file
     double crease_degrees; // an angle or CREASE_BY_SHAPE; used only with NORMALS_SMOOTH
+    StudioLights studio;   // of a lone mesh file
 } SceneLoadOptions;
 
 // Returns whether the bytes are a PLY file. All other files in memory are read as scene text.

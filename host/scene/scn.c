@@ -339,6 +339,11 @@ static bool check_for_text(const SceneLoadOptions *options, const char *name, Er
             error,
             "%s: only lone mesh files can be turned; in a scene, write 'up %s' after the path",
             name, up_axis_names[options->up]);
+    if (options->studio != STUDIO_HARD)
+        return error_set(error,
+                         "%s: only lone mesh files have a studio; in a scene, write 'area' after a "
+                         "light",
+                         name);
     return options->normals == NORMALS_AUTO ||
            error_set(error,
                      "%s: only lone mesh files leave their normals open; in a scene, write "

@@ -39,6 +39,7 @@ TRIALS = {
     "crop": (PLAIN, PLAIN + ["--crop", "4,4,20,12"]),
     "view": (PLAIN, PLAIN + ["--view", "2"]),
     "up": (MESH, MESH + ["--up", "x"]),
+    "studio": (MESH, MESH + ["--studio", "soft"]),
     "normals": (CONE, CONE + ["--normals", "flat"]),
     "aa": (PLAIN, PLAIN + ["--aa=3"]),
     "aa-adaptive": (PLAIN, PLAIN + ["--aa-adaptive"]),

@@ -334,6 +334,18 @@ class Studio(Random):
         self.assertLess(abs(top - bottom), 1e-9 * float(floor[4]), self.seed)
         self.assertEqual(len([words for words in statements if words[0] == "light"]), 3)
 
+    def test_its_studio_may_have_soft_shadows(self):
+        points, triangles = self.mesh()
+        self.write(a_ply=models.ply(points, triangles))
+        self.clrt("convert", "a.ply", "a.scn", "--studio", "soft")
+        lights = [line for line in (self.work / "a.scn").read_text().splitlines() if line.startswith("light")]
+        self.assertEqual([" area " in line for line in lights], 3 * [True])
+        hashes = [self.clrt(*scene, "-s", "40x30", "--hash", "--aa=1")
+                  for scene in (["a.ply"], ["a.ply", "--studio", "soft"], ["a.scn"])]
+        self.assertEqual(hashes[1], hashes[2], self.seed)
+        self.assertNotEqual(hashes[0], hashes[1], self.seed)
+        self.refuses(3, "only lone mesh files have a studio", "a.scn", "--studio", "soft", "--hash")
+
     def test_its_materials_are_no_findings(self):
         self.write(a_ply=models.ply(KNOT, TRIANGLES))
         self.assertNotIn("defined and not used", self.clrt("check", "a.ply", "-q"))

@@ -45,6 +45,7 @@ static const struct {
     {"crop", "0,0,4,4"},
     {"view", "2"},
     {"up", "x"},
+    {"studio", "soft"},
     {"normals", "flat"},
     {"bad-geometry", "fail"},
     {"aa", "3"},

@@ -24,6 +24,7 @@ static const char *const counterparts[][2] = {
     {"view", "ClrtPicture::view"},
     {"up", "ClrtLoad::up"},
     {"normals", "ClrtLoad::flat ClrtLoad::crease_degrees"},
+    {"studio", "ClrtLoad::soft"},
     {"bad-geometry", "ClrtSceneInfo::dropped_triangle_count"},
     {"aa", "ClrtPicture::samples"},
     {"aa-adaptive", "ClrtPicture::contrast"},

@@ -122,10 +122,11 @@ TEST(a_mesh_file_is_turned_and_smoothed_as_by_the_program)
 {
     static const char mesh[] = "scenes/tetrahedron.ply";
     const ClrtLoad loads[] = {{.up = CLRT_UP_MINUS_Y, .flat = true},
-                              {.up = CLRT_UP_X, .crease_degrees = 120}};
+                              {.up = CLRT_UP_X, .crease_degrees = 120},
+                              {.soft = true}};
     const char *const options[] = {"--aa=1 --up=-y --normals=flat",
-                                   "--aa=1 --up=x --normals=smooth=120"};
-    for (int i = 0; i < 2; i++) {
+                                   "--aa=1 --up=x --normals=smooth=120", "--aa=1 --studio=soft"};
+    for (int i = 0; i < 3; i++) {
         ClrtLoad load = loads[i];
         load.size = sizeof load;
         expect_program(clrt_scene_load(program_file(mesh), &load, NULL), mesh, options[i]);

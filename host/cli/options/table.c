@@ -52,6 +52,9 @@ const Option option_table[] = {
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN | FOR_CONVERT,
      "ignore a lone mesh's normals, or compute those that it lacks (default); with smooth=DEGREES, "
      "larger angles stay sharp (default: 33 or 70, by shape)"},
+    {"studio", "hard|soft", 0, WORD(load.studio), GROUP_PICTURE, CLASS_NONE,
+     FOR_SCENE | FOR_CONVERT,
+     "shadows of a lone mesh (default: hard); soft ones take several times as long"},
     {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_PICTURE, CLASS_NONE,
      FOR_DRAWING | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
      "drop triangles with equal corners, or fail at any without area; drop is the default"},

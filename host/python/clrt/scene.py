@@ -129,13 +129,13 @@ class Scene:
 
 
 def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
-         crease: float | None = None) -> Scene:
+         crease: float | None = None, soft: bool = False) -> Scene:
     """Reads a scene file (man 5 clrt-scene) or a mesh file, which clrt places in a studio.
 
     up: the axis of a mesh file that points up, "x" to "-z". flat ignores its normals. Angles above
-    `crease` degrees stay sharp.
+    `crease` degrees stay sharp. soft gives the studio's lights areas, so shadows are soft.
     """
-    settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=crease)
+    settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=crease, soft=soft)
     return Scene(call("scene_load", os.fsencode(path), settings))
 
 
