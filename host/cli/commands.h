@@ -37,12 +37,12 @@ TracingCommand explain_pixel;
 // the options name a device or fp64. Otherwise, the report omits the leaks.
 TracingCommand check_scene;
 
-// clrt devices: lists the OpenCL devices as `clinfo -l` does, as versioned JSON, or both.
+// clrt devices: lists the OpenCL devices like `clinfo -l`, as versioned JSON, or in both forms.
 ExitCode device_report_write(const Options *options, Error *error);
 
-// Checks the scene for commands other than check. With `--bad-geometry fail`, fails if there are
-// triangles without area. Otherwise, prints the scene's notes and the first mesh with dropped
-// triangles, unless --quiet is given.
+// Checks the scene's geometry in all commands except check. With `--bad-geometry fail`, fails if
+// any triangle has no area. Otherwise, prints the scene's notes and names the first dropped
+// triangle, unless --quiet is given.
 bool check_geometry(const Options *options, const Scene *scene, Error *error);
 
 // clrt compare: reports the differences of two pictures. If the options name an output, also draws
@@ -55,10 +55,10 @@ ExitCode merge_parts(const Options *options, Error *error);
 // clrt convert: writes a scene or mesh as scene text with binary PLY meshes, or as one PLY mesh.
 ExitCode convert_scene(const Options *options, Error *error);
 
-// The next two functions handle the files that the command line names and, after the scene is read,
-// the scene's files.
+// The next two functions handle the files that the options name. If `scene` is not NULL, they also
+// handle the scene's files.
 
-// Adds to plan every file that the options name, and the files of scene unless scene is NULL.
+// Adds these files to `plan`.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
 
 // Fails if an output would replace an input or another output. main calls this function before any

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Reports a crash, and names the library that contains the program counter. The message does not
-// blame the library, because its caller may be at fault. For example, abort() and damaged heaps
-// crash in the C library.
+// blame the library, because its caller may be at fault. For example, abort() stops in the C
+// library, but its caller is at fault.
 //
-// LLVM installs its own handlers while it compiles a kernel. Its handler of SIGABRT does not call
-// clrt's handler, and its other handlers do not restore clrt's if two threads crash at once. The
-// executable therefore overrides the C library's sigaction and ignores requests to replace clrt's
-// handlers. Only SIGFPE stays replaceable, because PoCL uses it to step over divisions by zero.
+// LLVM installs its own handlers while it compiles a kernel. Its SIGABRT handler does not call
+// clrt's handler. If two threads crash at once, its other handlers do not restore clrt's handlers.
+// The executable therefore overrides the C library's sigaction and ignores requests to replace
+// clrt's handlers. Only SIGFPE may get another handler: PoCL uses it to skip divisions by zero.
 #include "cli/crash.h"
 
 #include "cli/options/options.h"
@@ -60,8 +60,8 @@ static bool read_line(int file, char line[LINE_SIZE])
     return next == '\n';
 }
 
-// Returns the name, without folders, of the mapped file that contains `place`, or NULL. Stores the
-// name in `line`. Reads /proc, because dladdr takes locks that the crashed thread may hold.
+// Returns the name, without folders, of the file that is mapped at address `place`, or NULL. Stores
+// the name in `line`. Reads /proc, because dladdr takes locks that the crashed thread may hold.
 static const char *file_at(uintptr_t place, char line[LINE_SIZE])
 {
     const int maps = open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
@@ -91,7 +91,7 @@ static _Noreturn void end(const char *message)
     _exit(EXIT_DEVICE);
 }
 
-// Handles a crash signal. Forks of the process that called crash_watch print no message.
+// Handles a crash signal. Forked processes print no message.
 static void handle(int number, siginfo_t *info, void *context)
 {
     char line[LINE_SIZE], message[LINE_SIZE + 160];

@@ -4,7 +4,7 @@
 // The C library's setenv frees or overwrites the array to which environ points.
 //
 // The executable therefore overrides setenv, unsetenv and putenv. Each change replaces environ by a
-// new array. Old arrays are never freed, but there are few changes.
+// new array. Old arrays are never freed, because other threads may read them. Changes are rare.
 #include <errno.h>
 #include <pthread.h>
 #include <stdbool.h>

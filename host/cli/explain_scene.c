@@ -27,7 +27,7 @@ static json_t *count_reason(uint32_t count)
     return count > 0 ? json_sprintf("%u of them", count) : json_string("there are none");
 }
 
-// Returns why a trait is needed or not. The table of traits has only reasons without numbers.
+// Returns why a trait is needed or not. Reasons without numbers come from the table of traits.
 static json_t *part_reason(const Session *session, const SceneForm *form, const Trait *trait,
                            bool is_needed)
 {
@@ -120,7 +120,7 @@ static json_t *report_json(const Options *options, const Session *session, const
                   FIELD("uploaded_bytes", arrays_json(&form->flat)));
 }
 
-// Prints the heading and the features with these properties. Prints nothing if there are none.
+// Prints the heading and the features that match both flags. Prints nothing if none match.
 static void write_parts(const json_t *parts, const char *heading, bool is_needed, bool is_compiled)
 {
     for (size_t i = 0; i < json_array_size(parts); i++) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Formats --help with names on the left and wrapped texts on the right. --help shows the help text
-// of an option or command up to the first semicolon. The man page shows the whole text.
+// Formats --help with names on the left and wrapped texts on the right. --help shows only the part
+// of each text before the first semicolon. The man page shows the whole text.
 #include "cli/commands.h"
 
 #include "cli/options/option.h"
@@ -10,7 +10,7 @@
 #define NAME_WIDTH 28
 #define TEXT_WIDTH 72
 
-// Returns the length of text's first line, broken at a space.
+// Returns the length of the first line of `text`. Lines end at a space if possible.
 static int line_length(const char *text)
 {
     const int length = (int)strlen(text);

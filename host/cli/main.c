@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// Limits PoCL's threads to count. If count is 0, the limit is processors_usable(), because PoCL
-// ignores the quotas of control groups. The user's environment variables then take precedence. PoCL
-// 3.1 and 6.0 read different variables.
+// Limits the number of PoCL's threads to `count`. If `count` is 0, the limit is
+// processors_usable(), because PoCL ignores the quotas of control groups. This limit does not
+// replace environment variables that the user has set. PoCL 3.1 and 6.0 read different variables.
 static void limit_threads(uint32_t count)
 {
     char text[16];
@@ -107,11 +107,11 @@ static void *run(void *context)
 int main(int count, char **arguments)
 {
     CommandLine line = {.count = count, .arguments = arguments};
-    // Ignores these signals, so that writing to a closed pipe or beyond a limit on file sizes fails
-    // with an error, which clrt reports.
+    // If these signals are ignored, a write to a closed pipe or beyond the limit on file sizes
+    // returns an error, which clrt reports.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
-    // Sanitizers install their own handlers and check for leaks at exit.
+    // Builds with sanitizers (CLRT_TIDY_EXIT) keep the crash handlers of the sanitizers.
     if (!CLRT_TIDY_EXIT)
         crash_watch();
     stack_run(run, &line);

@@ -2,8 +2,8 @@
 // clrt merge: joins the parts of a picture. A first pass checks all parts, and a second pass copies
 // their tiles into the whole picture. All parts must have the same scene, version and settings, and
 // each part must occur once. If can_join() is true, compressed tiles are copied, and the picture is
-// never in memory. Otherwise, tiles are decoded into a picture in memory, which is allocated only
-// if no part is missing.
+// never in memory. Otherwise, tiles are decoded into a picture in memory. This picture is allocated
+// only if no part is missing.
 #include "cli/commands.h"
 
 #include "base/output_file.h"

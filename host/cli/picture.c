@@ -74,7 +74,7 @@ static bool trace_layers(Picture *picture, Error *error)
     return ok;
 }
 
-// Draws the channels besides the colors. If the picture was stopped, the channels stay zero.
+// Draws the requested channels. If the picture was stopped, the channels stay zero.
 static bool draw_layers(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
@@ -156,7 +156,7 @@ static bool write_statistics(Picture *picture, Error *error)
     return options->json_path == NULL || report_write_json(picture, options->json_path, error);
 }
 
-// Checks SOURCE_DATE_EPOCH, and whether the outputs can be written and resumed, before any work.
+// Before any work, checks SOURCE_DATE_EPOCH, and whether the outputs can be written and resumed.
 static ExitCode check_files(Picture *picture, Error *error)
 {
     const Options *options = picture->options;

@@ -15,7 +15,7 @@
 static volatile sig_atomic_t stopped_by, waits_for_tiles;
 static pid_t watcher;
 
-// Ends the process. Forks of the process that installed the handlers print no message.
+// Ends the process. Forked processes print no message.
 static void end_process(int number)
 {
     static const char sentence[] = "clrt: stopped before the first tile: no picture is written\n";

@@ -7,7 +7,7 @@
 // signal of the same number ends the process at once.
 
 // Installs handlers for the first SIGINT and the first SIGTERM, unless these signals are ignored.
-// Before stop_wait_for_tiles, a signal ends the process with a message and status 128 + its number.
+// Until stop_wait_for_tiles is called, a signal ends clrt with a message and status 128 + number.
 void stop_watch(void);
 
 // Call this function before the first tile is rendered. Afterwards, the first signal only sets the

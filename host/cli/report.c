@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lists the fields of a picture's report. JSON contains all fields. The text contains a selection.
+// Lists the fields of a picture's report. JSON contains all fields, and the text contains some.
 #include "cli/report.h"
 
 #include "image/json_file.h"
@@ -276,7 +276,7 @@ static json_t *stored_samples_json(const Picture *picture)
                                                   : json_count(picture->request.settings.samples);
 }
 
-// Adds the tree's builder and node layout if the file has counts of tests, which depend on both.
+// If the file has counts of tests, adds what they depend on: the tree's builder and node layout.
 static void add_tree(json_t *json, const Picture *picture)
 {
     if (!aov_needs(picture->options->aovs, AOV_NEEDS_TESTS))

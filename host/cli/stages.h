@@ -30,7 +30,7 @@ bool stage_load(Session *session, Scene *scene, const Options *options, StageSec
 ExitCode stage_start(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
                      Error *error);
 
-// Fills the request for the view that the options name.
+// Fills `request` from the options and the scene.
 bool stage_request(SessionPicture *request, const Options *options, const Scene *scene,
                    Error *error);
 

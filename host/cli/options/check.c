@@ -18,7 +18,7 @@ const Exclusion exclusion_table[] = {
 };
 const size_t exclusion_count = sizeof exclusion_table / sizeof exclusion_table[0];
 
-// Returns the first of `names`, except `but`, that the command line contains, or NULL.
+// Returns the first name in `names` that the command line contains and that is not `but`, or NULL.
 static const char *first_given(const Options *options, const char *const names[], const char *but)
 {
     for (int i = 0; i < EXCLUSION_NAMES && names[i] != NULL; i++)
@@ -55,7 +55,7 @@ void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE])
     strcat(text, "]");
 }
 
-// Returns the option for a setting of a RequestFault.
+// Returns the name of the option for a setting that a RequestFault names.
 static const char *option_of_setting(const char *setting)
 {
     static const char *const names[][2] = {{"samples", "aa"},
@@ -71,7 +71,7 @@ static const char *option_of_setting(const char *setting)
     return setting;
 }
 
-// Checks the request for a picture. request_check has rules that are in no table of this file.
+// Checks the request for a picture by request_check, because the tables of options lack its rules.
 static bool check_request(const Options *options, Error *error)
 {
     RequestFault fault;
@@ -124,7 +124,7 @@ static bool check_window(const Options *options, Error *error)
 #endif
 }
 
-// Advice for films in unsupported formats. check_format appends the output path.
+// Advice for films (animated files) in unsupported formats. check_format appends the output path.
 #define FILM "; for a film, draw -o turn.####.png and run ffmpeg -framerate 20 -i turn.%04d.png "
 
 static bool check_format(Options *options, Error *error)

@@ -29,7 +29,7 @@ static bool read_integer(const char *text, int64_t low, int64_t high, int64_t *n
     return integer_parse(text, end, number) == end && *number >= low && *number <= high;
 }
 
-// Reads two integers, each from low to high, with a separator between them.
+// Reads two integers with a separator between them. Both must be at least `low` and at most `high`.
 static bool read_two_integers(const char *text, char separator, int64_t low, int64_t high,
                               int64_t pair[2])
 {
@@ -304,8 +304,8 @@ bool set_reference_samples(Options *options, const char *text, Error *error)
 {
     int64_t samples;
     options->reference = true;
-    // Each half of the samples makes a picture. The two pictures' difference measures the
-    // reference's own error.
+    // The number must be even, because each half of the samples makes a picture. The difference
+    // between the two pictures measures the reference's own error.
     if (!read_integer(text, 2, REFERENCE_SAMPLES_MAX, &samples) || samples % 2 != 0)
         return error_set(error,
                          "--reference-samples wants an even number between 2 and %d, not '%s'",

@@ -137,7 +137,7 @@ void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE])
 // as the picture's format.
 bool options_check(Options *options, const Command *command, Error *error);
 
-// The setters of options of kind OPTION_ODD, and set_pixel, which parses an operand.
+// The setters of the options of kind OPTION_ODD. set_pixel parses an operand instead of an option.
 SetOption set_output, set_format, set_exposure, set_aov, set_hash, set_crop, set_max_level,
     set_error, set_time, set_tune, set_kernel, set_frames, set_part, set_reference,
     set_reference_samples, set_normals, set_pixel, set_fail, set_json;
@@ -153,7 +153,7 @@ extern const size_t option_count; // at most OPTIONS_MOST
 // The headings of the groups.
 extern const char *const option_group_names[OPTION_GROUPS];
 
-// The names of the classes and their meanings, which are "" for CLASS_NONE.
+// The name and the meaning of each OptionClass. Both are "" for CLASS_NONE.
 extern const char *const option_class_names[OPTION_CLASSES];
 extern const char *const option_class_meanings[OPTION_CLASSES];
 

@@ -20,9 +20,9 @@ typedef struct {
     uint32_t index, count; // index from 1 to count; 0, 0: the whole job
 } Share;
 
-// Parses text. Returns false and leaves error empty if text is malformed, I is above N, or N is
-// above most. Returns false and fills error if the environment variable is missing, not a number or
-// out of range.
+// Parses `text`. If `text` is malformed or not 1 <= I <= N <= `most`, returns false and leaves
+// error empty. Returns false and fills error if the environment variable is missing, not a number
+// or out of range.
 bool share_parse(Share *share, const char *text, uint32_t most, Error *error);
 
 // Returns the index of the share's first item among `total` items. Shares are runs of consecutive

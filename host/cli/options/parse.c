@@ -100,7 +100,7 @@ static size_t option_of(int found)
 }
 
 // Records that the command line contains the option. If a setting is repeated, its last value
-// counts. A repeated file name is an error, because the first file would not be written.
+// counts. An option for a file may occur only once, because its first file would be ignored.
 static bool mark_given(Options *options, size_t row, Error *error)
 {
     const Option *option = &option_table[row];
@@ -111,9 +111,9 @@ static bool mark_given(Options *options, size_t row, Error *error)
     return true;
 }
 
-// Returns the row of the command. Without a command name, the options select the row. Otherwise,
-// returns the last row of this name that needs at most `count` operands or, if there is none, the
-// first row of this name.
+// Returns the row of the command. If `name` is empty, the options select the row. Otherwise,
+// returns the last row of this name that needs at most `count` operands. If all rows of this name
+// need more operands, returns the first of them.
 static const Command *find_command(const Options *options, const char *name, int count)
 {
     const unsigned picture = options->output_path != NULL ? FOR_FILE
@@ -166,8 +166,8 @@ static bool is_command(const char *word)
     return i < command_count;
 }
 
-// If the option has a fallback, rejects a valid value after a space, as in "--aa 4", unless a file
-// has this name.
+// An option with a fallback takes no value after a space. The function rejects a valid value there,
+// as in "--aa 4", unless a file has this name.
 static bool check_loose_value(const Option *option, const char *word, Error *error)
 {
     Options scratch;

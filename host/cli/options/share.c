@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// clrt reads the first of these variables that is set. Ranks of processes come last, because Slurm
-// sets SLURM_PROCID in the tasks of arrays too.
+// clrt reads the first of these variables that is set. The variables for ranks of processes come
+// last, because Slurm sets SLURM_PROCID in the tasks of job arrays too.
 static const struct {
     const char *name;
     int64_t first; // the number of the first task
