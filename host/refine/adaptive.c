@@ -21,7 +21,7 @@
 
 #define GROUPS_OF_TASK 512
 
-// The list of samples for the groups from `first` on, or for all pixels.
+// The samples of a pass: of all pixels at first, and later of the groups from `first` on.
 typedef struct {
     RefineTree *tree;
     uint32_t first;

@@ -10,8 +10,8 @@
 // A pass selects all its cells before it traces any of them, so that the samples form one large
 // list for the device.
 //
-// Invariant: the selection depends only on finished samples and not on the order of work, so all
-// devices and thread counts render the same bits.
+// Invariant: the selection depends only on finished samples and not on the order of work. The bits
+// of the picture therefore do not depend on the device or on the number of threads.
 #pragma once
 
 #include "base/thread_pool.h"

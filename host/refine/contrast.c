@@ -129,7 +129,7 @@ static bool cut_list(RefineTree *tree, const CutList *list, Error *error)
     return true;
 }
 
-// The rows of pixels, or the groups, to examine. Threads call `mark` for ranges of `part` of them.
+// The pixel rows or the groups to examine. Threads call `mark` for `part` of them at a time.
 typedef struct {
     uint32_t count, part;
     ThreadPoolPart *mark;

@@ -15,8 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Samples per request for the first REQUEST_SAMPLES samples of a pixel. Later requests have
-// REQUEST_SAMPLES samples.
+// Requests have FIRST_SAMPLES samples until the pixel has REQUEST_SAMPLES samples. Later requests
+// have REQUEST_SAMPLES samples.
 #define FIRST_SAMPLES 4
 
 static inline uint32_t rung_of(const Ladder *ladder, size_t pixel)
@@ -30,7 +30,7 @@ uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel)
     return rung == 0 ? 1 : 1 + ladder_samples[rung];
 }
 
-// Allocates the arrays of fixed size as one, because only large arrays get huge pages.
+// Allocates all arrays of fixed size as one block, because only large blocks get huge pages.
 static bool make_arrays(Ladder *ladder, Error *error)
 {
     PixelRequests *requests = &ladder->requests;
@@ -171,8 +171,8 @@ static bool climb(Ladder *ladder, uint32_t pixel, uint32_t first, Error *error)
 // The number of pixels that climb_all prefetches ahead.
 #define PREFETCHED 8
 
-// Loads a pixel's memory into the cache. Without this, half of the time of climb would be cache
-// misses.
+// Loads a pixel's memory into the cache. Without prefetching, climb() would spend half of its time
+// on cache misses.
 static void prefetch_pixel(const Ladder *ladder, uint32_t pixel)
 {
     __builtin_prefetch(ladder->picture->pixels[pixel], 1);
@@ -251,9 +251,9 @@ bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
 // After this many rounds, clrt gives up the error goal.
 #define ROUNDS_MOST 300
 
-// A round should take at most PART_OF_ROUND of the remaining time, or all of it if less than
-// PART_OF_LAST of the budget remains. If less than PART_UNSPENT of the budget remains, no further
-// round starts.
+// A round should take at most the fraction PART_OF_ROUND of the remaining time. If less than
+// PART_OF_LAST of the budget remains, a round may take all of the remaining time. If less than
+// PART_UNSPENT of the budget remains, no further round starts.
 #define PART_OF_ROUND 0.5
 #define PART_OF_LAST  0.2
 #define PART_UNSPENT  0.03

@@ -8,8 +8,8 @@
 // advance even if they look finished, and their changes measure the error of the others
 // (ladder_strata.h).
 //
-// The steps of ladder_advance are in ladder_choice.c (which pixels), ladder_requests.c (their
-// samples) and ladder.c (their new strata). ladder_entry.c places the pixels on rung 0.
+// First, ladder_entry.c places the pixels on rung 0. In ladder_advance, ladder_choice.c selects
+// pixels, ladder_requests.c traces their samples, and ladder.c assigns their new strata.
 //
 // Invariant: with an error goal, choices depend only on sums of samples, which are added in a fixed
 // order. The picture therefore depends neither on the order of work nor on the device.
@@ -17,7 +17,7 @@
 
 #include "refine/ladder_state.h"
 
-// The longest side of a picture, so that sub-pixel positions fit into 31 bits.
+// The largest width and height of a picture. Sub-pixel positions then fit into 31 bits.
 #define LADDER_SIDE_MOST   (1u << 19)
 #define LADDER_PIXELS_MOST ((uint64_t)1 << 31)
 
@@ -43,8 +43,8 @@ typedef struct {
     bool reached;
 } GoalOutcome;
 
-// Refines until the bound is at most `most`, no pixel can advance, too many rounds have passed, or
-// the observer stops the trace.
+// Refines until outcome->bound is at most `most`. Stops earlier if no pixel can advance, if too
+// many rounds have passed, or if the observer stops the trace.
 bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
 
 // A time budget, on the clock of clock_seconds.

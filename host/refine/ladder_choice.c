@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each pixel has a random number in [0, 1) on each rung: a hash of the pixel and the rung. Pixels
 // whose number is below their stratum's fraction are selected. After their samples, they move to
-// another stratum. If the fraction rises later, it selects only further pixels.
+// another stratum. The numbers stay the same, so a fraction that rises later only adds pixels.
 //
 // Selected pixels are listed block by block, because rays of nearby pixels traverse the tree
 // together. With lists in row order, pictures took 3 to 10 % longer.

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The bend of a pixel is the largest |2 c - a - b|, where c is a channel of the pixel, and a and b
+// The bend of a pixel is the largest |2 c - a - b|. Here c is a channel of the pixel, and a and b
 // are this channel of two opposite neighbors in the row, the column or a diagonal. Pairs with a
 // neighbor outside of the picture do not count.
 
@@ -49,8 +49,8 @@ static float larger(float one, float other)
     return one > other ? one : other;
 }
 
-// The distances of neighbors, in floats of a picture's array. A distance of 0 makes the pixel its
-// own neighbor on both sides, which adds nothing to its bend.
+// The distances from a pixel to its neighbors in the picture's array, counted in floats. A distance
+// of 0 makes the pixel its own neighbor on both sides, which adds nothing to its bend.
 typedef struct {
     ptrdiff_t right, down;
 } Neighbors;
@@ -139,8 +139,8 @@ static void spread_bends(const Area *area, uint32_t row, float nearby[AREA_WIDTH
                            larger(columns[x + 3], columns[x + 4]));
 }
 
-// Records the strata of consecutive pixels, which begin at (x, y): in the masks of their blocks,
-// and in the sums of their rows.
+// Adds `count` consecutive pixels, from (x, y) on, to `entries`. Also adds their strata to the
+// masks of the pixels' blocks.
 static void count_pixels(const Ladder *ladder, uint32_t x, uint32_t y, uint32_t count,
                          Entries *entries)
 {

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-// Centers are rendered in bands of about this many pixels, which limits the memory for tallies.
+// Centers are rendered in bands of about this many pixels, to limit the memory for counters.
 #define BAND_PIXELS (1u << 18)
 
 bool pixel_requests_are_whole(const PixelRequests *requests)

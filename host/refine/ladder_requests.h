@@ -24,7 +24,7 @@ typedef struct {
 // Returns false if the observer has stopped a trace.
 bool pixel_requests_are_whole(const PixelRequests *requests);
 
-// Traces the requests and stores their sums. If the observer stops it, some sums are missing.
+// Traces the requests and stores their sums. If the observer stops the trace, some are missing.
 bool pixel_requests_trace(PixelRequests *requests, Error *error);
 
 // Renders a picture of the frame's size with one sample at each pixel's center.

@@ -11,7 +11,7 @@ typedef union {
     uint32_t sums; // index in Ladder::sums
 } LadderPlace;
 
-// The side of a block of pixels, which a selection skips if no stratum of its pixels is concerned.
+// The side of a block of pixels. A selection skips a block if none of its strata selects pixels.
 #define LADDER_BLOCK 8
 
 typedef struct {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Pixels that have advanced from a stratum are its controls (ladder_strata.h defines the other
-// terms). The estimate for a stratum blends its controls' errors with a prior: the mean feature
-// times the rung's change per unit of feature. Pixels that look flat may hide detail that no sample
-// hit. The feature in a prior therefore has a minimum. The minimum is larger near contrast, because
-// most hidden detail was found there. With one minimum for all strata, errors reached 1.3 times the
-// goal on tiled floors.
+// terms). The estimate for a stratum is a weighted mean of its controls' errors and a prior. The
+// prior is the stratum's mean feature times the rung's ratio of change to feature. Pixels that look
+// flat may hide detail that no sample hit. The feature in a prior therefore has a minimum. The
+// minimum is larger near contrast, because most hidden detail was found there. With one minimum for
+// all strata, errors reached 1.3 times the goal on tiled floors.
 #include "refine/ladder_strata.h"
 
 #include <math.h>
@@ -30,29 +30,29 @@
 #define LEAST_FAR     0.05
 #define LEAST_SAMPLED 0.05
 
-// Mirrors may show detail that no other pixel shows, with a contrast of at most the reflectivity.
-// LEAST_FAR and LEAST_SAMPLED therefore grow to at least these values times the squared
-// reflectivity. Otherwise, 6 % of pictures in which a perfect mirror shows dots behind the eye had
-// errors above 1.1 times the goal.
+// A mirror may show detail that is nowhere else in the picture. The detail's contrast is at most
+// the mirror's reflectivity. LEAST_FAR and LEAST_SAMPLED are therefore raised to the following
+// values times the squared reflectivity. In a test, a perfect mirror showed dots behind the eye.
+// Without this increase, 6 % of the test's pictures had errors above 1.1 times the goal.
 #define LEAST_FAR_MIRROR     0.2
 #define LEAST_SAMPLED_MIRROR 0.1
 
-// The largest mean feature counts as at least EDGE_CENTER on rung 0, and as at least EDGE_SAMPLED /
+// The minimum of a rung's largest mean feature is EDGE_CENTER on rung 0, and EDGE_SAMPLED /
 // ladder_samples[i] on a higher rung i. Without this minimum, the bound would be 0 if all pixel
-// centers miss the objects. With an error goal of 0.5 %, this EDGE_CENTER costs 2.3 % of the
-// samples in an easy scene, and an EDGE_CENTER of 1 would cost 4 %.
+// centers miss the objects. For an error goal of 0.5 %, an easy scene takes 2.3 % more samples than
+// without the minimum. With an EDGE_CENTER of 1, it would take 4 % more.
 #define EDGE_CENTER  0.75
 #define EDGE_SAMPLED 0.0625
 
 // Above rung 0, a pixel that advances keeps its old samples, so the change underestimates the
 // squared error. If doubling the samples divides this error by D, the change is (1 - 1 / D) times
-// the error. D is 2.83 at edges and 2 for noise, so the factors would be 1.55 and 2. With a factor
-// of 1.5, errors of thin strips reached 1.14 times the goal.
+// the error. D is 2.83 at edges and 2 for noise, so factors of 1.55 and 2 would correct the change.
+// With a factor of 1.5, errors of thin strips reached 1.14 times the goal.
 #define NESTED_FACTOR 1.75
 
-// A stratum's first step selects controls: so many that the prior will count as at most PRIOR_PART
-// of the aim, but a fraction between FIRST_LEAST and FIRST_MOST of the stratum, and at least
-// FIRST_PIXELS pixels.
+// A stratum's first step selects so many controls that the prior's part of the estimate is
+// PRIOR_PART of the aim. This number is limited to between FIRST_LEAST and FIRST_MOST of the
+// stratum's pixels, but is at least FIRST_PIXELS.
 #define PRIOR_PART   0.03
 #define FIRST_LEAST  (1.0 / 128)
 #define FIRST_MOST   (1.0 / 32)
@@ -66,10 +66,9 @@
 #define FORCED_PART 0.02
 
 // A round takes steps until the sum of their gains is COVERED_PART of the excess. The excess is the
-// bound minus the aim. A gain
-// includes only GAIN_PART of the errors of advancing pixels. Steps that score below SCORE_PART of
-// the best score wait for a later round. The last step is shortened to the missing gain, but not
-// below STEP_PART of its size. A limit on samples may shorten it further.
+// bound minus the aim. A gain includes only GAIN_PART of the errors of advancing pixels. Steps that
+// score below SCORE_PART of the best score wait for a later round. The last step is shortened to
+// the missing gain, but not below STEP_PART of its size. A limit on samples may shorten it further.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
@@ -284,8 +283,8 @@ static uint32_t best_step(const Step *steps, uint32_t count)
     return best;
 }
 
-// Takes the steps with the highest scores until they cover the missing gain or use up the samples,
-// or until the remaining scores are low.
+// Takes the steps, highest score first. Stops when the steps cover the missing gain, when the
+// samples are used up, or when the remaining scores are low.
 static void take_steps(Strata *strata, Step *steps, uint32_t count, double missing, double samples)
 {
     double good = 0;

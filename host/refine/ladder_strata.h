@@ -19,7 +19,7 @@ static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 
 
 // On rung 0, strata are octaves of the pixel's bend (refine/ladder_entry.c). Each octave from
 // FLAT_CLASS on has a second stratum, for pixels near contrast. The second strata are numbered from
-// NEAR_CLASS on. If a thin part touches a pixel of these octaves (refine/thin_parts.h), the pixel
+// NEAR_CLASS on. From octave FLAT_CLASS on, a pixel that a thin part touches (refine/thin_parts.h)
 // is in THIN_CLASS instead. On higher rungs, strata are octaves of the standard deviation of a
 // pixel's samples. Bent pixels, which had a large bend or a thin part on rung 0, form strata of
 // their own.
@@ -62,8 +62,8 @@ static inline uint32_t strata_rung(uint32_t stratum)
 // A pixel is near contrast if a nearby pixel has a bend of at least CONTRAST.
 #define CONTRAST 0.125f
 
-// Returns the octave of a value: 0 if it is at least 1/2, 1 if at least 1/4, up to classes - 1.
-// Uses the exponent of the value, which must not be negative, so that loops have no branches.
+// Returns the octave of a value: 0 if it is at least 1/2, 1 if at least 1/4, up to classes - 1. The
+// value must not be negative. Reads its exponent, so that loops have no branches.
 static inline uint32_t strata_octave(float value, uint32_t classes)
 {
     int32_t bits, number, last = (int32_t)classes - 1;
@@ -112,6 +112,6 @@ typedef enum {
     STRATA_EXHAUSTED // no stratum can advance more pixels
 } StrataOutcome;
 
-// Moves the bound toward the aim: raises the fractions of strata that lack controls, and then the
-// fractions of strata in which a sample lowers the bound most.
+// Moves the bound toward the aim. First raises the fractions of strata that lack controls. Then
+// raises the fractions of strata in which each sample lowers the bound most.
 StrataOutcome strata_raise(Strata *strata, const StrataAim *aim);

@@ -31,7 +31,7 @@ static bool is_small(uint32_t triangles)
     return triangles > 0 && triangles < PIECE_TRIANGLES;
 }
 
-// Computes the start of each piece, indexed by its root, and the ends of all pieces. Small pieces
+// Stores the start of each piece at the index of its root, and the ends of all pieces. Small pieces
 // come first and are merged into one piece, so they have one common end.
 static void lay_out(MeshPieces *pieces, const uint32_t *sizes, uint32_t *starts, size_t count)
 {

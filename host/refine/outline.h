@@ -35,7 +35,7 @@ typedef struct {
     uint32_t first, end;
 } CellRange;
 
-// Computes slopes and box from the corners.
+// Computes the slopes and the box from the corners.
 void outline_complete(Outline *outline);
 
 // Returns the floor of a number that fits into int64_t. Unlike floor(), it is inlined.
@@ -84,7 +84,7 @@ static inline CellRange box_sampled(const OutlineBox *box, const CellGrid *grid,
 double outline_signed_area(const Outline *outline);
 
 // Returns whether no disk of the given diameter fits into the polygon. For polygons with more than
-// three corners, the result may also be true if the largest disk is up to twice as wide.
+// three corners, the result may also be true although a disk of up to twice this diameter fits.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
 // outline_touched returns the cells of a row that the polygon touches. outline_near does the same
@@ -111,7 +111,7 @@ typedef struct {
     ProjectedPoint *points; // of the mesh's vertices
 } Projection;
 
-// Returns a projection without a mesh. The frame's camera must be made for REFINE_GRID samples.
+// Returns a projection without a mesh. The frame's camera must be made with samples = REFINE_GRID.
 Projection projection_of(const FrameData *frame, const Normalization *normalization);
 
 // projection_begin projects the vertices of a mesh. projection_end frees the results.

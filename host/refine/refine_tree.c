@@ -107,8 +107,8 @@ void refine_tree_uncut(RefineTree *tree, uint32_t first)
     tree->groups.count = first;
 }
 
-// Adds the colors of a group's cells, corrected by the group's seams. For a subdivided cell, adds
-// the colors of the group that subdivides it instead.
+// Adds the colors of a group's cells, corrected by the group's seams. Instead of a subdivided cell,
+// adds the group that subdivides the cell.
 static void add_group(const RefineTree *tree, uint32_t number, ColorSum sum)
 {
     const CellGroup *group = &tree->groups.data[number];

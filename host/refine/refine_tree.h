@@ -4,8 +4,8 @@
 // the sample, so no sample is wasted. In a group of 2 x 2 cells, no center would coincide with the
 // old one.
 //
-// Four levels divide a pixel into 81 x 81 cells. A place is a cell of the last level, so all
-// positions are integers, and cells of different levels find their neighbors exactly.
+// Four levels divide a pixel into 81 x 81 cells. A place is a position, counted in cells of the
+// last level. All places are integers, so cells of different levels find their neighbors exactly.
 //
 // Invariant: a pixel's color is a sum of integers over its cells. Its bits depend on which samples
 // exist, and not on the order in which they were taken.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Narrows a seam by samples, and corrects the colors of its line. seam_correct assumes that colors
-// change in the middle of the remaining interval. Its unit of length is half a cell of the last
-// level, so that positions are integers. Negative corrections wrap around in the unsigned sums,
-// which are correct at the end.
+// change in the middle of the remaining interval. This function's unit of length is half a cell of
+// the last level, so that positions are integers. Negative corrections wrap around in the unsigned
+// sums, which are correct at the end.
 #include "refine/seam.h"
 
 float seam_contrast(const Seam *seam)
@@ -31,8 +31,8 @@ static bool is_like(const SampleData *sample, const SampleData *end, const Sampl
             2 * seam_difference(sample, end) < seam_difference(sample, other));
 }
 
-// Replaces the assumed end by a sample at the line's end. If this sample resembles the sample of
-// the nearest cell, there is no seam between the two.
+// Replaces the assumed end, which was beyond the line, by a sample at the line's end. If this
+// sample resembles the sample of the nearest cell, there is no seam between the two samples.
 static void take_border(Seam *seam, const SampleData *sample)
 {
     if (is_like(sample, &seam->ends[SEAM_END_LAST - seam->assumed], &seam->ends[seam->assumed]))

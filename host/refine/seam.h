@@ -61,8 +61,8 @@ float seam_contrast(const Seam *seam);
 // Returns whether another sample may narrow the interval, and stores the sample's place.
 bool seam_asks(const Seam *seam, uint32_t place[2]);
 
-// Updates the seam with the requested sample. Returns true if the sample resembles neither end and
-// splits the seam. The caller must then add *rest as the next seam.
+// Updates the seam with the requested sample. If the sample resembles neither end, splits the seam
+// and returns true. The caller must then add *rest as the next seam.
 bool seam_take(Seam *seam, const SampleData *sample, Seam *rest);
 
 // Colors in steps of 2^-32, multiplied by twice the cell's area.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds seams on the three lines of each group. The lines are the rows or the columns, whichever
-// have the larger color differences, so that lines cross color edges. Seams on three lines describe
-// a straight edge.
+// Finds seams on the three lines of each group. The lines are the rows, or the columns if colors
+// change more along the columns. The lines therefore cross color edges. Seams on three lines
+// describe a straight edge.
 #include "refine/seam_search.h"
 
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #define LINE_SAMPLES (GROUP_SIDE + 2)
 #define LINE_GAPS    (LINE_SAMPLES - 1)
 
-// The smallest color change of a seam between equal signatures, as between two faces of a cube.
+// The smallest color change of a seam on one surface, for example between two faces of a cube.
 #define LEAST_STEP (1 / 256.0f)
 
 // A row or a column of a group.

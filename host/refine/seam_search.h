@@ -14,8 +14,8 @@ typedef struct {
 // must have samples.
 bool seam_search_open(RefineTree *tree, uint32_t first, Error *error);
 
-// Lists the seams whose contrast exceeds the threshold and that another sample may narrow. Examines
-// only seams that are new or were listed before.
+// Lists the seams that need a sample: their contrast exceeds the threshold, and another sample may
+// narrow them. Examines only seams that are new or were listed before.
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);
 
 // Updates the listed seams with their samples.

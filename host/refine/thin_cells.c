@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Stores cells as a bit mask for each row of a pixel. Only pixels with a slot have masks, and only
-// at the levels that are searched. In a mask with a margin, bit i stands for the pixel's cell i -
-// MARGIN.
+// Stores cells as a bit mask for each row of a pixel. Each pixel that a thin part touches has a
+// number, its slot, by which its masks are found. Masks exist only at the levels that are searched.
+// In a mask with a margin, bit i stands for the pixel's cell i - MARGIN.
 #include "refine/thin_cells.h"
 
 #include <string.h>

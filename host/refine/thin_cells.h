@@ -79,7 +79,7 @@ uint32_t thin_parts_affordable(const ThinParts *parts);
 // Returns the cells of a pixel at a level, and `margin` cells around them.
 CellGrid thin_parts_grid(const ThinParts *parts, uint32_t pixel, uint32_t level, uint32_t margin);
 
-// The test of whether a piece is wide at a cell reads samples up to this many cells away.
+// local_cells_wide tests a cell by samples up to this many cells away.
 #define MARGIN     2
 #define LOCAL_ROWS (REFINE_GRID / 3 + 2 * MARGIN)
 
@@ -90,7 +90,7 @@ typedef struct {
     uint64_t touched[LOCAL_ROWS]; // a thin triangle touches the cell
 } LocalCells;
 
-// Adds a triangle. The grid is the pixel's, with a margin of MARGIN cells.
+// Adds a triangle. `grid` consists of the pixel's cells and a margin of MARGIN cells.
 void local_cells_add(LocalCells *cells, const Outline *outline, const CellGrid *grid,
                      uint32_t level);
 

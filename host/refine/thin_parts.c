@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the cells around thin spheres, and combines them with those of thin_triangles.c.
+// Finds the cells around thin spheres, and adds the cells that thin_triangles.c finds.
 #include "refine/thin_parts.h"
 
 #include "refine/thin_cells.h"

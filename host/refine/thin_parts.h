@@ -11,8 +11,7 @@
 //
 // Invariant: a sample hits each sphere that is at least 1/57 pixel across, and each triangle whose
 // incircle is at least 1/57 pixel across. The exceptions are
-// - triangles within two pixels of a wider part of the same piece, and at deeper levels within two
-//   cells of such a part;
+// - triangles within two pixels of a wider part of the same piece (two cells at deeper levels);
 // - hidden triangles and spheres, on which samples are wasted;
 // - parts that are visible only in mirrors or by their shadows;
 // - the thinnest parts, if all subdivisions together would take more than THIN_SAMPLES samples per

@@ -20,15 +20,15 @@ typedef struct {
     uint32_t pixel, triangle;
 } PixelTriangle;
 
-// The pairs of one pixel, which have the indices `first` to `end` - 1.
+// The indices of the pairs of one pixel: `first` to `end` - 1.
 typedef struct {
     uint32_t first, end;
 } PixelRun;
 
-// To save memory, a piece with more than PAIRS_MOST pairs, and also more than PAIRS_OF_PIXEL pairs
-// per pixel of the picture, is searched at level 0 alone. The number of pairs is estimated as
-// AROUND for each thin triangle and each pixel that it touches, unless the piece is wide at the
-// pixel.
+// To save memory, a piece with too many pairs is searched only at level 0. The limit is PAIRS_MOST
+// pairs, or PAIRS_OF_PIXEL pairs per pixel of the picture if that is more. The estimate of the
+// number of pairs is AROUND for each pixel that a thin triangle touches, unless the piece is wide
+// at the pixel.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 #define AROUND         9
@@ -96,7 +96,7 @@ static bool is_covered(const ThinSearch *search, uint32_t column, uint32_t row)
 }
 
 // Returns whether the piece is wide at a pixel. The piece is wide if four covered pixels form a
-// square that contains or touches the pixel. Squares that contain it are tested first on each axis.
+// square that contains or touches the pixel. On each axis, squares that contain it come first.
 static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
 {
     static const int steps[4] = {-1, 0, -2, 1};
@@ -115,7 +115,7 @@ static bool thin_outline(const ThinSearch *search, uint32_t triangle, Outline *o
     return projection_outline(&search->projection, triangle, outline) && thin_at_level(outline, 0);
 }
 
-// Lists the pixels that the triangle touches and at which the piece is thin, each pixel once per
+// If the piece is thin at a pixel that the triangle touches, lists the pixel, but only once per
 // piece. Adds the triangle's estimated pairs to search->nearby.
 static bool list_touched(ThinSearch *search, uint32_t triangle, PairList *list)
 {
