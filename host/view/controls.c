@@ -15,8 +15,8 @@
 #define COURSE_FOV         45.0
 #define DEGREES_PER_RADIAN 57.295779513082320877
 
-// Computes three perpendicular axes. The last is up. If up is z, the first two are x and y, as the
-// course's angles require.
+// Computes three perpendicular axes. The last axis is `up`. If `up` is z, the first two axes are x
+// and y, as the angles of the UvA course require.
 static void make_axes(Vec3 axes[3], Vec3 up)
 {
     const Vec3 z = vec3_normalize(up);
@@ -34,7 +34,7 @@ static double unit_height(const Orbit *orbit)
     return 2 * sine_of_degrees(half) / cosine_of_degrees(half);
 }
 
-// Returns the distance at which a perspective picture shows the pivot at its current size.
+// Returns the distance at which a perspective picture has the current scale at the pivot.
 static double shown_distance(const Orbit *orbit)
 {
     return orbit->height > 0 ? orbit->height / unit_height(orbit) : orbit->distance;
@@ -90,8 +90,8 @@ static void orbit_turn(Orbit *orbit, double right, double down)
         limited(orbit->azimuth - DEGREES_PER_PIXEL * down, -AZIMUTH_LIMIT, AZIMUTH_LIMIT);
 }
 
-// Makes the pivot appear as large as in a perspective picture from this distance. An orthographic
-// camera does not move.
+// Sets the scale at the pivot to the scale of a perspective picture from this distance. An
+// orthographic camera does not move.
 static void set_shown_distance(Orbit *orbit, double distance)
 {
     const double shown = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);
@@ -104,7 +104,7 @@ static void set_shown_distance(Orbit *orbit, double distance)
     }
 }
 
-// Switches between perspective and orthographic pictures. The pivot appears at the same size.
+// Switches between perspective and orthographic pictures. The scale at the pivot stays the same.
 static void orbit_switch_perspective(Orbit *orbit)
 {
     const double distance = shown_distance(orbit), height = distance * unit_height(orbit);

@@ -44,7 +44,7 @@ typedef struct {
     EventKind kind;
     int key;
     // The drag in screen coordinates. For EVENT_WHEEL, `down` counts notches, positive away from
-    // the user. For EVENT_CLICK, both are the pixel's position, counted from the upper left corner.
+    // the user. For EVENT_CLICK, (right, down) is the pixel's position from the upper left corner.
     double right, down;
 } Event;
 

@@ -124,8 +124,8 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     end_update(worker);
 }
 
-// Reports that a picture cannot be traced. Marks the picture as reached, so that the worker tries
-// again only after a different request.
+// Reports that a picture cannot be traced. Stores the picture in status->reached, so that the
+// worker tries again only after a different request.
 static void report_failure(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);

@@ -13,7 +13,7 @@
 #define REST_SECONDS 0.1
 
 // Returns the number of samples along each side of a pixel. Pictures of a moving camera are not
-// anti-aliased, because the next picture would wait for the tiles in flight.
+// anti-aliased, because slower tiles in flight would delay the next picture.
 static uint32_t samples_of(const Viewer *viewer)
 {
     return viewer->state.smooth && viewer->moved == 0 ? viewer->settings.samples : 1;

@@ -29,8 +29,8 @@ void frame_times_free(FrameTimes *times);
 #define STATE_SIZE  1024
 
 typedef struct {
-    // The viewer has a copy, because the worker may outlive viewer_run. `keys` points to the next
-    // key to play.
+    // A copy of the settings of viewer_run, because the worker may outlive viewer_run. `keys`
+    // points to the next key to play.
     ViewerSettings settings;
     Window window;
     Views views;

@@ -172,7 +172,7 @@ static void draw_text(Viewer *viewer, const Figures *figures)
     text_view_draw(&viewer->views.text, &overlay);
 }
 
-// Copies `text` to `shown`. Returns whether the two texts differed before.
+// Copies `text` to `shown`, and returns whether this has changed `shown`.
 static bool is_news(char shown[STATE_SIZE], const char text[STATE_SIZE])
 {
     const bool differs = strcmp(text, shown) != 0;

@@ -28,7 +28,7 @@ static bool fail(const char *failure, Error *error)
 bool window_connect(Error *error)
 {
 #ifdef GLFW_PLATFORM
-    // Without a Wayland display, libwayland would print a message of its own.
+    // Selects X11, because libwayland prints its own message if there is no Wayland display.
     if (getenv("WAYLAND_DISPLAY") == NULL)
         glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif

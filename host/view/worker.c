@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The worker's thread. It chooses the next job by next_kind, and runs the job without the lock
-// (jobs.c).
+// Runs the worker's thread. The thread chooses the next job by next_kind, and runs the job (jobs.c)
+// without holding the lock.
 #include "view/worker_inside.h"
 
 #include <stdlib.h>

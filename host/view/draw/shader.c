@@ -135,8 +135,8 @@ void cube_fill_edges(const Drawing *drawing)
     fill_cube(drawing, corners, CUBE_EDGE_VERTICES + 2, 0);
 }
 
-// The following functions convert a camera. Its step is half a pixel, so half the picture's width
-// is `width` steps.
+// The following functions convert a camera. The camera's step is half a pixel, so half the
+// picture's width is `width` steps.
 
 // Points up to this distance have depth 0, so the point drawn last is visible. The distance is in
 // normalized coordinates, in which the longest side of the triangles' box is 1 to 2.
@@ -146,8 +146,8 @@ void cube_fill_edges(const Drawing *drawing)
 // coordinates. All triangles are nearer to this origin.
 #define BEYOND 2
 
-// Stores a vector parallel to step. At distance 1, its dot product with points on one edge of the
-// picture is 1.
+// Stores a vector parallel to `step`. For points on one edge of the picture at distance 1, the
+// vector's dot product with the point is 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = vec3_of_floats(step);
@@ -185,8 +185,8 @@ void lens_apply(const Lens *lens, GLuint program)
 
 // The following functions convert a scene's lights and materials to the shaders' layout.
 
-// Returns the mean of the scene's lights [first, end) with their total intensity and a normalized
-// position.
+// Returns one light for the scene's lights [first, end). It has their total intensity, and the mean
+// of their colors and normalized positions, weighted by intensity.
 static Light mean_light(const Scene *scene, size_t first, size_t end,
                         const Normalization *normalization)
 {

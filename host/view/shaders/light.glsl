@@ -33,9 +33,9 @@ vec3 encoded(vec3 color)
 }
 
 // Returns the color of the cube behind the surface, as in the traced picture (kernels/checker.cl).
-// Interpolated places are less precise than traced points, so they move 32 times as far behind the
-// surface. Places do not move along axes parallel to the surface, because so long a move would
-// cross the edges of solids.
+// Interpolated places are less precise than traced points, so this function moves them 32 times as
+// far behind the surface. It does not move them along axes parallel to the surface, because a move
+// of this length would cross the edges of solids.
 vec3 checked(Surface surface)
 {
     float move = (surface.even.w + 1.0) / 16384.0;
