@@ -119,6 +119,6 @@ kernel void count_tests(TRACER_ARGUMENTS, global uint *tallies)
                     pixels[i].active = i == 0 ? lanes_of(1u << lane) : (Mask)(0);
                 }
                 pixel_colors(&tracer, pixels, colors);
-                store_tally(tallies + place * TALLY_KINDS, &tally);
+                store_tally(tallies, place, &tally);
             }
 }

@@ -35,7 +35,8 @@
 #define CLRT_STATISTICS 0 // rays and tests are counted
 #endif
 
-#define CLRT_TALLIES (CLRT_STATISTICS || CLRT_GLASS) // the kernels store tallies
+#define CLRT_TALLIES (CLRT_STATISTICS || CLRT_GLASS)              // the kernels store tallies
+#define TALLY_STORED (TALLY_KINDS - TALLY_FIRST(CLRT_STATISTICS)) // the number of kinds stored
 
 // The form of the kernels, set by kernel_choice.c, program.c and KernelEntry (all in host/device).
 #ifndef CLRT_WIDE_NODES

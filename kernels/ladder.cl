@@ -274,5 +274,5 @@ kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, 
     }
     trace_item(&tracer, &item);
     if (CLRT_TALLIES)
-        store_tally(tallies + (size_t)begin * TALLY_KINDS, &tally);
+        store_tally(tallies, begin, &tally);
 }

@@ -96,8 +96,11 @@ static inline void pixel_colors(const Tracer *tracer, const Places pixels[PACKET
             colors[i] = scaled3(0x1p-32f, colors[i]);
 }
 
-static inline void store_tally(global uint *counts, const Tally *tally)
+// Stores the tally with this number.
+static inline void store_tally(global uint *tallies, size_t number, const Tally *tally)
 {
+    global uint *counts = tallies + number * TALLY_STORED;
+#if CLRT_STATISTICS
     counts[TALLY_CAMERA_RAYS] = tally->camera_rays;
     counts[TALLY_SHADOW_RAYS] = tally->shadow_rays;
     counts[TALLY_REFLECTED_RAYS] = tally->reflected_rays;
@@ -106,11 +109,13 @@ static inline void store_tally(global uint *counts, const Tally *tally)
     counts[TALLY_TRIANGLE_TESTS] = tally->triangle_tests;
     counts[TALLY_BOX_TESTS] = tally->box_tests;
     counts[TALLY_SPHERE_TESTS] = tally->sphere_tests;
+    counts += TALLY_CUT;
+#endif
 #if CLRT_GLASS
-    counts[TALLY_CUT] = (uint)tally->cut;
-    counts[TALLY_CUT_HIGH] = (uint)(tally->cut >> 32);
+    counts[0] = (uint)tally->cut;
+    counts[1] = (uint)(tally->cut >> 32);
 #else
-    counts[TALLY_CUT] = counts[TALLY_CUT_HIGH] = 0;
+    counts[0] = counts[1] = 0;
 #endif
 }
 

@@ -48,6 +48,6 @@ kernel void trace_samples(TRACER_ARGUMENTS, global const uint *places, uint firs
             store_sample(samples + start + i, &colors[i / CLRT_LANES],
                          tally.signatures[i / CLRT_LANES], i % CLRT_LANES);
         if (CLRT_TALLIES)
-            store_tally(tallies + (size_t)start * TALLY_KINDS, &tally);
+            store_tally(tallies, start, &tally);
     }
 }

@@ -273,6 +273,9 @@ typedef enum {
     TALLY_KINDS
 } TallyKind;
 
+// The first kind that kernels store. They store all kinds from this one on.
+#define TALLY_FIRST(has_statistics) ((has_statistics) ? TALLY_CAMERA_RAYS : TALLY_CUT)
+
 // The first hit of the ray through a pixel's center, and data on the path from there. Kernels write
 // PathData only if --aov requests channels. Without a hit, `depth` is INFINITY, `primitive` and
 // `material` are NOTHING, and all other members are zero.

@@ -17,7 +17,7 @@ static inline void store_packet(const FrameData *frame, uint2 corner, const Real
     store_colors(frame, corner, color, output->pixels);
     for (uint lane = 0; CLRT_TALLIES && lane < CLRT_LANES; lane++)
         if (is_in_tile(frame, corner, lane))
-            store_tally(output->tallies + pixel_index(frame, corner, lane) * TALLY_KINDS,
+            store_tally(output->tallies, pixel_index(frame, corner, lane),
                         lane == 0 ? tally : &none);
 }
 
@@ -44,7 +44,7 @@ static NOT_INLINE void render_beam(const Tracer *tracer, uint2 beam, const Outpu
 }
 
 // Renders a tile. `pixels` receives tile_width * tile_height colors of three floats, top row first.
-// With CLRT_TALLIES, `tallies` receives TALLY_KINDS counts per pixel. The range of work-items is
+// With CLRT_TALLIES, `tallies` receives TALLY_STORED counts per pixel. The range of work-items is
 // padded to whole work-groups.
 kernel void render_tile(TRACER_ARGUMENTS, global float *pixels, global uint *tallies)
 {

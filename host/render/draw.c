@@ -11,13 +11,7 @@ const KernelEntry draw_entry = {"render_tile", tile_source, NULL, "bb", .dimensi
 
 static void take_tallies(void *context, const Tile *tile, void *const values[2])
 {
-    Renderer *renderer = context;
-    RenderProgress *progress = &renderer->progress;
-    const uint(*tallies)[TALLY_KINDS] = values[1];
-    const size_t count = renderer_has_tallies(renderer) ? (size_t)tile->width * tile->height : 0;
-    for (size_t pixel = 0; pixel < count; pixel++)
-        for (int kind = 0; kind < TALLY_KINDS; kind++)
-            progress->tallies[kind] += tallies[pixel][kind];
+    renderer_add_tallies(context, values[1], (size_t)tile->width * tile->height);
 }
 
 static bool check_size(const Renderer *renderer, const Framebuffer *framebuffer, Error *error)
@@ -34,9 +28,9 @@ bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObs
 {
     if (!check_size(renderer, framebuffer, error))
         return false;
-    const bool counts = renderer_has_tallies(renderer);
+    const size_t kinds = TALLY_KINDS - renderer_first_tally(renderer);
     const TilePass pass = {.frame = renderer_frame(renderer, camera),
-                           .sizes = {sizeof(float[3]), counts ? sizeof(uint[TALLY_KINDS]) : 0},
+                           .sizes = {sizeof(float[3]), kinds * sizeof(uint32_t)},
                            .first = renderer->settings.ready_tiles,
                            .framebuffer = framebuffer,
                            .take = take_tallies,

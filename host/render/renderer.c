@@ -63,6 +63,20 @@ FrameData renderer_frame(const Renderer *renderer, const CameraData *camera)
     return frame;
 }
 
+TallyKind renderer_first_tally(const Renderer *renderer)
+{
+    const SceneTraits *traits = &renderer->kernel->traits;
+    return traits->statistics || traits->glass ? TALLY_FIRST(traits->statistics) : TALLY_KINDS;
+}
+
+void renderer_add_tallies(Renderer *renderer, const uint32_t *stored, size_t count)
+{
+    const TallyKind first = renderer_first_tally(renderer);
+    for (size_t tally = 0; first < TALLY_KINDS && tally < count; tally++)
+        for (int kind = first; kind < TALLY_KINDS; kind++)
+            renderer->progress.tallies[kind] += *stored++;
+}
+
 double renderer_truncation(const Renderer *renderer, uint64_t samples)
 {
     const uint64_t *tallies = renderer->progress.tallies;

@@ -54,12 +54,12 @@ typedef struct {
     bool is_special;         // the kernel is specialized for the scene
 } Renderer;
 
-// Returns whether the kernel stores any of RenderProgress::tallies.
-static inline bool renderer_has_tallies(const Renderer *renderer)
-{
-    const SceneTraits *traits = &renderer->kernel->traits;
-    return traits->statistics || traits->glass;
-}
+// Returns the first kind of RenderProgress::tallies that the kernel stores. The kernel also stores
+// the kinds after it. Returns TALLY_KINDS if the kernel stores none.
+TallyKind renderer_first_tally(const Renderer *renderer);
+
+// Adds `count` tallies, as the kernel has stored them, to RenderProgress::tallies.
+void renderer_add_tallies(Renderer *renderer, const uint32_t *stored, size_t count);
 
 // Returns the kernel's parameters for a picture. Callers set the tile (tile_aim).
 FrameData renderer_frame(const Renderer *renderer, const CameraData *camera);

@@ -115,8 +115,8 @@ static bool share(const Sampling *sampling, const Shared *shared, cl_mem *buffer
 static bool open_buffers(Sampling *sampling, Error *error)
 {
     const SampleList *list = sampling->list;
-    const size_t tallies =
-        renderer_has_tallies(sampling->renderer) ? (size_t)list->count * TALLY_KINDS : 16;
+    const size_t kinds = TALLY_KINDS - renderer_first_tally(sampling->renderer);
+    const size_t tallies = kinds > 0 ? list->count * kinds : 16;
     sampling->host_tallies = memory_zeroed(tallies, sizeof *sampling->host_tallies, error);
     if (sampling->host_tallies == NULL)
         return false;
@@ -224,14 +224,14 @@ static bool read_back(const Sampling *sampling, cl_mem buffer, size_t size, Erro
 
 static bool read_tallies(Sampling *sampling, Error *error)
 {
-    Renderer *renderer = sampling->renderer;
-    const size_t tallies = (size_t)sampling->list->count * TALLY_KINDS;
-    if (!renderer_has_tallies(renderer))
+    const uint32_t count = sampling->list->count;
+    const size_t kinds = TALLY_KINDS - renderer_first_tally(sampling->renderer);
+    if (kinds == 0)
         return true;
-    if (!read_back(sampling, sampling->tallies, tallies * sizeof *sampling->host_tallies, error))
+    if (!read_back(sampling, sampling->tallies, count * kinds * sizeof *sampling->host_tallies,
+                   error))
         return false;
-    for (size_t i = 0; i < tallies; i++)
-        renderer->progress.tallies[i % TALLY_KINDS] += sampling->host_tallies[i];
+    renderer_add_tallies(sampling->renderer, sampling->host_tallies, count);
     return true;
 }
 
