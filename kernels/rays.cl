@@ -66,15 +66,17 @@ static NOT_INLINE void trace_packets(const Tracer *tracer, const RayArray *array
 }
 
 // Finds the nearest hits of `count` rays, or any hits if `kind` has RAY_ANY_HIT. All rays have the
-// same kind (RayKind).
+// same kind (RayKind). A work-item takes BLOCK * BLOCK consecutive rays, whatever the number of
+// lanes is. If the host launched more work-items than have rays, PoCL would give all rays to one
+// thread.
 kernel void trace_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
                        global HitData *hits)
 {
-    const uint start = PACKETS * CLRT_LANES * (uint)get_global_id(0);
-    if (start >= count)
-        return;
+    const uint begin = BLOCK * BLOCK * (uint)get_global_id(0);
     Tally tally = {0};
     const Tracer tracer = TRACER(&tally);
     const RayArray array = {rays, count, kind, hits};
-    trace_packets(&tracer, &array, start);
+    for (uint start = begin; start < min(begin + BLOCK * BLOCK, count);
+         start += PACKETS * CLRT_LANES)
+        trace_packets(&tracer, &array, start);
 }

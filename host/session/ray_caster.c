@@ -6,9 +6,6 @@
 #include "device/buffer.h"
 #include "render/certifier.h"
 
-// The smallest vector width of wide kernels; the host may not know the actual width.
-#define FEWEST_LANES 4
-
 // Files of kernels, embedded at build time.
 extern const char rays_source[], crossings_source[], certify_rays_source[];
 
@@ -60,14 +57,15 @@ void ray_caster_close(RayCaster *caster)
 static bool launch(const RayCaster *caster, const RayCast *cast, Error *error)
 {
     const Kernel *kernel = caster->kernel;
-    const bool all = finds_all(caster), has_lanes = kernel->choice.nodes == NODES_WIDE && !all;
+    const bool all = finds_all(caster), has_blocks = kernel->choice.nodes == NODES_WIDE && !all;
+    const size_t item_rays = has_blocks ? BLOCK_SIDE * BLOCK_SIDE : 1;
     const cl_uint count = (cl_uint)cast->count, kind = cast->start | (cast->any ? RAY_ANY_HIT : 0);
     const KernelRun run = {.queue = kernel->device->queue,
                            .frame = &cast->scene->frame,
                            .scene = cast->scene->arrays,
                            .arguments = {&caster->rays, &count, all ? &cast->room : &kind,
                                          &caster->hits, &caster->counts},
-                           .items = {(has_lanes ? count / FEWEST_LANES : count) + 1, 1}};
+                           .items = {(count + item_rays - 1) / item_rays, 1}};
     return kernel_run(kernel, &run, error);
 }
 
