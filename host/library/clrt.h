@@ -425,7 +425,7 @@ typedef struct {
     const double *nears, *fars;             // one per ray; NULL means 0 and INFINITY
     const uint32_t *starts; // ids as in ClrtHits::primitives, or CLRT_NOTHING; may be NULL
     bool one_sided;         // rays pass through the backs of triangles that are not two_sided
-    ClrtProgress *progress; // counts parts of up to 16384 rays; may be NULL
+    ClrtProgress *progress; // counts parts of up to 65536 rays; may be NULL
     void *user;             // passed to progress
 } ClrtRays;
 

@@ -58,6 +58,8 @@ struct ClrtRenderer {
     Session session;
     RayCaster casters[RAY_QUERIES]; // open after the first rays that need them
     RayScene rays[2];               // by NodeLayout; empty until rays are cast
+    void *ray_memory;               // owned; of a batch of rays, kept because new pages cost time
+    size_t ray_memory_size;         // bytes
     atomic_bool is_busy;            // true while a call uses the renderer
     uint64_t state;                 // ClrtScene::state of the session's scene; 0 without a scene
 };

@@ -5,14 +5,22 @@
 // origin first advances to a cube around the scene, because rounding it to float would move the ray
 // too far. An origin is far if a coordinate exceeds the cube's side in magnitude.
 //
+// The threads of a pool share the conversions, because a single thread would limit a device with
+// many cores to about 50 million rays per second.
+//
 // Invariant: each conversion depends only on the ray and the scene, so a ray has the same hit in
 // every batch.
 #include "library/ray_parts.h"
 
+#include "base/thread_pool.h"
 #include "library/ray_grid.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
+
+// The number of entries that a thread converts at once.
+#define RANGE_ENTRIES 1024
 
 // The smallest value of RayPart::cube. All triangles are within [-1, 1] on each axis.
 #define LEAST_CUBE 2.0
@@ -84,7 +92,7 @@ static void advance(Vec3 *origin, Vec3 direction, double t, double *sizes)
 
 // Stores a ray's direction, limit and doubt. The doubt bounds the errors of fp64 arithmetic.
 // Returns the ray's normalized origin. A ray that can hit nothing gets a limit below 0.
-static Vec3 convert(RayPart *part, const GivenRay *given)
+static Vec3 convert(RayPart *part, size_t entry, const GivenRay *given)
 {
     const double largest = vec3_extent(given->direction);
     const bool is_usable = largest >= 1e-300 && sum_of(given->direction) <= 1e300;
@@ -103,12 +111,12 @@ static Vec3 convert(RayPart *part, const GivenRay *given)
     }
     const double limit = given->far < INFINITY ? (given->far - start) / unit : INFINITY;
     const bool is_ray = is_usable && sum_of(origin) < FARTHEST;
-    RayData *ray = &part->rays[part->count];
+    RayData *ray = &part->rays[entry];
     ray->doubt = is_ray ? (float)(0x1p-50 * sizes) : INFINITY;
     ray->limit = !is_ray || !(given->far >= start) ? -1 : limit < 0x1p127 ? (float)limit : INFINITY;
     vec3_store(ray->direction, direction);
-    part->starts[part->count] = start;
-    part->units[part->count] = unit;
+    part->starts[entry] = start;
+    part->units[entry] = unit;
     return origin;
 }
 
@@ -123,37 +131,29 @@ static double move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triang
     return off;
 }
 
-// Returns whether a ray starts on a primitive. If near is not 0, the ray starts elsewhere and only
-// skips the primitive.
-static bool is_on_surface(const GivenRay *given)
+static uint64_t primitive_count(const RayPart *part)
 {
-    return given->own != NOTHING && given->near == 0;
+    const FlatScene *flat = &part->scene->flat;
+    return (uint64_t)flat->sphere_count + flat->triangle_count;
 }
 
-static bool fill_entry(RayPart *part, const GivenRay *given, ClrtError *error)
+// Makes an entry. Returns the distance of the ray's start from the plane of its triangle, or
+// INFINITY if the ray's primitive does not exist.
+static double fill_entry(RayPart *part, size_t entry, const GivenRay *given)
 {
-    RayData *ray = &part->rays[part->count];
+    RayData *ray = &part->rays[entry];
     const uint32_t spheres = part->scene->flat.sphere_count;
-    const uint64_t primitives = (uint64_t)spheres + part->scene->flat.triangle_count;
     double off = 0;
-    Vec3 origin = convert(part, given);
-    if (given->own != NOTHING && given->own >= primitives)
-        return check_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu",
-                          ray_part_number(part, part->count), given->own,
-                          (unsigned long long)primitives);
-    if (is_on_surface(given) && given->own >= spheres && ray->limit >= 0)
-        off = move_to_plane(&origin, part->scene, given->own - spheres);
-    if (fabs(off) > OFF_PLANE)
-        return check_fail(error, CLRT_ARGUMENT,
-                          "ray %zu should start on primitive %u, but starts %.3g from its "
-                          "plane; at most %.3g are allowed",
-                          ray_part_number(part, part->count), given->own,
-                          fabs(off) * part->inverse_scale, OFF_PLANE * part->inverse_scale);
+    Vec3 origin = convert(part, entry, given);
+    if (given->own != NOTHING && given->own >= primitive_count(part))
+        return INFINITY;
+    if (part->start == RAYS_ON_SURFACE && given->own >= spheres && ray->limit >= 0)
+        off = fabs(move_to_plane(&origin, part->scene, given->own - spheres));
     ray->own = given->own;
     ray->own_index = NOTHING;
     vec3_store(ray->origin, origin);
-    ray->doubt += (float)(1.01 * fabs(off) + 1.01 * 0x1p-24 * sum_of(origin));
-    return true;
+    ray->doubt += (float)(1.01 * off + 1.01 * 0x1p-24 * sum_of(origin));
+    return off;
 }
 
 // Returns half the side of a cube that is about twice as large as the scene.
@@ -177,19 +177,68 @@ void ray_part_begin(RayPart *part, const Session *session, const RayScene *scene
     part->room = room;
 }
 
-bool ray_part_fill(RayPart *part, const ClrtRays *rays, ClrtError *error)
+// Lists the rays whose kind of start is part->start. A ray whose near is not 0 starts elsewhere
+// than on its primitive, and only skips it.
+static void list_entries(RayPart *part, const ClrtRays *rays)
 {
+    const uint32_t *starts = rays->starts;
+    const double *nears = rays->nears;
     part->count = 0;
     for (size_t i = 0; i < part->size; i++) {
-        const GivenRay given = given_ray(rays, part->first + part->sequence[i]);
-        if (is_on_surface(&given) != (part->start == RAYS_ON_SURFACE))
-            continue;
-        part->order[part->count] = part->sequence[i];
-        if (!fill_entry(part, &given, error))
-            return false;
-        part->count++;
+        const size_t ray = part->first + part->sequence[i];
+        const bool is_on_surface =
+            starts != NULL && starts[ray] != NOTHING && (nears == NULL || nears[ray] == 0);
+        if (is_on_surface == (part->start == RAYS_ON_SURFACE))
+            part->order[part->count++] = part->sequence[i];
     }
-    return true;
+}
+
+typedef struct {
+    RayPart *part;
+    const ClrtRays *rays;
+    _Atomic uint32_t first_fault; // the first entry that is not possible
+} PartFill;
+
+static void note_fault(PartFill *fill, uint32_t entry)
+{
+    uint32_t known = atomic_load(&fill->first_fault);
+    while (entry < known && !atomic_compare_exchange_weak(&fill->first_fault, &known, entry))
+        continue;
+}
+
+static void fill_range(void *context, uint32_t first, uint32_t end)
+{
+    PartFill *fill = context;
+    for (uint32_t entry = first; entry < end; entry++) {
+        const GivenRay given = given_ray(fill->rays, ray_part_number(fill->part, entry));
+        if (fill_entry(fill->part, entry, &given) > OFF_PLANE)
+            note_fault(fill, entry);
+    }
+}
+
+static bool report_fault(RayPart *part, const ClrtRays *rays, uint32_t entry, ClrtError *error)
+{
+    const size_t number = ray_part_number(part, entry);
+    const GivenRay given = given_ray(rays, number);
+    const double off = fill_entry(part, entry, &given);
+    if (given.own >= primitive_count(part))
+        return check_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu", number,
+                          given.own, (unsigned long long)primitive_count(part));
+    return check_fail(error, CLRT_ARGUMENT,
+                      "ray %zu should start on primitive %u, but starts %.3g from its plane; at "
+                      "most %.3g are allowed",
+                      number, given.own, off * part->inverse_scale,
+                      OFF_PLANE * part->inverse_scale);
+}
+
+bool ray_part_fill(RayPart *part, const ClrtRays *rays, ClrtError *error)
+{
+    PartFill fill = {.part = part, .rays = rays};
+    atomic_init(&fill.first_fault, UINT32_MAX);
+    list_entries(part, rays);
+    thread_pool_share(part->pool, (uint32_t)part->count, RANGE_ENTRIES, fill_range, &fill);
+    const uint32_t fault = atomic_load(&fill.first_fault);
+    return fault == UINT32_MAX || report_fault(part, rays, fault, error);
 }
 
 void ray_part_index(RayPart *part, const RayScene *scene)
@@ -268,29 +317,42 @@ static size_t result_of(const RayPart *part, size_t entry, size_t i)
     return ray_part_number(part, entry) * part->room + i;
 }
 
-static void store_distances(const RayPart *part, const HitData *found, double *distances)
+// The hits of a part's entries, and the caller's arrays that receive them.
+typedef struct {
+    const RayPart *part;
+    const HitData *found;
+    const ClrtHits *hits;
+} PartStore;
+
+static void store_distances(const PartStore *store, uint32_t first, uint32_t end)
 {
-    for (size_t entry = 0; entry < part->count; entry++)
+    const RayPart *part = store->part;
+    for (size_t entry = first; entry < end; entry++)
         for (size_t i = 0; i < part->room; i++) {
-            const HitData hit = found[entry * part->room + i];
+            const HitData hit = store->found[entry * part->room + i];
             const double distance = part->starts[entry] + (double)hit.t * part->units[entry];
-            distances[result_of(part, entry, i)] = hit.id == NOTHING ? INFINITY : distance;
+            store->hits->distances[result_of(part, entry, i)] =
+                hit.id == NOTHING ? INFINITY : distance;
         }
 }
 
-static void store_primitives(const RayPart *part, const HitData *found, uint32_t *primitives)
+static void store_primitives(const PartStore *store, uint32_t first, uint32_t end)
 {
-    for (size_t entry = 0; entry < part->count; entry++)
+    const RayPart *part = store->part;
+    for (size_t entry = first; entry < end; entry++)
         for (size_t i = 0; i < part->room; i++)
-            primitives[result_of(part, entry, i)] = found[entry * part->room + i].id;
+            store->hits->primitives[result_of(part, entry, i)] =
+                store->found[entry * part->room + i].id;
 }
 
-static void store_details(const RayPart *part, const HitData *found, const ClrtHits *hits)
+static void store_details(const PartStore *store, uint32_t first, uint32_t end)
 {
+    const RayPart *part = store->part;
+    const ClrtHits *hits = store->hits;
     const bool has_surface = hits->weights != NULL || hits->normals != NULL || hits->fronts != NULL;
-    for (size_t entry = 0; entry < part->count; entry++)
+    for (size_t entry = first; entry < end; entry++)
         for (size_t i = 0; i < part->room; i++) {
-            const HitData hit = found[entry * part->room + i];
+            const HitData hit = store->found[entry * part->room + i];
             const size_t result = result_of(part, entry, i);
             store_place(part->scene, hit.id, hits, result);
             if (has_surface)
@@ -299,13 +361,21 @@ static void store_details(const RayPart *part, const HitData *found, const ClrtH
 }
 
 // Separate loops take half the time of a single loop that checks for each hit which arrays to fill.
-void ray_part_store(const RayPart *part, const HitData *found, const ClrtHits *hits)
+static void store_range(void *context, uint32_t first, uint32_t end)
 {
+    const PartStore *store = context;
+    const ClrtHits *hits = store->hits;
     if (hits->distances != NULL)
-        store_distances(part, found, hits->distances);
+        store_distances(store, first, end);
     if (hits->primitives != NULL)
-        store_primitives(part, found, hits->primitives);
+        store_primitives(store, first, end);
     if (hits->meshes != NULL || hits->triangles != NULL || hits->weights != NULL ||
         hits->normals != NULL || hits->fronts != NULL)
-        store_details(part, found, hits);
+        store_details(store, first, end);
+}
+
+void ray_part_store(const RayPart *part, const HitData *found, const ClrtHits *hits)
+{
+    PartStore store = {part, found, hits};
+    thread_pool_share(part->pool, (uint32_t)part->count, RANGE_ENTRIES, store_range, &store);
 }

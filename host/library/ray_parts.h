@@ -5,11 +5,13 @@
 #include "library/handles.h"
 
 // The largest number of rays in a part.
-#define PART_RAYS 16384
+#define PART_RAYS 65536
 
-// A part of a batch, on its way to the device and back. ray_part_begin sets the members from scene
-// to room. The caller sets those from first to start, and ray_part_fill sets the others.
+// A part of a batch, on its way to the device and back. The caller sets `pool`, and ray_part_begin
+// sets the members from scene to room. The caller sets those from first to start, and ray_part_fill
+// sets the others.
 typedef struct {
+    ThreadPool *pool; // borrowed; converts rays and hits; may be NULL
     const RayScene *scene;
     Vec3 center; // of the scene's normalization, like scale
     double scale, inverse_scale;

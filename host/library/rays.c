@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Implements clrt_trace, clrt_trace_all, clrt_contains and clrt_occluded. A batch of rays is traced
 // part by part, so that batches of any size need little memory.
+#include "base/thread_pool.h"
 #include "library/ray_grid.h"
 #include "library/ray_parts.h"
 
@@ -17,16 +18,26 @@ typedef struct {
     ClrtRenderer *renderer;
     ClrtRays rays;
     RayResults results;
+    size_t most; // rays in a part
     RayPart part;
     uint32_t counts[PART_RAYS]; // crossings of each ray
     HitData certain[PART_RAYS]; // of RAYS_CERTAIN
     HitData hits[];             // results.hits.room for each ray of a part
 } Batch;
 
-static size_t part_rays(const RayResults *results)
+// With fewer rays per thread, a part would mostly wait for threads. With more, its arrays would not
+// fit into the second cache of one core.
+#define THREAD_RAYS 8192
+#define LEAST_RAYS  16384
+
+// Returns the number of rays in a part. Few rays need no threads.
+static size_t part_rays(const RayResults *results, size_t rays, uint32_t threads)
 {
     const size_t room = results->hits.room, most = CROSSINGS_MAX / (room > 0 ? room : 1);
-    return most < PART_RAYS ? most : PART_RAYS;
+    size_t size = LEAST_RAYS;
+    while (size < PART_RAYS && size < rays && size < (size_t)threads * THREAD_RAYS)
+        size *= 2;
+    return most < size ? most : size;
 }
 
 // Opens the query's caster, and compiles the scene in the layout of the caster's kernel.
@@ -99,7 +110,7 @@ static bool trace_parts(Batch *batch, ClrtError *error)
 {
     RayPart *part = &batch->part;
     const ClrtRays *rays = &batch->rays;
-    const size_t most = part_rays(&batch->results), width = ray_grid_width(rays);
+    const size_t most = batch->most, width = ray_grid_width(rays);
     const uint64_t parts = (rays->count + most - 1) / most;
     for (uint64_t done = 0; done < parts; done++) {
         const size_t left = rays->count - done * most;
@@ -135,21 +146,50 @@ static bool check_rays(ClrtRays *copy, const ClrtRays *rays, ClrtError *error)
            (copy->count == 0 || check_given(error, "the origins", copy->origins));
 }
 
+// Returns the renderer's memory for a batch of rays.
+static Batch *take_memory(ClrtRenderer *renderer, size_t size, ClrtError *error)
+{
+    Error cause = {0};
+    if (renderer->ray_memory_size < size) {
+        free(renderer->ray_memory);
+        renderer->ray_memory = memory_raw(1, size, &cause);
+        renderer->ray_memory_size = renderer->ray_memory != NULL ? size : 0;
+    }
+    if (renderer->ray_memory == NULL)
+        check_fail_for(error, CLRT_DEVICE, &cause);
+    return renderer->ray_memory;
+}
+
+static bool trace_given(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
+                        const RayResults *results, ClrtError *error)
+{
+    ClrtRays given;
+    if (!check_rays(&given, rays, error))
+        return false;
+    const bool are_many = given.count > LEAST_RAYS;
+    const uint32_t threads =
+        are_many ? threads_allowed(renderer->session.settings.wanted.threads) : 1;
+    const size_t most = part_rays(results, given.count, threads);
+    Batch *batch = take_memory(
+        renderer, sizeof *batch + most * results->hits.room * sizeof *batch->hits, error);
+    if (batch == NULL)
+        return false;
+    batch->renderer = renderer;
+    batch->rays = given;
+    batch->results = *results;
+    batch->most = most;
+    batch->part.pool = are_many ? thread_pool_open(threads) : NULL;
+    const bool ok = trace_batch(batch, scene, error);
+    thread_pool_close(batch->part.pool);
+    return ok;
+}
+
 static bool trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                   const RayResults *results, ClrtError *error)
 {
-    Error cause = {0};
     if (!renderer_handle_begin(renderer, scene, error))
         return false;
-    const size_t hits = part_rays(results) * results->hits.room;
-    Batch *batch = memory_raw(1, sizeof *batch + hits * sizeof *batch->hits, &cause);
-    bool ok = batch != NULL || check_fail_for(error, CLRT_DEVICE, &cause);
-    if (ok) {
-        batch->renderer = renderer;
-        batch->results = *results;
-        ok = check_rays(&batch->rays, rays, error) && trace_batch(batch, scene, error);
-    }
-    free(batch);
+    const bool ok = trace_given(renderer, scene, rays, results, error);
     renderer_handle_end(renderer);
     return ok;
 }

@@ -79,6 +79,7 @@ void clrt_renderer_free(ClrtRenderer *renderer)
     for (int query = 0; query < RAY_QUERIES; query++)
         ray_caster_close(&renderer->casters[query]);
     session_close(&renderer->session);
+    free(renderer->ray_memory);
     free(renderer);
 }
 
