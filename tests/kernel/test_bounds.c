@@ -4,15 +4,14 @@
 // divided by the bound. No quotient may exceed 1. The search starts with random rays, and then
 // varies the rays with the largest errors. With CLRT_TEST_TIER, the search is longer.
 #include "kernel/bound_cases.h"
+#include "kernel/bound_math.h"
 #include "kernel/probe.h"
-#include "oracle/quad.h"
 #include "unit/cmocka_all.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define U     0x1p-24
 #define CASES 4096
 
 typedef struct {
@@ -85,32 +84,6 @@ static TriangleData triangles[CASES], worst_triangles[BOUNDS];
 static Traced traced[CASES];
 static Certified certified[CASES];
 static double shares[BOUNDS];
-
-static Quad magnitude(Quad v)
-{
-    return v < 0 ? -v : v;
-}
-
-static Quad larger(Quad a, Quad b)
-{
-    return a > b ? a : b;
-}
-
-static Quad largest3(const Quad v[3])
-{
-    return larger(larger(magnitude(v[0]), magnitude(v[1])), magnitude(v[2]));
-}
-
-static Quad dot3(const Quad a[3], const Quad b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross3(const Quad a[3], const Quad b[3], Quad product[3])
-{
-    for (int i = 0; i < 3; i++)
-        product[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
 
 static void make_cases(bool first)
 {
