@@ -82,14 +82,17 @@ typedef struct {
 } CLRT_ALIGNED PointLight;
 CLRT_SAME_SIZE(PointLight, 32)
 
-// Center and radius as unevaluated sums high + low, with 48 bits each.
+// Center and radius as unevaluated sums high + low, with 48 bits each. In the array, the scene's
+// spheres come first. A tree over them (host/accel/sphere_tree.c) follows.
 typedef struct {
     float center[3];
     float radius;
     float center_low[3];
     float radius_low;
     uint material;
-    uint padding[3]; // keeps the array stride a multiple of 16
+    uint id;   // of an entry of the tree: the sphere's id; NOTHING for a bounding sphere
+    uint next; // of a bounding sphere: the entry after the spheres in it
+    uint unused;
 } CLRT_ALIGNED SphereData;
 CLRT_SAME_SIZE(SphereData, 48)
 
@@ -203,10 +206,11 @@ typedef struct {
     uint max_level;     // the most levels of a path; further rays return the background
     uint tile_x, tile_y, tile_width, tile_height;
     uint light_count, sphere_count, triangle_count;
+    uint sphere_entries;   // of the array of spheres; more than sphere_count with a tree
     uint uses_bvh;         // 0: every triangle is tested
     float low[3], high[3]; // a box around all primitives, with a margin (SKY_SLACK)
 } FrameData;
-CLRT_SAME_SIZE(FrameData, 152)
+CLRT_SAME_SIZE(FrameData, 156)
 
 // The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
 // that the ray and its reflected and refracted rays hit. The hash includes the lights that reach

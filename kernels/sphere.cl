@@ -208,16 +208,35 @@ static inline Mask plain_side(const Sphere *sphere, Real3 origin)
     return power > doubt ? (Mask)(1) : inside;
 }
 
+// Returns the wanted lanes unless plain Reals prove that their rays do not meet the sphere.
+static inline Mask may_meet_sphere(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
+{
+    const Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
+    if (!any_lane(is_near))
+        return 0;
+    return is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
+}
+
+// Returns the wanted lanes unless plain Reals prove that their rays meet no sphere inside of the
+// bounding sphere before t (B21).
+static inline Mask may_meet_before(const Sphere *bound, Real3 origin, Real3 d, Real t, Mask wanted)
+{
+    const Mask is_near = may_meet_sphere(bound, origin, d, wanted);
+    const Real3 center = plain_center(bound), f = difference(center, origin);
+    const Real dd = dot_product(d, d), ahead = dot_product(f, d) - t * dd;
+    const Real rr = bound->radius.high * bound->radius.high;
+    const Real squares = dot_product(origin, origin) + dot_product(center, center) + rr;
+    const Real reach = rr + 256.0f * UNIT_ROUNDOFF * (squares + t * t * dd);
+    return is_near && !(ahead > 0.0f && ahead * ahead > 1.01f * reach * dd);
+}
+
 // Returns the smallest t > 0 at which origin + t * direction hits the sphere. Returns INFINITY if
 // the ray misses or its lane is not wanted. A ray from inside hits the far wall.
 static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
 {
     if (!any_lane(wanted))
         return INFINITY;
-    Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
-    if (!any_lane(is_near))
-        return INFINITY;
-    is_near = is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
+    const Mask is_near = may_meet_sphere(sphere, origin, d, wanted);
     if (!any_lane(is_near))
         return INFINITY;
     const TwoFloat3 f = sphere_to_origin(sphere, origin);

@@ -5,6 +5,7 @@
 #include "accel/flat.h"
 
 #include "accel/flat_nodes.h"
+#include "accel/sphere_tree.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -179,7 +180,7 @@ static bool allocate(FlatScene *flat, const Scene *scene, Error *error)
 {
     flat->light_count = (uint32_t)scene->lights.count;
     flat->material_count = (uint32_t)scene->materials.count;
-    flat->sphere_count = (uint32_t)scene->spheres.count;
+    flat->sphere_count = flat->sphere_entries = (uint32_t)scene->spheres.count;
     flat->triangle_count = (uint32_t)scene_triangle_count(scene);
     flat->lights = memory_zeroed(flat->light_count, sizeof *flat->lights, error);
     flat->materials = memory_zeroed(flat->material_count, sizeof *flat->materials, error);
@@ -210,6 +211,8 @@ static bool make_all(FlatScene *flat, const FlatSource *source, Error *error)
     for (uint32_t i = 0; i < flat->sphere_count; i++)
         flatten_sphere(&flat->spheres[i], &scene->spheres.data[i], normalization);
     flat->bounds = flat_bounds(flat, source);
+    if (source->has_tree && flat->sphere_count > TREELESS_SPHERES && !sphere_tree_make(flat, error))
+        return false;
     return flat_looks_make(flat, source, error) &&
            (source->layout == NODES_WIDE ? flat_wide_make(flat, source, error)
                                          : flat_pair_make(flat, source, error));
@@ -253,7 +256,7 @@ void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS])
     const FlatArray all[FLAT_ARRAYS] = {
         {"lights", flat->lights, flat->light_count * sizeof *flat->lights},
         {"materials", flat->materials, flat->material_count * sizeof *flat->materials},
-        {"spheres", flat->spheres, flat->sphere_count * sizeof *flat->spheres},
+        {"spheres", flat->spheres, flat->sphere_entries * sizeof *flat->spheres},
         nodes,
         triangles,
         {"looks", flat->looks, looks * sizeof *flat->looks},
@@ -282,7 +285,8 @@ bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *
                                     .normalization = source->normalization,
                                     .layout = source->layout,
                                     .pool = source->pool,
-                                    .is_two_sided = source->is_two_sided};
+                                    .is_two_sided = source->is_two_sided,
+                                    .has_tree = source->has_tree};
     *stages = (CompileStages){0};
     return (source->given != NULL || make_stages(stages, source, error)) &&
            flat_make(flat, &flat_source, error);

@@ -37,7 +37,7 @@ typedef struct {
     const Normalization *normalization; // of the scene
     NodeLayout layout;
     BvhBuilder builder;
-    bool has_tree;     // false: rays test every triangle
+    bool has_tree;     // false: rays test every triangle and every sphere
     ThreadPool *pool;  // NULL for the caller's thread only
     bool is_two_sided; // as in FlatSource
 } CompileSource;

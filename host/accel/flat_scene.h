@@ -15,7 +15,7 @@ typedef struct {
     NodeLayout layout;
     PointLight *lights;
     Material *materials;
-    SphereData *spheres;
+    SphereData *spheres;     // sphere_entries entries
     BvhPair *pairs;          // NODES_PAIR only: the tree
     TriangleData *triangles; // NODES_PAIR only: in leaf order
     BvhWide *wides;          // NODES_WIDE only: the tree
@@ -24,7 +24,8 @@ typedef struct {
     CornerNormals *normals;  // of smooth triangles, in file order
     CornerColors *colors;    // of colored triangles, in file order
     uint32_t light_count, material_count, sphere_count;
-    uint32_t node_count; // entries of pairs or wides
+    uint32_t sphere_entries; // sphere_count, or more with a tree over the spheres
+    uint32_t node_count;     // entries of pairs or wides
     uint32_t triangle_count, block_count, normals_count, colors_count;
     float background[3], ambient;
     Box bounds; // of all primitives, grown by SKY_SLACK; unspecified if there are none
@@ -39,4 +40,5 @@ typedef struct {
     NodeLayout layout;
     ThreadPool *pool;  // NULL for the caller's thread only
     bool is_two_sided; // all meshes are two-sided; otherwise, each object's two_sided decides
+    bool has_tree;     // many spheres get a tree
 } FlatSource;

@@ -13,6 +13,7 @@ static FrameData frame_of(const FlatScene *flat)
     FrameData frame = {.ambient = flat->ambient,
                        .light_count = flat->light_count,
                        .sphere_count = flat->sphere_count,
+                       .sphere_entries = flat->sphere_entries,
                        .triangle_count = flat->triangle_count,
                        .uses_bvh = flat->node_count > 0};
     memcpy(frame.background, flat->background, sizeof frame.background);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compiles the session's scene. Each form is compiled when a kernel first needs it.
+#include "accel/sphere_tree.h"
 #include "session/costs.h"
 #include "session/session.h"
 
@@ -23,9 +24,10 @@ void session_scene_free(SessionScene *scene)
 
 bool session_wants_tree(const Session *session, NodeLayout layout)
 {
-    const uint64_t triangles = scene_triangle_count(session->scene.scene);
+    const Scene *scene = session->scene.scene;
     return session->settings.wanted.tree != CLRT_TREE_AUTO || layout != NODES_WIDE ||
-           triangles > TREELESS_TRIANGLES;
+           scene_triangle_count(scene) > TREELESS_TRIANGLES ||
+           scene->spheres.count > TREELESS_SPHERES;
 }
 
 bool session_compile(const Session *session, CompileSource *source, FlatScene *flat,

@@ -19,7 +19,8 @@ static Flattened flattened_as(const char *text, bool uses_bvh, NodeLayout layout
     Error error = {0};
     const Normalization frame = normalization_of(&all.scene);
     const BvhSettings settings = {BVH_SAH, flat_leaves(layout)};
-    const FlatSource source = {&all.scene, &all.triangles, &all.bvh, &frame, layout, NULL, false};
+    const FlatSource source = {&all.scene, &all.triangles, &all.bvh, &frame,
+                               layout,     NULL,           false,    true};
     const bool ok = triangles_make(&all.triangles, &all.scene, &frame, NULL, &error) &&
                     (!uses_bvh || bvh_build(&all.bvh, &all.triangles, &settings, NULL, &error)) &&
                     flat_make(&all.flat, &source, &error);
@@ -253,8 +254,11 @@ static SphereData spheres[1];
 
 TEST(only_materials_in_use_count)
 {
-    FlatScene flat = {
-        .materials = materials, .material_count = 2, .spheres = spheres, .sphere_count = 1};
+    FlatScene flat = {.materials = materials,
+                      .material_count = 2,
+                      .spheres = spheres,
+                      .sphere_count = 1,
+                      .sphere_entries = 1};
     materials[1] = (Material){.shader = SHADER_BLINN_PHONG, .reflectivity = 0.5f};
     spheres[0].material = 0;
     assert_false(traits_of(&flat, false).mirrors);

@@ -107,7 +107,7 @@ static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settin
     Triangles triangles = {0};
     FlatScene flat = {0};
     const FlatSource source = {scene,      &triangles, &no_tree, &normalization,
-                               NODES_PAIR, NULL,       false};
+                               NODES_PAIR, NULL,       false,    false};
     peer->camera =
         camera_make(&scene->viewpoints.data[0], &normalization, peer->width, peer->height, 1);
     const bool ok = triangles_make(&triangles, scene, &normalization, NULL, error) &&

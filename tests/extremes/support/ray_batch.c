@@ -147,6 +147,7 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
     for (int place = 0; place < FLAT_ARRAYS; place++)
         set_array(batch, place, &arrays[place]);
     batch->frame = (FrameData){.sphere_count = flat->sphere_count,
+                               .sphere_entries = flat->sphere_entries,
                                .triangle_count = flat->triangle_count,
                                .uses_bvh = flat->node_count > 0};
 }
@@ -154,8 +155,10 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
 void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere)
 {
     SphereData data = *sphere;
-    ray_batch_upload(
-        batch, &(FlatScene){.layout = batch->choice.nodes, .spheres = &data, .sphere_count = 1});
+    ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes,
+                                         .spheres = &data,
+                                         .sphere_count = 1,
+                                         .sphere_entries = 1});
 }
 
 static void write_buffer(const RayBatch *batch, cl_mem buffer, const void *data, size_t size)

@@ -92,7 +92,7 @@ void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout l
     Error error = {0};
     *stage = (Stage){.normalization = normalization_of(scene)};
     const FlatSource source = {
-        scene, &stage->triangles, &stage->bvh, &stage->normalization, layout, NULL, false};
+        scene, &stage->triangles, &stage->bvh, &stage->normalization, layout, NULL, false, false};
     const bool ok = normalization_check(&stage->normalization, scene, &error) &&
                     triangles_make(&stage->triangles, scene, &stage->normalization, NULL, &error) &&
                     build_tree(&stage->bvh, &stage->triangles, tree, layout, &error) &&

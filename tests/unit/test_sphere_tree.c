@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Tests the tree over spheres: its order, and that bounding spheres contain what is below them.
+#include "unit/cmocka_all.h"
+
+#include "accel/flat.h"
+#include "accel/sphere_tree.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define SPHERES_MOST 500
+
+static bool was_seen[SPHERES_MOST];
+
+static double value_of(float high, float low)
+{
+    return (double)high + (double)low;
+}
+
+static void expect_inside(const SphereData *sphere, const SphereData *bound)
+{
+    double squares = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const double apart = value_of(sphere->center[axis], sphere->center_low[axis]) -
+                             value_of(bound->center[axis], bound->center_low[axis]);
+        squares += apart * apart;
+    }
+    assert_true(sqrt(squares) + value_of(sphere->radius, sphere->radius_low) <=
+                (double)bound->radius);
+}
+
+// Tests the entries from `first` to `end` - 1. The spheres must be inside of `bound`, the smallest
+// bounding sphere around them.
+static void expect_entries(const FlatScene *flat, uint32_t first, uint32_t end,
+                           const SphereData *bound)
+{
+    for (uint32_t i = first; i < end; i++) {
+        const SphereData *entry = &flat->spheres[i];
+        if (entry->id == NOTHING) {
+            assert_true(entry->next > i + 2 && entry->next <= end);
+            expect_entries(flat, i + 1, entry->next, entry);
+            i = entry->next - 1;
+            continue;
+        }
+        assert_non_null(bound);
+        expect_inside(entry, bound);
+    }
+}
+
+static FlatScene random_spheres(uint32_t count)
+{
+    Error error = {0};
+    FlatScene flat = {.sphere_count = count, .sphere_entries = count};
+    flat.spheres = memory_zeroed(count, sizeof *flat.spheres, &error);
+    assert_non_null(flat.spheres);
+    for (uint32_t i = 0; i < count; i++) {
+        SphereData *sphere = &flat.spheres[i];
+        for (int axis = 0; axis < 3; axis++) {
+            sphere->center[axis] = (float)rand() / (float)RAND_MAX - 0.5f;
+            sphere->center_low[axis] = sphere->center[axis] * 0x1p-26f;
+        }
+        sphere->radius = exp2f(-20 * ((float)rand() / (float)RAND_MAX));
+        sphere->radius_low = sphere->radius * 0x1p-26f;
+        sphere->material = i;
+    }
+    return flat;
+}
+
+TEST(bounding_spheres_contain_each_sphere_once)
+{
+    const unsigned seed = (unsigned)time(NULL);
+    printf("seed %u\n", seed);
+    srand(seed);
+    for (uint32_t count = 5; count < SPHERES_MOST; count += 1 + count / 4) {
+        Error error = {0};
+        FlatScene flat = random_spheres(count);
+        assert_true(sphere_tree_make(&flat, &error));
+        expect_entries(&flat, count, flat.sphere_entries, NULL);
+        memset(was_seen, 0, sizeof was_seen);
+        uint32_t copies = 0;
+        for (uint32_t i = count; i < flat.sphere_entries; i++) {
+            const SphereData *entry = &flat.spheres[i];
+            if (entry->id == NOTHING)
+                continue;
+            assert_true(entry->id < count && !was_seen[entry->id]);
+            assert_int_equal(entry->material, entry->id);
+            was_seen[entry->id] = true;
+            copies++;
+        }
+        assert_int_equal(copies, count);
+        flat_free(&flat);
+    }
+}
