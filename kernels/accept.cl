@@ -13,7 +13,8 @@
 #define CLRT_ACCEPT_CL
 #include "order.cl"
 
-// Whether another triangle certainly has a corner in front of a triangle's plane, and behind it.
+// The lanes in which another triangle certainly has a corner in front of a triangle's plane, and
+// the lanes in which it certainly has a corner behind the plane.
 typedef struct {
     Mask front, back;
 } Sides;

@@ -249,7 +249,7 @@ static inline int8 lie_level(global const TriangleBlock *block, uint axis, float
            block_row(block, 2, axis) == level;
 }
 
-// Returns whether all rays start within rounding of a plane: that of all points with the coordinate
+// Returns whether all rays start within rounding of the plane whose points have the coordinate
 // `level` on the axis (docs/numerics.md, B16).
 static inline bool start_level(const Ray *rays, uint count, uint axis, float level)
 {

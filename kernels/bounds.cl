@@ -196,8 +196,8 @@ static inline float8 block_plane(global const TriangleBlock *block, const BeamBo
     return (bounds->negative[axis] ^ other) ? max(max(a, b), c) : min(min(a, b), c);
 }
 
-// Returns the bits of the triangles that some ray may hit before `reach`: a third of the block on
-// average. Testing one triangle against all lanes costs as much as this call.
+// Returns the bits of the triangles that some ray may hit before `reach`, on average a third of the
+// block. Testing one triangle against all lanes costs as much as this call.
 static inline uint triangles_near(global const TriangleBlock *block, const BeamBounds *bounds,
                                   float reach)
 {

@@ -124,8 +124,8 @@ static inline void end_branch(const Tracer *tracer, Path *path, Mask lanes, cons
     path->color = choose3(lanes, sum3(path->color, seen), path->color);
 }
 
-// Ends branches that max_level cuts off. Each causes an error of at most its weight times its tint,
-// because colors are at most 1.
+// Ends branches that max_level cuts off. Each cut branch causes an error of at most its weight
+// times its tint, because colors are at most 1.
 static inline void cut_branch(const Tracer *tracer, Path *path, Mask lanes, const Branch *branch)
 {
     if (!any_lane(lanes))
@@ -135,7 +135,7 @@ static inline void cut_branch(const Tracer *tracer, Path *path, Mask lanes, cons
 }
 
 // Adds the square of each sample's error to the tally, in steps of 2^-32. `cut` sums the errors of
-// a sample's cut branches. The factor covers the rounding of the weights and of their sum.
+// a sample's cut branches. The factor 1 + 2^-8 covers the rounding of the weights and of their sum.
 static inline void count_cut(Tally *tally, Real cut)
 {
     if (!any_lane(cut > 0.0f))

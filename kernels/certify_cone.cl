@@ -81,8 +81,8 @@ static inline void set_axis(RayCone *ray, Real3 along)
     ray->tilt = sqrt(x * x + y * y) + 2.0f * ray->spread;
 }
 
-// Returns whether the tracer certainly searches along the ray (intersect.cl) and the cone is narrow
-// enough for the bounds.
+// Returns whether the tracer certainly accepts the ray (is_searchable in intersect.cl), and the
+// cone is narrow enough for the bounds.
 static inline bool is_usable(const RayCone *ray)
 {
     return sum_of_sizes(ray->origin) < 0x1p45f && ray->spread < 0x1p-8f && ray->around < 0x1p-5f;
@@ -134,7 +134,7 @@ static inline Real camera_rounding(const CameraData *camera, Real3 moved, float 
 }
 
 // Returns the cone of a camera ray. `sample` contains the arguments sample_x and sample_y of
-// camera_ray. `own` is twice the bound on the rounding of fp64.
+// camera_ray. The variable `own` is twice the bound on the rounding in fp64.
 static inline RayCone camera_cone(const FrameData *frame, uint2 sample, Real u)
 {
     const Ray ray = camera_ray(frame, sample.x, sample.y, true);

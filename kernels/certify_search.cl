@@ -4,15 +4,15 @@
 // to cover the cone.
 //
 // A box grows by the cone's radius at the box's farthest corner, and by 140u of this corner's
-// distance. The 140u cover the rounding of a corner's projection (blur_at), 18u, and of the
-// distance, 70u + 25u (B12). For rays that leave a surface, boxes also grow by behind_of, because
-// rounding may put a hit behind the origin. With this growth, the axis enters a box before any
-// possible hit of a triangle in the box.
+// distance. The 140u cover the rounding of a corner's projection (18u, blur_at) and of the distance
+// (70u + 25u, B12). For rays that leave a surface, boxes also grow by behind_of, because rounding
+// may put a hit behind the origin. With this growth, the axis enters a box before any possible hit
+// of a triangle in the box.
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL
 #include "certify_sphere.cl"
 
-// The nearest certain hit, and the least depth of any other possible hit.
+// The nearest hit that is certain, and the least depth of any other possible hit.
 typedef struct {
     UInt id, index;
     Real low, high; // INFINITY without a hit

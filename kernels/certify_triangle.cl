@@ -253,9 +253,9 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
 
 // Returns whether a ray that leaves a triangle certainly misses a coincident triangle. It misses if
 // height_over returns zero for the ray's start. hits_neighbor then finds neither triangle in front
-// of the other. The computed height of an edge over its own plane is below 6u n.|edge|, and
-// height_over returns zero for it. Here n is the tracer's normal, and n.|v| is the sum of the
-// products' magnitudes.
+// of the other. Here n is the tracer's normal, and n.|v| is the sum of the products' magnitudes.
+// For an edge of the triangle itself, the computed height over the triangle's plane is below
+// 6u n.|edge|, so height_over returns zero.
 //
 // The computed height of the start is at most the sum of these errors:
 //  - The start is a weighted sum of corners. Each corner has the height n.a over the origin. The
@@ -264,9 +264,9 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
 //  - An edge leaves the plane perpendicular to n by 4u n.|edge|: 3u from rounding the components of
 //    n, and u from rounding the edge.
 //  - Subtracting a corner from the start and multiplying by n adds 4u n.|start - corner|.
-// Both sides of the comparison are in units of u. The normal computed here differs from n by 4u E
-// per axis, because the tracer rounds the edges. E is the product of the largest edge components.
-// Because coordinates are at most 1, the difference changes the comparison by less than 1100u E.
+// Both sides of the comparison are in units of u. E is the product of the largest edge components.
+// The normal computed here differs from n by 4u E per axis, because the tracer rounds the edges.
+// Coordinates are at most 1, so this error changes the comparison by less than 1100u E.
 static inline bool certainly_misses_coincident(const Corners *corners, const RayCone *ray)
 {
     const UncertainPoint *start = &ray->start;

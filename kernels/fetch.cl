@@ -77,7 +77,7 @@ static inline Real3 record_real3(const Record *record, uint offset, uint stride)
 
 #define WORDS(type) ((uint)(sizeof(type) / sizeof(uint)))
 
-// `index` is a triangle's position in the array, or block * WIDE + slot with wide nodes.
+// `index` is a triangle's position in the array or, with wide nodes, block * WIDE + slot.
 static inline Corners fetch_corners(const Tracer *tracer, UInt index)
 {
 #if CLRT_WIDE_NODES

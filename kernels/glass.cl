@@ -50,8 +50,8 @@ static inline Real reflectance_of(const Refraction *at)
 
 // Returns the refraction of a ray at the given cosine. A negative cosine, from a normal that is
 // turned away from the ray, counts as 0. The surface then reflects all light, unless the ratio is
-// 1. For a ratio of 1, `square` is the rounded square of the cosine. Its square root is the cosine
-// itself, so the ray stays straight.
+// 1. For this ratio, `square` is the rounded square of the cosine, and the root of `square` is the
+// cosine itself. The ray then stays straight.
 static inline Refraction refraction_at(Real ratio, Real cosine)
 {
     Refraction at = {ratio, clamp_to_one(cosine), 0.0f, 1.0f};

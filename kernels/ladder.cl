@@ -63,9 +63,8 @@ static inline UInt reversed(UInt bits)
     return bits / (0x10000 / LADDER_GRID);
 }
 
-// Returns the bits of a point's y in reverse order; the reversed bits of x are `point` itself. Bit
-// i is the sum modulo 2 of the bits k of `point` for which the binomial coefficient "k choose i" is
-// odd.
+// Returns the bits of a point's y in reverse order. For x, these bits are `point` itself. Bit i is
+// the sum modulo 2 of the bits k of `point` for which the binomial coefficient "k choose i" is odd.
 static inline UInt sobol_y(UInt point)
 {
     point ^= point >> 1 & 0x5555;
@@ -180,7 +179,7 @@ static inline uint2 corner_at(uint2 block, uint start)
     return packet_corner(block + place, start / CLRT_LANES % PACKETS);
 }
 
-// Returns the samples of a packet. Its first sample is number `start` of the item.
+// Returns the samples of a packet. The packet starts at sample number `start` of the item.
 static inline PixelSamples packet_samples(const FrameData *frame, const Item *item, uint start)
 {
     if (item->pixels == NULL)

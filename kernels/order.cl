@@ -159,7 +159,7 @@ static inline Mask is_nearer(const Nearness *a, const Nearness *b, Mask else_nea
     return a->t.high < b->t.high || (same_high && a->t.low < b->t.low) || (same_t && by_lowest);
 }
 
-// Returns whether the ray's own triangle is nearer than the triangle, by their nearnesses.
+// Returns whether, by Nearness, the ray's own triangle is nearer than triangle `index`.
 static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index)
 {
     const Mask known = ray->own_index != NOTHING;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The simplest search, for GPUs, for fp64 and for small pictures. One ray traverses the binary tree
-// depth first, and enters the nearer child first. A stack holds the pending children with their
-// distances.
+// The simplest search, for GPUs, for fp64, for small pictures, and for CPUs on which packets are
+// slow (host/device/kernel_choice.c). One ray traverses the binary tree depth first, and enters the
+// nearer child first. A stack holds the pending children with their distances.
 //
 // Invariant: a child is skipped only if the ray misses its box, or enters it beyond search_reach.
 // Both tests are conservative (search.cl), so the hit is the same as without a tree.
@@ -106,7 +106,7 @@ static inline void push_children(Real2 entry, PairStack *stack, PairPlace *place
 }
 
 // Moves from a node to the nearer child, and pushes the other child if the ray enters it. `entry`
-// has the same meaning as in push_children. Returns false if the ray enters neither child.
+// is as in push_children. Returns false if the ray enters neither child.
 static inline bool move_to_child(global const Node *nodes, Real2 entry, PairStack *stack,
                                  PairPlace *place)
 {
@@ -151,8 +151,8 @@ static inline bool pop_place(global const Node *nodes, Real reach, const PairSta
     return false;
 }
 
-// Tests the boxes of a node's children, and enters the children within `reach`. Returns the same as
-// enter_children.
+// Tests the boxes of a node's children, and enters the children within `reach`. Returns
+// enter_children's result.
 static inline bool descend(const Search *search, Real reach, PairStack *stack, PairPlace *place)
 {
     const Tracer *tracer = search->tracer;

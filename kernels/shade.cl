@@ -161,7 +161,7 @@ static inline Real3 reflected_light(Real weight, Real3 received, Real ambient, R
                     (ambient + weight * min(received.z, BRIGHTEST)) * color.z);
 }
 
-// Returns the color of a surface that receives this light.
+// Returns the color of a surface. `light` is the light that the surface receives from all lights.
 static inline Real3 shaded_color(const Tracer *tracer, const MaterialLanes *material,
                                  const Illumination *light)
 {

@@ -281,7 +281,7 @@ typedef enum {
 #define TALLY_FIRST(has_statistics) ((has_statistics) ? TALLY_CAMERA_RAYS : TALLY_CUT)
 
 // The first hit of the ray through a pixel's center, and data on the path from there. Kernels write
-// PathData only if --aov requests channels. Without a hit, `depth` is INFINITY, `primitive` and
+// PathData only if channels are requested. Without a hit, `depth` is INFINITY, `primitive` and
 // `material` are NOTHING, and all other members are zero.
 typedef struct {
     float point[3];

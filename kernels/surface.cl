@@ -111,8 +111,8 @@ static inline View view_along(const Corners *corners, Real3 origin, Real3 direct
     return view;
 }
 
-// Returns view_along for rays that all have the axis z. If z is constant, the compiler removes the
-// selection of components.
+// Returns view_along for rays whose ShearAxes::z all equal the argument z. If the argument is a
+// constant, the compiler removes the selection of components.
 static inline View view_along_one(const Corners *corners, Real3 origin, Real3 direction, uint z)
 {
     const ShearAxes axes = {(UInt)((z + 1) % 3), (UInt)((z + 2) % 3), (UInt)(z)};
@@ -315,9 +315,9 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
 // Returns the start of a ray near an edge. There, rounding may have put the surface point outside
 // its triangle, beyond the neighbor that should stop the ray, or the point may be a corner. While
 // the ray's line does not pass through the triangle, the start moves toward the triangle's middle.
-// It moves by UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, measured on the axis of its
-// largest move. The start never moves beyond the middle. If a reflected or refracted ray still
-// misses the triangle, the ray is lifted.
+// The moves are UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, measured on the axis on which
+// the start moves farthest. The start never moves beyond the middle. If a reflected or refracted
+// ray still misses the triangle, the ray is lifted.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
                                      Real sine, Mask near_edge)
 {

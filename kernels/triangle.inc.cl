@@ -165,9 +165,9 @@ static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt m
 
 // Returns a point's height over the triangle's plane, times the normal's length. The height is
 // positive in front, and zero if rounding could change its sign. Near a triangle, this height is
-// far more precise than the depth of a ray from afar. The error bound adds the errors of the
-// products, of the normal and of the point. `blur` is the error of the point's coordinates, in
-// units of rounding.
+// far more precise than the depth at which a ray from afar hits the triangle. The error bound adds
+// the errors of the products, of the normal and of the point. `blur` is the error of the point's
+// coordinates, in units of rounding.
 static inline Real OVERLOAD height_over(const Corners *corners, Real3 point, float blur)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);

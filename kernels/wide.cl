@@ -265,7 +265,8 @@ static inline void visit_nodes(LaneSearches *searches)
     }
 }
 
-// Advances each lane that is at a block by one step.
+// Tests the block of each lane that is at a block. The lane then advances, unless a new hit ends
+// its search.
 static inline void visit_leaves(LaneSearches *searches)
 {
     const Tracer *tracer = searches->search->tracer;

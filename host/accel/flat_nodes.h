@@ -14,5 +14,5 @@ bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error);
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);
 
 // Returns a box around all primitives, grown by SKY_SLACK. Without primitives, the box is
-// unspecified. The spheres of flat must be filled.
+// unspecified. flat->spheres must hold the scene's spheres.
 Box flat_bounds(const FlatScene *flat, const FlatSource *source);

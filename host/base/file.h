@@ -20,7 +20,7 @@ typedef struct {
 // error message names path, unless memory runs out.
 bool file_read(File *file, const char *path, Error *error);
 
-// Returns whether file_read can open path. If not, the error message is the same as file_read's.
+// Returns whether file_read can open path. If not, stores the error message of file_read.
 bool file_check(const char *path, Error *error);
 
 // Reads a stream to its end. Error messages call the stream `name`.
@@ -35,9 +35,9 @@ bool file_has_ending(const char *path, const char *ending);
 // which the caller frees, or NULL if memory runs out.
 char *file_path_beside(const char *beside, const char *path, Error *error);
 
-// Stores the path of a companion file of the running program. Prefers the program's own folder, as
-// in a build tree, to `folder`, a path relative to the program's folder. Returns false if the
-// program's folder is unknown, for example without /proc. The current folder would be an unsafe
-// fallback, because it may contain anybody's files.
+// Stores the path of a companion file of the running program. Looks first in the program's own
+// folder, as in a build tree, and then in `folder`, a path relative to the program's folder.
+// Returns false if the program's folder is unknown, for example without /proc. The current folder
+// would be an unsafe fallback, because it may contain anybody's files.
 #define COMPANION_PATH_SIZE (2 * PATH_MAX)
 bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *folder);

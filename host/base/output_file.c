@@ -2,10 +2,10 @@
 // Writes a temporary file beside the final name and renames it at the end. Renaming replaces a file
 // atomically for all readers, even if the process is killed.
 //
-// Killed runs leave temporary files, which later runs remove. A run locks its own temporary files,
-// and removes only files that it can lock. On a shared disk, other machines may not see these
-// locks. A temporary file's name therefore contains the start of the system's boot id. On a shared
-// disk, a run removes only files whose names contain its own boot id.
+// Killed runs leave temporary files. Later runs that write files in the same folder remove them. A
+// run locks its own temporary files, and removes only files that it can lock. On a shared disk,
+// other machines may not see these locks. A temporary file's name therefore contains the start of
+// the system's boot id. On a shared disk, a run removes only files whose names contain its boot id.
 #include "base/output_file.h"
 
 #include "base/array.h"

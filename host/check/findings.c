@@ -13,8 +13,8 @@
 
 typedef struct {
     size_t count;  // views whose eye is inside a sphere or a closed mesh
-    size_t view;   // number of the first such view, from 1
-    size_t sphere; // the sphere that contains its eye, from 1; 0 for a mesh
+    size_t view;   // the first such view; views are numbered from 1
+    size_t sphere; // the sphere that contains its eye; spheres are numbered from 1; 0 for a mesh
     size_t object; // the mesh that contains its eye, if sphere is 0
 } EnclosedEyes;
 

@@ -40,9 +40,9 @@ TracingCommand check_scene;
 // clrt devices: lists the OpenCL devices like `clinfo -l`, as versioned JSON, or in both forms.
 ExitCode device_report_write(const Options *options, Error *error);
 
-// Checks the scene's geometry in all commands except check. With `--bad-geometry fail`, fails if
-// any triangle has no area. Otherwise, prints the scene's notes and names the first dropped
-// triangle, unless --quiet is given.
+// Checks the scene's geometry for pictures and for the commands explain, warm and convert. With
+// `--bad-geometry fail`, fails if any triangle has no area. Otherwise, prints the scene's notes and
+// names the first dropped triangle, unless --quiet is given.
 bool check_geometry(const Options *options, const Scene *scene, Error *error);
 
 // clrt compare: reports the differences of two pictures. If the options name an output, also draws

@@ -20,8 +20,8 @@ typedef struct {
     char private_folder[CACHE_PATH_SIZE]; // PoCL's files; "" if PoCL chooses its own folder
     int private_lock;  // file lock that keeps other processes from removing private_folder
     uint64_t settings; // hash of the environment variables that change what PoCL compiles
-    // The thread that compiles a program calls this with true before and with false afterwards. May
-    // be NULL.
+    // The thread that compiles a program calls this function with true before it compiles, and with
+    // false afterwards. May be NULL.
     void (*announce)(bool begins);
 } Cache;
 

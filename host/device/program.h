@@ -12,12 +12,12 @@ extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
 // A kernel function. The file that launches the kernel defines its KernelEntry. A new kernel first
-// runs with an empty frame, with 0 for each number and with buffers of 64 bytes 0xff.
+// runs with an empty frame. All numbers are then 0, and each buffer has 64 bytes of 0xff.
 typedef struct {
     const char *name;
     const char *source;    // compiled after kernel_source; entries may share it; may be NULL
     const char *options;   // compiler options; may be NULL
-    const char *arguments; // those after frame and scene: 'b' for a buffer, 'n' for a number
+    const char *arguments; // after frame and scene: 'b' for each buffer, 'n' for each number
     cl_uint dimensions;    // of the work-items
     uint32_t group;        // work-items of a CPU's work-group; 0: as in Kernel::launch
 } KernelEntry;

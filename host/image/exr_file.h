@@ -36,15 +36,15 @@ bool exr_file_find(const ExrFile *file, uint32_t column, uint32_t row, exr_chunk
 bool exr_file_read(const ExrFile *file, const exr_chunk_info_t *tile, unsigned char *bytes,
                    unsigned char *scratch);
 
-// Copies the values of a tile into framebuffer and layers. position is the X and Y of the tile's
-// upper left pixel there. Skips other channels of the tile. Returns false on failure.
+// Copies the values of a tile into framebuffer and layers. position is the X and Y in framebuffer
+// of the tile's upper left pixel. Skips other channels of the tile. Returns false on failure.
 bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const Framebuffer *framebuffer, const Layers *layers,
                      const size_t position[2]);
 
 // Sets the pointers of a tile's channels to their values in framebuffer and layers. position is the
-// X and Y of the tile's upper left pixel there. layers may be NULL. Other channels of the tile keep
-// their pointers.
+// X and Y in framebuffer of the tile's upper left pixel. layers may be NULL. Other channels of the
+// tile keep their pointers.
 void exr_place_channels(exr_coding_channel_info_t *channels, int count,
                         const Framebuffer *framebuffer, const Layers *layers,
                         const size_t position[2]);

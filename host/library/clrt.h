@@ -130,7 +130,7 @@ typedef struct {
     size_t size;
     const double *positions;   // X Y Z per vertex, each below 1e30 in magnitude
     const float *normals;      // X Y Z per vertex, of any length; 0 0 0: missing; may be NULL
-    const uint32_t *triangles; // three vertex indices per triangle, from 0
+    const uint32_t *triangles; // three vertex indices per triangle, counted from 0
     size_t vertex_count, triangle_count; // each at most 2147483647
     uint32_t material;
     bool two_sided;        // also visible from behind
@@ -354,7 +354,7 @@ typedef struct {
     size_t size;
     uint32_t width, height;                      // in pixels, each at most 131072; 0: the scene's
     uint32_t left, top, crop_width, crop_height; // draws only this rectangle; 0, 0, 0, 0: all
-    uint32_t view;                               // number of the scene's view, from 1; 0 means 1
+    uint32_t view;                               // views are numbered from 1; 0 selects view 1
     const ClrtCamera *camera;                    // used instead of view; may be NULL
     double turn_degrees;                         // turns the eye as --turntable does
 
@@ -388,7 +388,7 @@ typedef struct {
 //
 // Returns false with CLRT_STOPPED if progress stops the picture before its last tile. If the
 // picture is stopped or the device fails, rgb contains complete tiles, and its other values are
-// unchanged. With a goal, rgb is then undefined.
+// unchanged. If such a picture has a goal, rgb is undefined.
 CLRT_API bool clrt_render(ClrtRenderer *renderer, const ClrtScene *scene,
                           const ClrtPicture *picture, float *rgb, ClrtError *error);
 
@@ -435,10 +435,10 @@ typedef struct {
     size_t size;
     double *distances;    // t of the hit, INFINITY without one
     uint32_t *primitives; // ids: first all spheres, then all triangles; CLRT_NOTHING: no hit
-    uint32_t *meshes;     // number of the mesh, from 0; CLRT_NOTHING for spheres
-    uint32_t *triangles;  // number of the triangle in its mesh, from 0; CLRT_NOTHING for spheres
-    double *weights;      // two per ray: of the triangle's second and third corner; 0 0 for spheres
-    double *normals;      // of the face's front, with length 1: three per ray; 0 0 0: no hit
+    uint32_t *meshes;     // numbers of the meshes, counted from 0; CLRT_NOTHING for spheres
+    uint32_t *triangles;  // numbers in the meshes, counted from 0; CLRT_NOTHING for spheres
+    double *weights;      // of the triangle's second and third corner, two per ray; 0 0 for spheres
+    double *normals;      // unit normal of the face's front, three numbers per ray; 0 0 0: no hit
     uint8_t *fronts;      // 1 if the ray comes from the front
 
     // Only for clrt_trace_all.
@@ -462,8 +462,8 @@ typedef struct {
 // by at most 18 * 2^-24 times the distance from the origin to the triangle's farthest corner, if
 // both are measured along the axis of the direction's largest component.
 //
-// For a certain ray, exact arithmetic on the caller's doubles or on the stored floats finds the
-// same primitive. Rays through edges, or with hits at almost equal distances, are uncertain.
+// If a ray's `certain` is 1, exact arithmetic on the caller's doubles or on the stored floats finds
+// the same primitive. Rays through edges, or with hits at almost equal distances, are uncertain.
 CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                          const ClrtHits *hits, ClrtError *error);
 
@@ -512,7 +512,7 @@ typedef struct {
     uint64_t unused_vertices;                // vertices that no triangle uses
     uint64_t repeated_vertices;              // used vertices at the position of an earlier one
     double shortest_edge, lowest_height;     // in the scene's units
-    double shortest_steps, lowest_steps;     // the same, in spacings of the traced floats
+    double shortest_steps, lowest_steps;     // both lengths in spacings of the traced floats
     uint64_t aim_count, aimed_at, ray_count; // aims, such as edges; aims with rays; rays cast
     uint64_t hidden, leaks;                  // aims hidden by other parts; rays through the mesh
 } ClrtCheckedMesh;
@@ -540,8 +540,8 @@ CLRT_API bool clrt_check_get_finding(const ClrtCheck *check, uint32_t number, Cl
 // The computation of a pixel's color: its samples, their rays, and the lights at the hit points.
 typedef struct ClrtExplanation ClrtExplanation;
 
-// Explains the pixel in column pixel[0] and row pixel[1], from 0, of the picture that clrt_render
-// draws. The request must have no goal and no crop. Its channels are ignored.
+// Explains a pixel of the picture that clrt_render draws: column pixel[0] and row pixel[1], both
+// counted from 0. The request must have no goal and no crop. Its channels are ignored.
 CLRT_API ClrtExplanation *clrt_explain(ClrtRenderer *renderer, const ClrtScene *scene,
                                        const ClrtPicture *picture, const uint32_t pixel[2],
                                        ClrtError *error);
@@ -555,9 +555,9 @@ typedef struct {
     uint32_t sample_count;
 } ClrtExplainedPixel;
 
-// A sample's color is the sum of share * (tint * shaded) over its rays, in their order, plus
-// background_weight * background, limited to 1 and rounded to multiples of 2^-32. The operations
-// have the precision of the kernels.
+// A sample's color is a sum, limited to 1 and rounded to multiples of 2^-32. The sum adds share *
+// (tint * shaded) for each ray, in the order of the rays, and then background_weight * background.
+// The operations have the precision of the kernels.
 typedef struct {
     size_t size;
     double color[3];
@@ -601,7 +601,7 @@ typedef struct {
     // Zero unless the light reaches the point.
     double diffuse;  // intensity * cosine
     double specular; // intensity * (normal . half vector) ^ shininess
-    double tint[3];  // the color of the glass on the way; multiplies both
+    double tint[3];  // the color of the glass on the way; multiplies diffuse and specular
 } ClrtExplainedLight;
 
 // These functions fill a struct with a part of the explanation. `place` is the number of a sample,

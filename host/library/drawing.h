@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ClrtPicture -> a checked request that the session can draw, with the state of the drawing.
+// ClrtPicture -> Drawing: a checked request that the session can draw, and the drawing's state.
 #pragma once
 
 #include "library/handles.h"

@@ -51,7 +51,7 @@ bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtEr
 // Converts the camera to *viewpoint. Fails with CLRT_ARGUMENT if the camera is invalid.
 bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, ClrtError *error);
 
-// Fails with CLRT_ARGUMENT if the scene has no view with this number, from 1.
+// Fails with CLRT_ARGUMENT if the scene has no view with this number. Views are numbered from 1.
 bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *error);
 
 struct ClrtRenderer {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "library/ray_grid.h"
 
-// Limits of the rays in a beam, of the rows in a block, and of the rays in a row.
+// The most rays in a beam, the most rows in a block, and the limits of the rays in a row.
 #define BEAM_RAYS   64
 #define BLOCK_ROWS  8
 #define LEAST_WIDTH 16

@@ -29,7 +29,8 @@
 #define OFF_PLANE 0x1p-15
 
 // Rays that start beyond this distance from the normalized origin hit nothing (intersect.cl). Only
-// rays that miss the cube start there. The limits of spheres (normalize.h) keep all cubes nearer.
+// rays that miss the scene's cube (RayPart::cube) start there. The limits of spheres (normalize.h)
+// keep every such cube within this distance.
 #define FARTHEST 0x1p45
 
 typedef struct {
@@ -177,8 +178,8 @@ void ray_part_begin(RayPart *part, const Session *session, const RayScene *scene
     part->room = room;
 }
 
-// Lists the rays whose kind of start is part->start. A ray whose near is not 0 starts elsewhere
-// than on its primitive, and only skips it.
+// Lists the rays whose kind of start is part->start. A ray whose near is not 0 does not start on
+// its primitive, but only skips the primitive.
 static void list_entries(RayPart *part, const ClrtRays *rays)
 {
     const uint32_t *starts = rays->starts;

@@ -8,8 +8,8 @@
 #define PART_RAYS 65536
 
 // A part of a batch, on its way to the device and back. The caller sets `pool`, and ray_part_begin
-// sets the members from scene to room. The caller sets those from first to start, and ray_part_fill
-// sets the others.
+// sets the members from scene to room. The caller also sets the members from first to start, and
+// ray_part_fill sets the others.
 typedef struct {
     ThreadPool *pool; // borrowed; converts rays and hits; may be NULL
     const RayScene *scene;

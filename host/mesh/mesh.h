@@ -11,7 +11,7 @@
 // The faults of one kind in a mesh.
 typedef struct {
     size_t count;
-    size_t first; // lowest index of a faulty triangle or vertex, from 0; meaningless if count is 0
+    size_t first; // lowest index of a faulty triangle or vertex; meaningless if count is 0
 } MeshFault;
 
 static inline void mesh_fault_add(MeshFault *fault, size_t place)

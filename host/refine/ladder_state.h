@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The data of a ladder (ladder.h), which the files of its steps share.
+// The data of a ladder (ladder.h). The files ladder*.c share it.
 #pragma once
 
 #include "refine/ladder_requests.h"

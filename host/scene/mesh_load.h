@@ -11,7 +11,7 @@
 
 // The outputs of clrt-foreign for the files of a scene, kept so that each file is read once. An
 // output that would bring the total above FOREIGN_KEPT_MOST bytes is not kept. Each statement with
-// its path then reads the file again.
+// this file's path then reads the file again.
 #define FOREIGN_KEPT_MOST ((size_t)256 << 20)
 typedef struct {
     char *path;

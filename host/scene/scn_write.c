@@ -174,8 +174,8 @@ static bool is_definable(const char *name)
            number_parse(name, name + strlen(name), &number) == NULL;
 }
 
-// A material keeps its name if scene text can define the name and no earlier material has it.
-// Otherwise, its new name is material_INDEX, followed by underscores if that name is taken.
+// A material keeps its name if scene text can define the name and no earlier material has the name.
+// Otherwise, the new name is material_INDEX, followed by underscores if that name is taken.
 static bool choose_name(Writer *writer, uint32_t material, const char *given, Error *error)
 {
     MaterialName name = {.material = material};

@@ -10,8 +10,8 @@
 // levels cost less time than more samples.
 #define TRUNCATION_PART 0.25
 
-// The same fraction for scenes with glass. It is larger, because each level multiplies the time by
-// about 1.4.
+// TRUNCATION_PART for scenes with glass. This fraction is larger, because each level multiplies the
+// time by about 1.4.
 #define GLASS_PART 0.7
 
 // The default samples per pixel and axis if the scene is a mesh file.

@@ -82,7 +82,8 @@ static double limited(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// Turns the camera by a mouse drag, and limits the azimuth.
+// Turns the camera by a mouse drag. Limits the azimuth, the eye's angle below the pivot's plane
+// (controls.h).
 static void orbit_turn(Orbit *orbit, double right, double down)
 {
     orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);

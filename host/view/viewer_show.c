@@ -29,7 +29,8 @@ static bool is_free(const char *stem, const char *ending)
     return access(path, F_OK) != 0;
 }
 
-// Stores the saved files' name without extension: the scene file's name and a number.
+// Stores the saved files' name without extension: the start of the scene file's name, also without
+// extension, and a number.
 static void write_stem(char stem[NAME_SIZE], const char *scene_path)
 {
     const char *slash = strrchr(scene_path, '/');

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Traces a ray tree without recursion and returns its decisions. real_64.c and real_113.c include
 // this file with two number types. The sign of a sum is settled if the sum's magnitude exceeds the
-// ray's tolerance times a bound on the sum's terms. Camera rays have the tolerance TOLERANCE, which
-// is over 1000 times the error of a rounding. Each reflection multiplies the tolerance by GROWTH.
-// At ordinary shapes, errors grow far less.
+// ray's tolerance times a bound on the sum's terms. Camera rays, and tests of exact numbers alone,
+// have the tolerance TOLERANCE, which is over 1000 times the error of a rounding. Each reflection
+// multiplies the tolerance by GROWTH. At ordinary shapes, errors grow far less.
 #include "certainty/real.h"
 
 #include <math.h>
@@ -402,8 +402,7 @@ typedef struct {
     NUMBER tolerance;
 } CheckAxis;
 
-// Adds the number of the cube to *sum. Returns whether rounding certainly leaves the number
-// unchanged.
+// Adds the number of the cube to *sum. Returns whether rounding certainly cannot change the number.
 static bool add_cube(const CheckAxis *axis, long long *sum)
 {
     const NUMBER move = (axis->rate + 1) / 524288, parallel = (NUMBER)1 / 1024;

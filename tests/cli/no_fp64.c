@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// If preloaded, this library makes every OpenCL device report that it has no double arithmetic.
+// If preloaded, this library makes every OpenCL device report that CL_DEVICE_DOUBLE_FP_CONFIG is 0,
+// as a device without double arithmetic does.
 #include <CL/cl.h>
 #include <dlfcn.h>
 

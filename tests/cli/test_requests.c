@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests that every option and command of the program has a counterpart in clrt.h, or a reason why
-// only the program has it. Also tests that some option sets each member of the library's requests,
+// only the program has it. Also tests that an option can set each member of the library's requests,
 // except library_members. Also tests that small error goals select fp64.
 #include "base/file.h"
 #include "cli/options/option.h"

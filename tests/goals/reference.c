@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Draws a reference picture. Takes samples until the estimate of the picture's own error is at most
-// ERROR, or until each pixel has MOST samples. Prints the number of samples and the own error as
-// JSON. Arguments: SCENE WIDTH HEIGHT ERROR MOST FILE.pfm
+// ERROR, or until each pixel has MOST samples. Prints the number of samples and the estimated error
+// as JSON. Arguments: SCENE WIDTH HEIGHT ERROR MOST FILE.pfm
 //
 // Every pixel has two independent sequences, and the picture is the mean of both. A sequence is
 // Sobol's in two dimensions after Owen's nested scrambling ("Randomly permuted (t,m,s)-nets and
@@ -116,7 +116,7 @@ static bool take_range(Reference *reference, Renderer *renderer, const FrameData
     return true;
 }
 
-// Stores the mean of the two halves, and computes the own error from the difference of the halves.
+// Stores the mean of the two halves, and estimates its error from the difference of the halves.
 static void store(Reference *reference, Framebuffer *picture)
 {
     const size_t pixels = (size_t)picture->width * picture->height;

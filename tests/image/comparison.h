@@ -30,6 +30,6 @@ Comparison comparison_make(const OracleView *view, const Framebuffer *picture,
 // Prints the figures in one line that starts with name.
 void comparison_print(const Comparison *comparison, const char *name);
 
-// Scales `limit`, the allowed number of differing pixels for 512 x 512 pixels, to the compared
-// pixels, and rounds up.
+// Returns the allowed number of differing pixels, rounded up. `limit` is the number that is allowed
+// if 512 x 512 pixels are compared.
 uint32_t comparison_allowance(const Comparison *comparison, uint32_t limit);

@@ -11,8 +11,8 @@
 #define FORMS_FP32 (FORMS - 1)
 extern const KernelChoice form_all[FORMS];
 
-// All forms, but with packets only of the device's own number of lanes. These forms suffice for
-// channels and explanations, whose own code is the same for every number of lanes. fp64 is last.
+// All forms, except that packets have only the device's own number of lanes. These forms suffice
+// for channels and explanations, whose code is the same for every number of lanes. fp64 is last.
 #define FORMS_FEW 4
 extern const KernelChoice form_few[FORMS_FEW];
 

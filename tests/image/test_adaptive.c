@@ -38,8 +38,9 @@ TEST(every_form_threads_and_tree_refine_the_same)
 
 #define SIDE 240
 
-// With this contrast, the error must be at most 1.1 times the error of `side` x `side` samples per
-// pixel. The refined picture must take at most 1 / `times` as many samples as these.
+// With this contrast, the error must be at most 1.1 times the error of a uniform picture with
+// `side` x `side` samples per pixel. The refined picture must take at most 1 / `times` of the
+// uniform picture's samples.
 typedef struct {
     float contrast;
     uint32_t side, times;

@@ -70,7 +70,7 @@ static bool square_is_odd(const Floor *floor, int column, int row)
     return ((cube_of(right, floor->size) + cube_of(-down, floor->size)) & 1) != 0;
 }
 
-// Returns whether the floor shows an odd layer of cubes. Fails if some pixels show another layer.
+// Returns whether the floor shows an odd layer of cubes. Fails if the pixels disagree.
 static bool layer_is_odd(const Floor *floor, const KernelChoice *form)
 {
     char mesh[TEMPORARY_PATH], path[TEMPORARY_PATH];

@@ -40,7 +40,7 @@ static CertainCheck certain[CASES][2];
 static ExactCheck exact[CASES];
 static uint64_t seed = 1901;
 
-// Returns a coordinate that is off v by at most u, or rounded if v is rounded in all corners.
+// Returns a float within u of v, or v rounded to float if is_rounded is set.
 static float stored_near(double v, bool is_rounded)
 {
     const float moved = (float)(v + random_between(&seed, -U, U));
@@ -48,8 +48,8 @@ static float stored_near(double v, bool is_rounded)
     return is_rounded || !is_usable ? (float)v : moved;
 }
 
-// Returns the distance of a plane from the next layer, in cubes. If it is not 0, the moved
-// coordinate is close to a layer.
+// Returns the distance of a case's plane from the boundary between two layers, in cubes. If it is
+// not 0, the moved coordinate is close to this boundary.
 static double offset_of(double rate)
 {
     if (random_below(&seed, 3) > 0)
@@ -89,7 +89,7 @@ static void make_check(int i)
     cases[i].given[2] = (float)axis;
 }
 
-// Checks that a moved place and the certificate choose the cube in which the moved place is.
+// Checks that the kernel and the certificate choose the cube that contains the moved place.
 static void check_cube(const CertainCheck *answer, float moved, float is_odd)
 {
     const bool odd = fmod(floor((double)moved), 2) != 0;

@@ -60,8 +60,8 @@ static double make_cosine(double ratio)
     return sqrt(1 - (1 - beyond * beyond) / (ratio * ratio));
 }
 
-// Stores v turned by a small angle: in the plane of incidence, whose unit vector perpendicular to v
-// is `within`, or in a random direction.
+// Stores v turned by a small angle, either in a random direction or in the plane of incidence.
+// `within` is a unit vector in this plane, perpendicular to v.
 static void turn(Vec3 v, Vec3 within, float turned[3])
 {
     const double angle = ldexp(random_between(&seed, -1, 1), -7 - (int)random_below(&seed, 20));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measures B14 of docs/numerics.md: how far starts of new rays move, and how close to an edge the
-// starts that move are. Most cases are changes of the cases with the largest shares.
+// Measures B14 of docs/numerics.md: how far the starts of new rays move, and how far from an edge a
+// start can be and still move. Most cases are changes of the cases with the largest shares.
 #include "kernel/surface_bounds.h"
 
 #include "unit/cmocka_all.h"

@@ -99,7 +99,7 @@ kernel void probe_refractions(global const float *cases, global const Material *
 
 #ifdef CLRT_CERTIFY_CONE_CL
 // Stores whether the cube of the coordinate is certain and odd, for a face to each side. The cases
-// and coordinates are those of probe_checks.
+// are the input of probe_checks, and the coordinates are its results.
 kernel void probe_certain_checks(global const float *cases, global const float *results,
                                  global int *answers)
 {

@@ -42,9 +42,9 @@ TEST(host_and_device_agree_on_the_layout)
         assert_int_equal(sizes[i], expected[i]);
 }
 
-// Each squaring doubles the relative error and adds one rounding, so the error is 2^-24 per unit of
-// the exponent. The second result is exp(-x) for an x that is rounded a few times. A relative error
-// r of x changes exp(-x) by r x exp(-x). This change is below 1e-6 for any exponent.
+// Each squaring doubles the relative error and adds one rounding, so the error is at most 2^-24 per
+// unit of the exponent. The second result is exp(-x) for an x that is rounded a few times. A
+// relative error r of x changes exp(-x) by r x exp(-x). This change is below 1e-6 for any exponent.
 TEST(powers_are_close_to_exact_ones)
 {
     static const float exponents[] = {0, 1, 2, 7, 50, 200, 1000, 1024};

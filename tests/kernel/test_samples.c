@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-// The side of a pixel, in the unit of positions: half a sub-pixel.
+// The side of a pixel. The unit of positions is half a sub-pixel.
 #define SIDE (2 * LADDER_GRID)
 
 static Probe probe;

@@ -146,7 +146,7 @@ static bool stop_at_once(void *user, uint64_t tiles_done, uint64_t tiles)
     return false;
 }
 
-// Returns whether a tile of rgb equals the tile of `whole`. If not, all its floats must be -1.
+// Returns whether rgb equals `whole` in a tile. If not, all floats of rgb in the tile must be -1.
 static bool tile_is_whole(const float *rgb, const float *whole, const uint32_t tile[2],
                           const ClrtPicture *picture)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shuffles the triangles of closed meshes. Every triangle occurs twice, so every hit is an exact
 // tie. A third of the rays go to vertices, and another third go along axes to vertices. At a
-// vertex, its triangles tie exactly, too.
+// vertex, all triangles around it tie exactly, too.
 #include "library/closed_meshes.h"
 #include "library/renderer.h"
 #include "unit/random.h"
@@ -119,7 +119,7 @@ static bool is_lowest(Order order, uint32_t primitive, uint32_t face)
     return true;
 }
 
-// Returns the number of rays that hit different faces, at equal distances, in the two orders.
+// Returns the number of rays whose hit face depends on the order. The distances must be equal.
 static size_t compare(Order order, Order shuffled)
 {
     size_t ties = 0;

@@ -110,7 +110,7 @@ void winding_places(const ClosedMesh *mesh, const double (*points)[3], size_t co
     free(facets);
 }
 
-// The number of ray directions to try until one touches no outline.
+// The most directions that are tried until a ray touches no outline.
 #define TRIALS 8
 
 __extension__ typedef __int128 Integer;

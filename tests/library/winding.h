@@ -12,8 +12,8 @@ typedef enum {
     POINT_ON_SURFACE // within rounding, or exactly
 } PointPlace;
 
-// Stores the PointPlace of each point, by winding numbers modulo 2. A point within 2^-21 of a
-// triangle's plane, near the triangle, counts as on the surface.
+// Stores the PointPlace of each point, by winding numbers modulo 2. A point that is near a
+// triangle, and within 2^-21 of its plane, counts as on the surface.
 void winding_places(const ClosedMesh *mesh, const double (*points)[3], size_t count,
                     uint8_t *places);
 

@@ -35,9 +35,9 @@ static Layers layers_of(const Scene *scene, const Material *material, int axis)
     return (Layers){1 / size, 0, 0x1p-19 * (1 + unit)};
 }
 
-// Returns the index of the layer that contains a coordinate. First moves the coordinate slightly
-// behind the surface. If the surface is parallel to the axis, moves the coordinate slightly farther
-// along the axis instead.
+// Returns the index of the layer that contains a coordinate on an axis. First moves the coordinate
+// slightly behind the surface. If the surface is parallel to the axis, increases the coordinate
+// slightly instead.
 static double layer_at(Layers layers, double coordinate, double lean)
 {
     const double place = layers.rate * coordinate + layers.shift;

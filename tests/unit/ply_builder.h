@@ -40,7 +40,8 @@ __attribute__((format(printf, 2, 3))) static inline void put_text(Builder *build
     assert_true(builder->size < sizeof builder->bytes);
 }
 
-// Parses a copy without spare bytes, so that sanitizers detect every access beyond the end.
+// Parses a copy without spare bytes, except for an empty text. Sanitizers then detect every access
+// beyond the end.
 static inline bool parse(Mesh *mesh, const char *bytes, size_t size, Error *error)
 {
     char *copy = malloc(size + (size == 0));

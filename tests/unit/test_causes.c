@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests that clrt finds each cause of a difference by the pictures' channels.
+// Tests that clrt finds each cause of a difference in the pictures' channels.
 #include "compare/difference.h"
 
 #include "unit/cmocka_all.h"

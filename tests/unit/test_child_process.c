@@ -90,8 +90,8 @@ TEST(a_limited_child_ends_with_its_parent)
     assert_true(WIFSIGNALED(status) && (double)time(NULL) - start < 20);
 }
 
-// Reports the limit of processor time without a file, with a file of 10 MB and with a file of 1 TB.
-// Then reports the limit of elapsed time.
+// Reports the limit of processor time without a file, after a file of 10 MB, and after another file
+// of 1 TB. Then reports the limit of elapsed time.
 static void report_limits(int end)
 {
     static const uint64_t sizes[3] = {0, 10000000, 1000000000000};

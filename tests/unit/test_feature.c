@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests with random disks that samples find 95 % of disks of feature_smallest's diameter.
+// Tests that samples find 95 % of random disks with the diameter that feature_smallest returns.
 #include "session/feature.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests which parts of valid files mesh/ply keeps in the mesh and which it drops. Tests that a
+// Tests which parts of a valid file ply.c keeps in the mesh, and which it drops. Tests that a
 // written mesh is read back bit for bit, and that the file has the announced size.
 #include "mesh/ply_write.h"
 #include "unit/ply_builder.h"

@@ -19,7 +19,8 @@ typedef struct {
 } Pixel;
 
 // A pixel's squared error is proportional to its squared bend, except in flat pixels that hide an
-// edge. The share of such pixels differs between populations. Most of them are near contrast.
+// edge. The share of flat pixels that hide an edge differs between populations. Most of these
+// pixels are near a large bend.
 static void make_population(Pixel pixels[PIXELS], Strata *strata, uint64_t seed)
 {
     uint64_t state = seed;

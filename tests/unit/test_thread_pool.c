@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests thread pools with more threads than processors, so that workers often wake too late for the
-// tasks.
+// Tests thread pools with fewer tasks than threads. The tasks are short, so workers often wake too
+// late for them.
 #include "base/thread_pool.h"
 #include "unit/cmocka_all.h"
 

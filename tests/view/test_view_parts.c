@@ -148,7 +148,7 @@ static void set_time(const char *path, long nanoseconds)
     assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
 }
 
-// A folder, the path of a file in it, and a new watch.
+// A folder, the path of a file in it, and a watch, which is empty at first.
 typedef struct {
     char folder[32], path[64];
     Watch watch;

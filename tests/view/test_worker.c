@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests that the worker thread stops a slow picture and soon serves other requests. The picture
-// shows a large mesh without a tree.
+// Tests that the worker thread stops a slow picture and soon serves other requests. The picture is
+// slow because its rays test all triangles of a large mesh, without a tree.
 #include "view/worker.h"
 
 #include "base/clock.h"

@@ -21,7 +21,7 @@ KINDS = [("uniform", "uniform samples", "#0b62c4", "o"),
          ("error", "error goals", "#a21caf", "*"),
          ("time", "time goals", "#b45309", "P")]
 
-# The settings of these kinds differ only in one number. A line connects them.
+# Within each of these kinds, settings differ only in one number. A line connects them.
 SERIES = ["uniform", "adaptive", "error"]
 
 

@@ -142,8 +142,8 @@ void cube_fill_edges(const Drawing *drawing)
 // normalized coordinates, in which the longest side of the triangles' box is 1 to 2.
 #define NEAREST 0.01f
 
-// Orthographic pictures have distinct depths up to this distance beyond the origin of normalized
-// coordinates. All triangles are nearer to this origin.
+// The depth range of an orthographic picture ends at least this far behind the origin of normalized
+// coordinates. All triangles are within this distance of the origin.
 #define BEYOND 2
 
 // Stores a vector parallel to `step`. For points on one edge of the picture at distance 1, the

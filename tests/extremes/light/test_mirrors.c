@@ -146,8 +146,8 @@ EXTREME(no_ray_escapes_from_a_closed_mirror_t45)
     }
 }
 
-// Returns a closed mesh. Triangles join a rim of eight vertices at random heights to the origin and
-// to (0, 0, -8). All coordinates are integers.
+// Returns a closed mesh. Its rim has eight vertices at random heights. Triangles join the rim to
+// the origin and to (0, 0, -8). All coordinates are integers.
 static Mesh saddle_mesh(Random *random)
 {
     static const double rim[8][2] = {{4, 0},  {4, 4},   {0, 4},  {-4, 4},

@@ -71,8 +71,8 @@ EXTREME(cameras_may_stand_anywhere_t57)
     }
 }
 
-// Returns a tilted square with the vertex normals (0, 0, z[i]). eye and light are positions as
-// text.
+// Returns a tilted rectangle, nearly a square, with the vertex normals (0, 0, z[i]). eye and light
+// are positions as text.
 static Scene square(const float z[4], const char *eye, const char *light)
 {
     Scene scene = parsed_format("up 0 1 0.1\ncamera %s 0 0 0.125 40\nlight %s 1\n", eye, light);

@@ -71,8 +71,8 @@ static size_t count_disturbed(const TestHit *hits, const TestHit *expected, size
     return disturbed;
 }
 
-// Returns the hits, and stores the least processor time of five runs, in seconds. Processor time
-// depends less than elapsed time on other processes.
+// Returns the hits, and stores the least processor time of five runs, in seconds. Other processes
+// affect processor time less than they affect elapsed time.
 static TestHit *trace_timed(RayBatch *batch, Rays rays, double *seconds)
 {
     TestHit *hits = NULL;

@@ -70,11 +70,10 @@ static long double outline_distance(const Sheared *s)
     return fminl(edge_distance(s, 0, 1), fminl(edge_distance(s, 1, 2), edge_distance(s, 2, 0)));
 }
 
-// The result of testing the ray against one triangle.
+// The result of testing the ray against one triangle. For a doubtful miss, t is a lower bound.
 typedef struct {
     bool met, doubtful;
-    long double t, error; // distance along the ray (a lower bound for a doubtful miss) and its
-                          // error
+    long double t, error; // distance along the ray, and its error
 } Answer;
 
 static Answer answer_of(const Sheared *s, long double dz)

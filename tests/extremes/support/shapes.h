@@ -63,9 +63,9 @@ Mesh shape_soup(Random *random, uint32_t count, double size);
 
 Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c);
 
-// Returns a closed mesh without points in which it touches itself. If several fans of triangles
-// meet in a point, all fans but the first get a vertex of their own. This vertex is a twentieth of
-// the way from the point to the fan's middle. The result has no normals.
+// Returns a copy of a closed mesh, changed so that it touches itself in no vertex. If several fans
+// of triangles meet in a point, all fans but the first get a vertex of their own. This vertex is a
+// twentieth of the way from the point to the fan's middle. The result has no normals.
 Mesh shape_apart(const Mesh *mesh);
 
 // Adds mesh as a two-sided object. The scene then owns the mesh.

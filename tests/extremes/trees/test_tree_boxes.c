@@ -16,8 +16,8 @@ typedef struct {
     size_t triangles, boxes, violations; // so far
 } Walk;
 
-// Checks the planes of one child against `box`, the box of the triangles below it, and extends
-// `all` by this box. Successive planes are `children` floats apart, one for each possible child.
+// `box` contains the triangles below a child. Checks the child's planes against `box`, and extends
+// `all` by `box`. Successive planes are `children` floats apart, one for each possible child.
 static void check_child(Walk *walk, const float *planes, size_t children, const Box *box, Box *all)
 {
     double largest = 0;
