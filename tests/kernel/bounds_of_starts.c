@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Measures B14 of docs/numerics.md: how far the starts of new rays move, and how far from an edge a
-// start can be and still move. Most cases are changes of the cases with the largest shares.
+// start can be and still move. Also measures the rounding of normals (B13). Most cases are changes
+// of the cases with the largest shares.
 #include "kernel/surface_bounds.h"
 
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 
 typedef struct {
-    float hits, point[3], start[3], direction[3], sine;
+    float hits, point[3], start[3], direction[3], sine, normal[3];
 } Started;
 
 // A triangle in exact numbers.
@@ -17,9 +18,10 @@ typedef struct {
     Quad edge;   // bounds the lengths of the edges, as in start_of
 } ExactTriangle;
 
-enum { AXIS, SLIDE, NEAR, BOUNDS };
+enum { NORMAL, AXIS, SLIDE, NEAR, BOUNDS };
 
 static Share shares[BOUNDS] = {
+    [NORMAL] = {"B13: normal, 4 u E + 2 u of its length", 0},
     [AXIS] = {"B14: start on an axis, 256 u / sine + 4 u", 0},
     [SLIDE] = {"B14: start, 450 u / sine + 4 u", 0},
     [NEAR] = {"B14: distance from an edge, 71 u / sine", 0},
@@ -111,11 +113,20 @@ static Quad least_sine(const ExactTriangle *exact, const float direction[3])
     return magnitude(dot3(d, exact->normal)) / exact->length - doubt - 8 * U;
 }
 
+static void check_normal(int i, const ExactTriangle *exact)
+{
+    const Quad edges = largest3(exact->ab) * largest3(exact->ac);
+    for (int axis = 0; axis < 3; axis++)
+        note(i, NORMAL, magnitude(started[i].normal[axis] - exact->normal[axis]),
+             (4 * edges + 2 * magnitude(exact->normal[axis])) * U * (1 + 8 * U));
+}
+
 static void check_case(int i)
 {
     const Started *found = &started[i];
     const ExactTriangle exact = exact_triangle(&triangles[i]);
     Quad moved[3];
+    check_normal(i, &exact);
     for (int axis = 0; axis < 3; axis++)
         moved[axis] = (Quad)found->start[axis] - found->point[axis];
     const Quad sine = least_sine(&exact, found->direction);

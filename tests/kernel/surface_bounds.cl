@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes starts, checks and refractions in the same way as the kernels, for test_surface_bounds.
+// Computes camera rays, starts, checks and refractions in the same way as the kernels, for
+// test_surface_bounds.
 
 // Stores the surface that a ray hits on its triangle. Returns whether the ray hits.
 static inline bool hit_surface(const Tracer *tracer, Real3 origin, Real3 direction, uint item,
@@ -47,14 +48,14 @@ kernel void probe_checks(global const float *cases, global const TriangleData *t
 }
 
 // A case has nine floats: {previous origin, previous direction, new direction}. Stores whether the
-// previous ray hits its triangle, the surface point, the new ray's start and direction, and the
-// sine of the direction's angle to the face.
+// previous ray hits its triangle, the surface point, the new ray's start and direction, the sine of
+// the direction's angle to the face, and the triangle's normal.
 kernel void probe_starts(global const float *cases, global const TriangleData *triangles,
                          global Scalar *results)
 {
     const uint item = get_global_id(0);
     global const float *given = cases + 9 * item;
-    global Scalar *values = results + 11 * item;
+    global Scalar *values = results + 14 * item;
     Tracer tracer;
     Surface surface;
     tracer.triangles = (global const Triangles *)triangles;
@@ -66,6 +67,8 @@ kernel void probe_starts(global const float *cases, global const TriangleData *t
     values[10] = fabs(height);
     store3(values + 1, surface.point);
     store3(values + 4, point_left(&tracer, &surface, &heading, fabs(height), 1));
+    store3(values + 11,
+           cross_product(difference(surface.b, surface.a), difference(surface.c, surface.a)));
 }
 
 // A case has 16 floats: {normal, vector toward the viewer, the same two vectors turned, index of
@@ -97,7 +100,39 @@ kernel void probe_refractions(global const float *cases, global const Material *
     store3(values + 11, reflected.direction);
 }
 
+// Stores for each start the height over a triangle, the part of the threshold for a surface point's
+// error (B7), and the height that height_over returns.
+kernel void probe_heights(global const float *cases, global const TriangleData *triangles,
+                          global Scalar *results)
+{
+    const uint item = get_global_id(0);
+    global Scalar *values = results + 3 * item;
+    const Real3 point = load3(cases + 9 * item);
+    const Corners corners = {load3(triangles[item].a), load3(triangles[item].b),
+                             load3(triangles[item].c)};
+    const Real3 ab = difference(corners.b, corners.a), ac = difference(corners.c, corners.a);
+    const Real3 normal = cross_product(ab, ac);
+    values[0] = dot_product(normal, difference(point, corners.a));
+    values[1] = UNIT_ROUNDOFF * POINT_BLUR * dot_product(magnitudes(normal), magnitudes(point));
+    values[2] = height_over(&corners, point, POINT_BLUR);
+}
+
 #ifdef CLRT_CERTIFY_CONE_CL
+// Stores the cone of a camera ray: its origin, direction and radii.
+kernel void probe_cones(global const FrameData *frames, global const uint *places,
+                        global Scalar *results)
+{
+    const uint item = get_global_id(0);
+    global Scalar *values = results + 8 * item;
+    const FrameData frame = frames[item];
+    const uint2 sample = (uint2)(places[2 * item], places[2 * item + 1]);
+    const RayCone cone = camera_cone(&frame, sample, 0x1p-24f);
+    store3(values, cone.origin);
+    store3(values + 3, cone.along);
+    values[6] = cone.around;
+    values[7] = cone.spread;
+}
+
 // Stores whether the cube of the coordinate is certain and odd, for a face to each side. The cases
 // are the input of probe_checks, and the coordinates are its results.
 kernel void probe_certain_checks(global const float *cases, global const float *results,
@@ -138,5 +173,20 @@ kernel void probe_certain_refractions(global const float *cases, global const Ma
     values[1] = at.refracts ? 1.0f : 0.0f;
     store3(values + 2, at.direction);
     values[5] = at.doubt;
+}
+#else
+// Stores the origin and direction of the camera ray through a sub-pixel, and whether the pixel's
+// block is sky. `places` contains the sub-pixel.
+kernel void probe_cameras(global const FrameData *frames, global const uint *places,
+                          global float *results)
+{
+    const uint item = get_global_id(0);
+    global float *values = results + 7 * item;
+    const FrameData frame = frames[item];
+    const uint x = places[2 * item], y = places[2 * item + 1];
+    const Ray ray = camera_ray(&frame, x, y, 1);
+    vstore3((float3)(ray.origin.x, ray.origin.y, ray.origin.z), 0, values);
+    vstore3((float3)(ray.direction.x, ray.direction.y, ray.direction.z), 1, values);
+    values[6] = is_sky(&frame, x / frame.samples, y / frame.samples) ? 1.0f : 0.0f;
 }
 #endif
