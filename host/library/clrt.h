@@ -258,7 +258,7 @@ typedef struct {
     // PLATFORM:DEVICE, a type (cpu, gpu, accelerator, all) or part of a name, as for `clrt
     // --device`. NULL selects the first GPU or, without a GPU, the first device.
     const char *device;
-    uint32_t threads; // for building trees and refining pictures; 0: all that the process may use
+    uint32_t threads; // for trees, refining and converting rays; 0: all that the process may use
     ClrtPrecision precision; // error goals below 1.6e-4 require CLRT_FP64
 
     // For experiments. These settings change no bit of a picture.

@@ -129,7 +129,8 @@ TEST(a_lone_leaf_gets_a_node_with_one_child)
     FREED_BY(flat_free) FlatScene flat = {0};
     Error error = {0};
     const Normalization frame = normalization_of(&all.scene);
-    const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame, NODES_PAIR, NULL, false};
+    const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame,
+                               NODES_PAIR, NULL,           false, false};
     assert_true(flat_make(&flat, &source, &error));
     assert_int_equal(flat.node_count, 1);
     assert_int_equal(flat.pairs[0].count[0], all.triangles.count);
@@ -214,7 +215,8 @@ TEST(a_leaf_too_large_for_a_block_becomes_several)
     all.bvh.nodes[0].count = (uint32_t)all.triangles.count;
     all.bvh.nodes[0].first = 0;
     const Normalization frame = normalization_of(&all.scene);
-    const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame, NODES_WIDE, NULL, false};
+    const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame,
+                               NODES_WIDE, NULL,           false, false};
     Error error = {0};
     flat_free(&all.flat);
     assert_true(flat_make(&all.flat, &source, &error));
