@@ -134,7 +134,7 @@ static inline Real camera_rounding(const CameraData *camera, Real3 moved, float 
 }
 
 // Returns the cone of a camera ray. `sample` contains the arguments sample_x and sample_y of
-// camera_ray. The variable `own` is twice the bound on the rounding in fp64.
+// camera_ray. The variable `own` is twice the bound on the camera ray's rounding in fp64 (B18).
 static inline RayCone camera_cone(const FrameData *frame, uint2 sample, Real u)
 {
     const Ray ray = camera_ray(frame, sample.x, sample.y, true);

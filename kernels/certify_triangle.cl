@@ -96,7 +96,7 @@ static inline Real slope_of(const ProjectedTriangle *projected)
 
 // Returns bounds on the depth of a hit. The hit is at most one blur away from the axis, and its
 // depth is between the depths of the corners. For a broad triangle, the plane's slope also limits
-// the difference between this depth and the depth at which the axis crosses the plane. A broad
+// how far the hit's depth differs from the depth at which the axis crosses the plane. A broad
 // triangle is more than 8 blurs high. The hit's weights then stay within [-1/4, 5/4], and rounding
 // changes the plane's slope by less than (1 + slope) / 2. A bound of 4 (1 + slope) blurs covers
 // these effects. 26 u times the size covers the rounding of the distance (B11).
@@ -254,8 +254,9 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
 // Returns whether a ray that leaves a triangle certainly misses a coincident triangle. It misses if
 // height_over returns zero for the ray's start. hits_neighbor then finds neither triangle in front
 // of the other. Here n is the tracer's normal, and n.|v| is the sum of the products' magnitudes.
-// For an edge of the triangle itself, the computed height over the triangle's plane is below
-// 6u n.|edge|, so height_over returns zero.
+// Corners b and c are at the ends of the edges from corner a. Their computed height over their own
+// triangle's plane is below 6u n.|edge|. The threshold of height_over is at least 8u n.|edge|, so
+// height_over returns zero for corners, too.
 //
 // The computed height of the start is at most the sum of these errors:
 //  - The start is a weighted sum of corners. Each corner has the height n.a over the origin. The

@@ -8,7 +8,8 @@
 //  - Each coordinate of the point moves a little behind the surface. On an axis parallel to the
 //    surface, no direction leads behind it, and the coordinate increases. The edge between two
 //    checks of a floor therefore belongs to one of them.
-//  - If all corners of a triangle have the same coordinate, all its points have this coordinate.
+//  - If all corners of a triangle have the same coordinate on an axis, the point gets exactly this
+//    coordinate, without rounding.
 #ifndef CLRT_CHECKER_CL
 #define CLRT_CHECKER_CL
 #include "surface.cl"

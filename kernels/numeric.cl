@@ -3,8 +3,8 @@
 // logarithms and exponentials may differ in their last bits between devices.
 //
 // Invariant: contraction is off, and every fma is explicit. A picture depends only on + - * / sqrt
-// fma rint floor, conversions, comparisons and integers. Every device that rounds these correctly
-// computes the same bits.
+// fma rint floor, signs (fabs, copysign), conversions, comparisons and integers. Every device that
+// rounds these correctly computes the same bits.
 #ifndef CLRT_NUMERIC_CL
 #define CLRT_NUMERIC_CL
 #include "lanes.cl"

@@ -93,8 +93,9 @@ static inline void search_boxes(Search *search, const Tracer *tracer, const Ray 
     search->slabs = slabs_of(ray->origin, ray->direction);
     search->limit = limit;
     // triangle_depth_error is at most 54 u (o + 1) for the origin's largest coordinate o, because
-    // coordinates of corners are at most 1 (B4). The smallest inverse turns this error of the depth
-    // into an error of t.
+    // coordinates of corners are at most 1 (B4). t is the depth times the inverse of the
+    // direction's largest component. This factor is the smallest of the three inverses, and turns
+    // the error of the depth into an error of t.
     const Real3 inverse = magnitudes(search->slabs.inverse);
     const Real unit = UNIT_ROUNDOFF * min(min(inverse.x, inverse.y), inverse.z);
     search->tie = 128.0f * unit * (largest_component(ray->origin) + 1.0f);

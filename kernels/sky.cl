@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds the blocks of pixels in which no camera ray hits anything. Two kinds of separating planes
-// are tested: sides of the box around all primitives, and sides of the pyramid of the block's rays.
-// The rays of an orthographic camera fill a prism instead.
+// Finds blocks of pixels in which certainly no camera ray hits anything. Two kinds of separating
+// planes are tested: sides of the box around all primitives, and sides of the pyramid of the
+// block's rays. The rays of an orthographic camera fill a prism instead.
 //
 // Invariant: a block with a ray that may hit something is never sky (docs/numerics.md, B17).
 

@@ -92,8 +92,8 @@ static inline Real OVERLOAD triangle_depth(const Corners *sheared, const Edges *
                fma(edges->v * r, sheared->b.z, (edges->w * r) * sheared->c.z));
 }
 
-// Bounds the error of triangle_depth. The error is at most 14 u of the largest depth
-// (docs/numerics.md, B4), and this bound is larger.
+// Bounds the error of triangle_depth and of its later product with inverse_z. Together, these
+// errors are at most 14 u of the largest depth (docs/numerics.md, B4), and this bound is larger.
 static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 {
     const Real depth = max(max(fabs(s->a.z), fabs(s->b.z)), fabs(s->c.z));

@@ -125,8 +125,8 @@ static inline Wide3 splat3(const Real3 *v, uint lane)
     return (Wide3){lane_real(&v->x, lane), lane_real(&v->y, lane), lane_real(&v->z, lane)};
 }
 
-// Returns the triangles that stop the lane's ray. The ray's line must hit all given triangles
-// within rounding of the ray's start.
+// Returns the triangles that stop the lane's ray. The ray's line must hit each given triangle so
+// close to the ray's start that rounding could put the hit before or behind the start.
 static NOT_INLINE int8 block_neighbors(const Search *search, uint lane, uint first, uint triangles,
                                        uint from_back)
 {

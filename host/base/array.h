@@ -34,6 +34,6 @@ void *memory_raw(size_t count, size_t size, Error *error);
 // Returns a copy of text, which the caller frees, or NULL if memory runs out.
 char *text_copy(const char *text, Error *error);
 
-// Like memory_raw, but unused elements take no physical memory. The array does not use huge pages,
-// and is not aligned to 64 bytes.
+// Like memory_raw, but unused elements take no physical memory. The function requests no huge
+// pages, and does not align the array to 64 bytes.
 void *memory_sparse(size_t count, size_t size, Error *error);

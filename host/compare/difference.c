@@ -261,8 +261,8 @@ static bool differ(const Side sides[2], size_t pixel, int channel)
     return memcmp(&a, &b, sizeof a) != 0;
 }
 
-// Returns whether --max-level ended the path with fewer bounces at this pixel, and the other
-// picture has a higher --max-level.
+// Each picture has a path at this pixel. Returns whether --max-level ended the shorter path, and
+// the picture of the longer path has a higher --max-level.
 static bool is_truncated(const Side sides[2], size_t pixel)
 {
     const float bounces[] = {side_value(&sides[0], pixel, BOUNCES),

@@ -154,8 +154,8 @@ bool holds_ids(const OIIO::ImageSpec &spec, int channel)
 }
 
 // Reads all channels. A channel of 32-bit integers that is not a color contains ids, which are
-// stored unchanged. Other channels are converted to type. Each call of read_image reads neighboring
-// channels, either all with ids or all without ids.
+// stored unchanged. Other channels are converted to `type`. Each call of read_image reads
+// neighboring channels, either all with ids or all without ids.
 bool read_channels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, OIIO::TypeDesc type,
                    void *values)
 {

@@ -92,7 +92,8 @@ static void advance(Vec3 *origin, Vec3 direction, double t, double *sizes)
 }
 
 // Stores a ray's direction, limit and doubt. The doubt bounds the errors of fp64 arithmetic.
-// Returns the ray's normalized origin. A ray that can hit nothing gets a limit below 0.
+// Returns the ray's start in normalized coordinates: the point at `near`, advanced to the scene's
+// cube if it is far away. A ray that can hit nothing gets a limit below 0.
 static Vec3 convert(RayPart *part, size_t entry, const GivenRay *given)
 {
     const double largest = vec3_extent(given->direction);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each pass marks cells in parallel, subdivides the marked cells in order, and traces all new
 // samples as one list. The next pass examines only the new groups of cells, their neighbors, and
-// the seams that are new or were listed before.
+// the seams that are new or that this pass has listed.
 #include "refine/adaptive.h"
 
 #include "refine/contrast.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The data of a ladder (ladder.h). The files ladder*.c share it.
+// The data of a ladder (ladder.h). ladder.c, ladder_choice.c and ladder_entry.c share it.
 #pragma once
 
 #include "refine/ladder_requests.h"

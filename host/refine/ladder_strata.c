@@ -50,8 +50,8 @@
 // With a factor of 1.5, errors of thin strips reached 1.14 times the goal.
 #define NESTED_FACTOR 1.75
 
-// A stratum's first step selects so many controls that the prior's part of the estimate is
-// PRIOR_PART of the aim. This number is limited to between FIRST_LEAST and FIRST_MOST of the
+// A stratum's first step selects the number of controls at which the prior contributes PRIOR_PART
+// of the aim to the estimate. This number is limited to between FIRST_LEAST and FIRST_MOST of the
 // stratum's pixels, but is at least FIRST_PIXELS.
 #define PRIOR_PART   0.03
 #define FIRST_LEAST  (1.0 / 128)

@@ -31,8 +31,9 @@ static bool is_like(const SampleData *sample, const SampleData *end, const Sampl
             2 * seam_difference(sample, end) < seam_difference(sample, other));
 }
 
-// Replaces the assumed end, which was beyond the line, by a sample at the line's end. If this
-// sample resembles the sample of the nearest cell, there is no seam between the two samples.
+// The sample of the end `assumed` was taken in the cell beyond the line. Replaces it by `sample`,
+// which was taken at the line's border. If `sample` resembles the sample of the nearest cell, there
+// is no seam between the two samples.
 static void take_border(Seam *seam, const SampleData *sample)
 {
     if (is_like(sample, &seam->ends[SEAM_END_LAST - seam->assumed], &seam->ends[seam->assumed]))

@@ -15,7 +15,7 @@ typedef struct {
 bool seam_search_open(RefineTree *tree, uint32_t first, Error *error);
 
 // Lists the seams that need a sample: their contrast exceeds the threshold, and another sample may
-// narrow them. Examines only seams that are new or were listed before.
+// narrow them. Examines only new seams and the seams of the previous list.
 bool seam_search_ask(SeamSearch *search, const RefineTree *tree, float threshold, Error *error);
 
 // Updates the listed seams with their samples.

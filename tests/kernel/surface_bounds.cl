@@ -2,7 +2,8 @@
 // Computes camera rays, starts, checks and refractions in the same way as the kernels, for
 // test_surface_bounds.
 
-// Stores the surface that a ray hits on its triangle. Returns whether the ray hits.
+// Stores the surface of triangle `item` where the ray's line meets its plane. Returns whether the
+// line passes inside the triangle's edges.
 static inline bool hit_surface(const Tracer *tracer, Real3 origin, Real3 direction, uint item,
                                Surface *surface)
 {
@@ -72,9 +73,10 @@ kernel void probe_starts(global const float *cases, global const TriangleData *t
 }
 
 // A case has 16 floats: {normal, vector toward the viewer, the same two vectors turned, index of
-// refraction, 1 if the ray is inside, doubts of both vectors}. The turned vectors are refracted and
-// reflected. Stores their unit vectors, their cosine, the refracted ray's cosine and direction, and
-// the reflected ray's direction.
+// refraction, 1 if the ray is inside the glass, bounds on how far the two unit vectors turn (only
+// for probe_certain_refractions)}. The turned vectors are refracted and reflected. Stores their
+// unit vectors, their cosine, the refracted ray's cosine and direction, and the reflected ray's
+// direction.
 kernel void probe_refractions(global const float *cases, global const Material *materials,
                               global Scalar *results)
 {

@@ -43,8 +43,9 @@ TEST(host_and_device_agree_on_the_layout)
 }
 
 // Each squaring doubles the relative error and adds one rounding, so the error is at most 2^-24 per
-// unit of the exponent. The second result is exp(-x) for an x that is rounded a few times. A
-// relative error r of x changes exp(-x) by r x exp(-x). This change is below 1e-6 for any exponent.
+// unit of the exponent. The second result of each case is exp(-x). Its x, exponent * -log(base), is
+// rounded a few times. A relative error r of x changes exp(-x) by r x exp(-x). This change is below
+// 1e-6 for any exponent.
 TEST(powers_are_close_to_exact_ones)
 {
     static const float exponents[] = {0, 1, 2, 7, 50, 200, 1000, 1024};
@@ -115,7 +116,8 @@ static Highlight highlight_case(int number, double shininess, uint64_t *random)
     return made;
 }
 
-// Returns (n . h + more)^shininess for the directions of the float vectors.
+// Returns (n . h + more)^shininess in long double. n and h are the case's float vectors,
+// normalized.
 static double exact_highlight(const Highlight *made, double more)
 {
     long double nn = 0, hh = 0, nh = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Traces and shades by the rules of the course and of clrt. A light shines on a point if the
-// interpolated normal faces the light, and nothing but glass occludes the light. A ray never hits
-// the triangle that it leaves. A ray that leaves a sphere can hit this sphere only at the far wall.
-// A reflected ray that would enter the surface is mirrored out of the surface.
+// Traces and shades by the rules of clrt and of the UvA course (docs/scenes.md). A light shines on
+// a point if the interpolated normal faces the light, and nothing but glass occludes the light. A
+// ray never hits the triangle that it leaves. A ray that leaves a sphere can hit this sphere only
+// at the far wall. A reflected ray that would enter the surface is mirrored out of the surface.
 #include "oracle/oracle.h"
 
 // A light grazes a face if the sine of the light's height over the face is below this limit. A

@@ -92,7 +92,7 @@ static void make_file(const char *name)
     fclose(file);
 }
 
-// Creates the temporary file of a killed run of another machine.
+// Creates a temporary file as a killed run on another machine would leave it. Returns its name.
 static const char *make_strange(void)
 {
     static const char name[] = ".clrt-00000000deadbeef";
@@ -100,7 +100,8 @@ static const char *make_strange(void)
     return name;
 }
 
-// Creates the temporary file of a killed run of this machine. The caller frees its name.
+// Creates a temporary file as a killed run on this machine would leave it. Returns its name, which
+// the caller frees.
 static char *make_lost(void)
 {
     OutputFile file;

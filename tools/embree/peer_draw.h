@@ -37,5 +37,6 @@ typedef struct {
     uint32_t threads;
 } PeerPicture;
 
-// Fills the framebuffer, which must have the scene's size. Returns the number of traced rays.
+// Fills the framebuffer, which must have the scene's size. Returns the number of traced rays of
+// each kind.
 PeerCounts peer_draw(const PeerPicture *picture, Framebuffer *framebuffer);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The parts of the man page and of the completions that come from the tables of options, commands
-// and channels.
+// and channels, and from the window's list of keys.
 #pragma once
 
 #include <stdio.h>

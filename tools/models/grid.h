@@ -41,8 +41,8 @@ Vec3 grid_point(const Grid *grid, Vec3 at);
 // Returns the size of a model's cells at a point in world coordinates.
 double grid_cell_size(const Model *model, Vec3 point);
 
-// Samples the model. A few outside samples become inside ones, so that the inside is well-composed,
-// as surface_extract requires. Returns false if memory is exhausted or the model touches the
-// box's faces.
+// Samples the model. A few outside samples become inside ones, so that the inside is well-composed
+// (grid.c), as surface_extract requires. Returns false if memory is exhausted or the model touches
+// the box's faces.
 bool grid_make(Grid *grid, const Model *model, Error *error);
 void grid_free(Grid *grid);

@@ -4,8 +4,8 @@
 #include "shape.h"
 
 // A pointed petal. Its half width is radii.y, and its half length is 0.93 * radii.z. In q's frame,
-// x points out of the petal's back and z points to its tip. Two shifted, mirrored halves of an
-// ellipsoid form the ridge and the point.
+// x points out of the petal's back and z points to its tip. The center of the ellipsoid is at
+// y = -shift. The part with y > 0 and its mirror image (see petal) meet at the ridge and the tip.
 static double blade(Vec3 q, Vec3 radii)
 {
     const double shift = 0.6 * radii.y;

@@ -96,8 +96,8 @@ static void relax_step(Surface *surface, const Model *model, Vec3 *sums, double 
     }
 }
 
-// Sums the area vectors of the quads at each vertex, which gives a normal weighted by area. Twice a
-// quad's area vector is the cross product of its diagonals.
+// Sums the cross products of the diagonals of the quads at each vertex. Each product is twice the
+// quad's area vector, so the sum is a normal weighted by area.
 static void sum_facings(const Surface *surface, Vec3 *facings)
 {
     for (size_t vertex = 0; vertex < surface->vertex_count; vertex++)

@@ -19,10 +19,10 @@ class Renderer:
     """A device that draws pictures and casts rays. Keeps the last scene's tree between calls.
 
     device: as `clrt --device`: "cpu", "gpu", a part of a name or PLATFORM:DEVICE. threads: their
-    number for trees, refining and converting rays; PoCL's own threads follow POCL_MAX_PTHREAD_COUNT. precision:
-    "fp32" or "fp64". Python's threads may share a renderer, but wait for each other. Most calls
-    take `progress`: a function of (done, all) that may return False to stop the call, or True for
-    a bar by tqdm.
+    number for trees, refining and converting rays; PoCL's own threads follow
+    POCL_MAX_PTHREAD_COUNT. precision: "fp32" or "fp64". Python's threads may share a renderer, but
+    wait for each other. Most calls take `progress`: a function of (done, all) that may return False
+    to stop the call, or True for a bar by tqdm.
     """
 
     def __init__(self, device: str | None = None, threads: int = 0, precision: str = "fp32"):

@@ -55,7 +55,7 @@ uint32_t boxes_deepest(const Bvh *bvh);
 bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t depth, Error *error);
 void boxes_free(Boxes *boxes);
 
-// Fills an empty array with the normals of a model, as lines from low to high in normalized
-// coordinates. The lines start at the vertices of smooth objects, and at the centers of the
-// triangles of other objects. The caller frees the array, also after a failure.
+// Fills an empty array with the normals of a model in normalized coordinates. Each normal is the
+// line from a box's `low` to its `high`. The lines start at the vertices of smooth objects, and at
+// the centers of the triangles of other objects. The caller frees the array, also after a failure.
 bool normals_make(Boxes *lines, const Model *model, Error *error);

@@ -146,8 +146,9 @@ void cube_fill_edges(const Drawing *drawing)
 // coordinates. All triangles are within this distance of the origin.
 #define BEYOND 2
 
-// Stores a vector parallel to `step`. For points on one edge of the picture at distance 1, the
-// vector's dot product with the point is 1.
+// Stores a vector parallel to `step`. Its dot product with an offset from the eye to the image
+// plane (distance 1) is 1 at the edge of the picture toward which `step` points. If `pixels` is
+// negative, it is 1 at the opposite edge.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = vec3_of_floats(step);

@@ -9,7 +9,8 @@
 #include <epoxy/gl.h>
 #include <stdint.h>
 
-// The files of host/view/shaders, embedded by tools/embed_shaders.cmake.
+// The shaders of host/view/shaders. tools/embed_shaders.cmake embeds them with their included
+// files.
 extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_picture[],
     shader_text[];
 

@@ -131,7 +131,8 @@ kernel void batch_blocked(BATCH_ARGUMENTS)
     trace_rays(&tracer, rays, count, true, hits);
 }
 
-// The id for a second ray that hits nothing if the shadow ray in its direction is blocked.
+// The id for a second ray that hits nothing, although a shadow ray from the same point in the same
+// direction is blocked.
 #define LEAVE_SHADOWED 0xfffffffeu
 
 // Traces rays from the surfaces that these lanes' rays hit. See batch_leave.

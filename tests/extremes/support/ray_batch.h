@@ -66,7 +66,8 @@ void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere);
 // packets hold similar rays.
 TestHit *ray_batch_trace(const RayBatch *batch, BatchTask task, Rays rays);
 
-// The id that ray_batch_leave returns for a ray that hits nothing while its shadow ray is blocked.
+// The id that ray_batch_leave returns if a ray from the surface hits nothing, but a shadow ray from
+// the same point in the same direction is blocked.
 #define LEAVE_SHADOWED 0xfffffffeu
 
 // Returns the hits of rays that leave the surfaces hit by `rays`. Ray i has the direction

@@ -47,8 +47,8 @@ static void make_free_rays(Rays rays, const Triangles *triangles, Random *random
     }
 }
 
-// Makes rays from points of triangles at or near an edge. Neighboring triangles are so
-// close that rounding can make their distance zero or less.
+// Makes rays from points of triangles at or near an edge. Neighboring triangles are so close to the
+// ray's start that rounding can make their distance along the ray zero or less.
 static void make_surface_rays(Rays rays, const Stage *stage, Random *random)
 {
     const Triangles *triangles = &stage->triangles;
