@@ -208,20 +208,12 @@ static inline Mask plain_side(const Sphere *sphere, Real3 origin)
     return power > doubt ? (Mask)(1) : inside;
 }
 
-// Returns the wanted lanes unless plain Reals prove that their rays do not meet the sphere.
-static inline Mask may_meet_sphere(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
-{
-    const Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
-    if (!any_lane(is_near))
-        return 0;
-    return is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
-}
-
 // Returns the wanted lanes unless plain Reals prove that their rays meet no sphere inside of the
 // bounding sphere before t (B21).
 static inline Mask may_meet_before(const Sphere *bound, Real3 origin, Real3 d, Real t, Mask wanted)
 {
-    const Mask is_near = may_meet_sphere(bound, origin, d, wanted);
+    const Mask leaves = leads_away(bound, origin, d) && plain_side(bound, origin) > 0;
+    const Mask is_near = wanted && !sphere_is_passed(bound, origin, d) && !leaves;
     const Real3 center = plain_center(bound), f = difference(center, origin);
     const Real dd = dot_product(d, d), ahead = dot_product(f, d) - t * dd;
     const Real rr = bound->radius.high * bound->radius.high;
@@ -236,7 +228,10 @@ static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, 
 {
     if (!any_lane(wanted))
         return INFINITY;
-    const Mask is_near = may_meet_sphere(sphere, origin, d, wanted);
+    Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
+    if (!any_lane(is_near))
+        return INFINITY;
+    is_near = is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
     if (!any_lane(is_near))
         return INFINITY;
     const TwoFloat3 f = sphere_to_origin(sphere, origin);
