@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes camera rays, starts, checks and refractions in the same way as the kernels, for
-// test_surface_bounds.
+// Computes camera rays, starts, checks, refractions and tests of bounding spheres in the same way
+// as the kernels, for test_surface_bounds.
 
 // Stores the surface of triangle `item` where the ray's line meets its plane. Returns whether the
 // line passes inside the triangle's edges.
@@ -117,6 +117,24 @@ kernel void probe_heights(global const float *cases, global const TriangleData *
     values[0] = dot_product(normal, difference(point, corners.a));
     values[1] = UNIT_ROUNDOFF * POINT_BLUR * dot_product(magnitudes(normal), magnitudes(point));
     values[2] = height_over(&corners, point, POINT_BLUR);
+}
+
+// A case has seven floats, {origin, direction, t}, padded to nine, and two spheres: a bounding
+// sphere and a sphere inside it. Stores whether the ray's line passes the bounding sphere, whether
+// the ray starts outside of it and leads away, whether the ray may meet it before t, and the
+// distance of the sphere inside.
+kernel void probe_sphere_trees(global const float *cases, global const SphereData *spheres,
+                               global Scalar *results)
+{
+    const uint item = get_global_id(0);
+    global Scalar *values = results + 4 * item;
+    const Real3 o = load3(cases + 9 * item), d = load3(cases + 9 * item + 3);
+    const Sphere bound = sphere_at(&spheres[2 * item]), inside = sphere_at(&spheres[2 * item + 1]);
+    const Mask away = leads_away(&bound, o, d) && plain_side(&bound, o) > 0;
+    values[0] = sphere_is_passed(&bound, o, d) ? 1.0f : 0.0f;
+    values[1] = away ? 1.0f : 0.0f;
+    values[2] = may_meet_before(&bound, o, d, cases[9 * item + 6], 1) ? 1.0f : 0.0f;
+    values[3] = sphere_distance(&inside, o, d, 1);
 }
 
 #ifdef CLRT_CERTIFY_CONE_CL

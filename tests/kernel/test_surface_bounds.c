@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Continues test_bounds with the steps that follow a hit: starts of new rays, checks and
-// refraction. The errors are measured in the same way, but all cases are random.
+// Continues test_bounds with stored numbers, camera rays, trees over spheres, and the steps after a
+// hit: starts of new rays, checks and refraction. The errors are measured in the same way.
 #include "kernel/surface_bounds.h"
 
 #include "unit/cmocka_all.h"
