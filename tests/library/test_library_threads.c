@@ -77,6 +77,13 @@ TEST(several_threads_create_renderers_and_draw_concurrently)
 #define RAYS 200000
 
 static atomic_size_t launched; // work-items of all launches
+static __typeof__(clEnqueueNDRangeKernel) *drivers_function;
+
+SET_UP(find_drivers_function)
+{
+    *(void **)&drivers_function = dlsym(RTLD_NEXT, "clEnqueueNDRangeKernel");
+    return drivers_function == NULL;
+}
 
 #pragma GCC visibility push(default)
 
@@ -85,11 +92,9 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
                               const size_t *offset, const size_t *items, const size_t *group,
                               cl_uint wait_count, const cl_event *waits, cl_event *event)
 {
-    static __typeof__(clEnqueueNDRangeKernel) *real;
-    if (real == NULL)
-        *(void **)&real = dlsym(RTLD_NEXT, "clEnqueueNDRangeKernel");
     launched += items[0];
-    return real(queue, kernel, dimensions, offset, items, group, wait_count, waits, event);
+    return drivers_function(queue, kernel, dimensions, offset, items, group, wait_count, waits,
+                            event);
 }
 
 #pragma GCC visibility pop
