@@ -20,10 +20,12 @@ typedef struct {
     uint32_t sphere;
 } SplitItem;
 
+// Some of the spheres.
 typedef struct {
-    SphereData *entries; // of the whole array; spheres come first
+    const SphereData *spheres; // all spheres
+    SplitItem *items;
     uint32_t count;
-} TreeWriter;
+} SphereGroup;
 
 static double stored(const SphereData *sphere, int axis)
 {
@@ -35,6 +37,11 @@ static double stored_radius(const SphereData *sphere)
     return (double)sphere->radius + (double)sphere->radius_low;
 }
 
+static const SphereData *sphere_of(const SphereGroup *group, uint32_t item)
+{
+    return &group->spheres[group->items[item].sphere];
+}
+
 static int compare(const void *left, const void *right)
 {
     const SplitItem *a = left, *b = right;
@@ -44,46 +51,45 @@ static int compare(const void *left, const void *right)
 }
 
 // Stores the least and the largest coordinate of the spheres, with radii multiplied by `radii`.
-static void range_along(const TreeWriter *tree, const SplitItem *items, uint32_t count, int axis,
-                        double radii, double range[2])
+static void range_along(const SphereGroup *group, int axis, double radii, double range[2])
 {
     range[0] = INFINITY;
     range[1] = -INFINITY;
-    for (uint32_t i = 0; i < count; i++) {
-        const SphereData *sphere = &tree->entries[items[i].sphere];
+    for (uint32_t i = 0; i < group->count; i++) {
+        const SphereData *sphere = sphere_of(group, i);
         const double center = stored(sphere, axis), radius = radii * stored_radius(sphere);
         range[0] = fmin(range[0], center - radius);
         range[1] = fmax(range[1], center + radius);
     }
 }
 
-static void sort_along_longest(const TreeWriter *tree, SplitItem *items, uint32_t count)
+static void sort_along_longest(const SphereGroup *group)
 {
     int longest = 0;
     double extent = -1;
     for (int axis = 0; axis < 3; axis++) {
         double range[2];
-        range_along(tree, items, count, axis, 0, range);
+        range_along(group, axis, 0, range);
         longest = range[1] - range[0] > extent ? axis : longest;
         extent = fmax(extent, range[1] - range[0]);
     }
-    for (uint32_t i = 0; i < count; i++)
-        items[i].place = stored(&tree->entries[items[i].sphere], longest);
-    qsort(items, count, sizeof *items, compare);
+    for (uint32_t i = 0; i < group->count; i++)
+        group->items[i].place = stored(sphere_of(group, i), longest);
+    qsort(group->items, group->count, sizeof *group->items, compare);
 }
 
 // Returns a sphere around the spheres. Its center and its radius are floats.
-static SphereData bounding_sphere(const TreeWriter *tree, const SplitItem *items, uint32_t count)
+static SphereData bounding_sphere(const SphereGroup *group)
 {
     SphereData bound = {.id = NOTHING};
     double reach = 0;
     for (int axis = 0; axis < 3; axis++) {
         double range[2];
-        range_along(tree, items, count, axis, 1, range);
+        range_along(group, axis, 1, range);
         bound.center[axis] = (float)(0.5 * (range[0] + range[1]));
     }
-    for (uint32_t i = 0; i < count; i++) {
-        const SphereData *sphere = &tree->entries[items[i].sphere];
+    for (uint32_t i = 0; i < group->count; i++) {
+        const SphereData *sphere = sphere_of(group, i);
         double squares = 0;
         for (int axis = 0; axis < 3; axis++) {
             const double apart = stored(sphere, axis) - (double)bound.center[axis];
@@ -95,21 +101,26 @@ static SphereData bounding_sphere(const TreeWriter *tree, const SplitItem *items
     return bound;
 }
 
-static void write_group(TreeWriter *tree, SplitItem *items, uint32_t count)
+// Writes the entries of the group from `number` on. Returns the number of the entry after them.
+static uint32_t write_group(SphereData *entries, uint32_t number, const SphereGroup *group)
 {
-    const uint32_t number = tree->count++;
-    tree->entries[number] = bounding_sphere(tree, items, count);
-    for (uint32_t i = 0; count <= GROUP_MOST && i < count; i++) {
-        SphereData *copy = &tree->entries[tree->count++];
-        *copy = tree->entries[items[i].sphere];
-        copy->id = items[i].sphere;
+    uint32_t next = number + 1;
+    entries[number] = bounding_sphere(group);
+    if (group->count <= GROUP_MOST) {
+        for (uint32_t i = 0; i < group->count; i++) {
+            entries[next] = *sphere_of(group, i);
+            entries[next++].id = group->items[i].sphere;
+        }
+    } else {
+        const uint32_t half = group->count / 2;
+        sort_along_longest(group);
+        next = write_group(entries, next, &(SphereGroup){group->spheres, group->items, half});
+        next =
+            write_group(entries, next,
+                        &(SphereGroup){group->spheres, group->items + half, group->count - half});
     }
-    if (count > GROUP_MOST) {
-        sort_along_longest(tree, items, count);
-        write_group(tree, items, count / 2);
-        write_group(tree, items + count / 2, count - count / 2);
-    }
-    tree->entries[number].next = tree->count;
+    entries[number].next = next;
+    return next;
 }
 
 bool sphere_tree_make(FlatScene *flat, Error *error)
@@ -120,14 +131,13 @@ bool sphere_tree_make(FlatScene *flat, Error *error)
     SplitItem *items = memory_raw(count, sizeof *items, error);
     const bool ok = entries != NULL && items != NULL;
     if (ok) {
-        TreeWriter tree = {entries, count};
         memcpy(entries, flat->spheres, count * sizeof *entries);
         for (uint32_t i = 0; i < count; i++)
             items[i].sphere = i;
-        write_group(&tree, items, count);
+        flat->sphere_entries =
+            write_group(entries, count, &(SphereGroup){flat->spheres, items, count});
         free(flat->spheres);
         flat->spheres = entries;
-        flat->sphere_entries = tree.count;
     } else {
         free(entries);
     }
