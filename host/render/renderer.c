@@ -74,7 +74,7 @@ void renderer_add_tallies(Renderer *renderer, const uint32_t *stored, size_t cou
 {
     const TallyKind first = renderer_first_tally(renderer);
     for (size_t tally = 0; first < TALLY_KINDS && tally < count; tally++)
-        for (int kind = first; kind < TALLY_KINDS; kind++)
+        for (uint32_t kind = first; kind < TALLY_KINDS; kind++)
             renderer->progress.tallies[kind] += *stored++;
 }
 
