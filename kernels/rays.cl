@@ -66,9 +66,8 @@ static NOT_INLINE void trace_packets(const Tracer *tracer, const RayArray *array
 }
 
 // Finds the nearest hits of `count` rays, or any hits if `kind` has RAY_ANY_HIT. All rays have the
-// same kind (RayKind). A work-item takes BLOCK * BLOCK consecutive rays, whatever the number of
-// lanes is. If the host launched more work-items than have rays, PoCL would give all rays to one
-// thread.
+// same kind (RayKind). A work-item takes BLOCK * BLOCK consecutive rays, regardless of the number
+// of lanes. If many work-items had no rays, PoCL would give all rays to one thread.
 kernel void trace_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
                        global HitData *hits)
 {

@@ -18,7 +18,7 @@ static json_t *tree_reason(const Session *session, const SceneForm *form, bool i
     if (triangles == 0)
         return json_string("there are no triangles to find");
     if (session->settings.wanted.tree == CLRT_TREE_NONE)
-        return json_string("--tune bvh=none: every triangle is tested");
+        return json_string("--tune bvh=none: every triangle and every sphere is tested");
     return json_sprintf("testing all %u triangles is faster", triangles);
 }
 
@@ -36,7 +36,9 @@ static json_t *part_reason(const Session *session, const SceneForm *form, const 
         return json_string(is_needed ? trait->present : trait->absent);
     switch (trait->offset) {
     case offsetof(SceneTraits, spheres):
-        return count_reason(flat->sphere_count);
+        return flat->sphere_entries > flat->sphere_count
+                   ? json_sprintf("%u of them, with a tree over them", flat->sphere_count)
+                   : count_reason(flat->sphere_count);
     case offsetof(SceneTraits, triangles):
         return count_reason(flat->triangle_count);
     case offsetof(SceneTraits, bvh):

@@ -247,7 +247,7 @@ typedef enum {
     CLRT_SPECIALIZE_NEVER
 } ClrtSpecialize;
 typedef enum {
-    CLRT_TREE_AUTO, // the surface area heuristic, or no tree for few triangles
+    CLRT_TREE_AUTO, // the surface area heuristic, or no tree for few triangles and spheres
     CLRT_TREE_SAH,
     CLRT_TREE_MIDPOINT,
     CLRT_TREE_NONE

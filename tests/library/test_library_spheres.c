@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Rays hit the same spheres with and without a tree over the spheres, in all kernels. Most rays
-// graze a sphere. Each run draws new scenes and rays.
+// Rays hit the same spheres with and without a tree over the spheres, in packets and in single rays
+// through both kinds of nodes. Most rays graze a sphere. Each run draws new scenes and rays.
 #include "unit/cmocka_all.h"
+#include "unit/random.h"
 
 #include <clrt.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -16,9 +16,11 @@
 static double centers[SPHERES][3], radii[SPHERES];
 static double origins[RAYS][3], directions[RAYS][3];
 
+static uint64_t random_state;
+
 static double uniform(double low, double high)
 {
-    return low + (high - low) * (rand() / ((double)RAND_MAX + 1));
+    return random_between(&random_state, low, high);
 }
 
 // Makes small and large spheres. Every fifth one touches the previous one or contains it, and the
@@ -46,9 +48,10 @@ static ClrtScene *make_scene(void)
 // its radius, at a right angle to the ray or nearly so.
 static void aim(double origin[3], double direction[3])
 {
-    const int target = rand() % SPHERES;
+    const uint32_t target = random_below(&random_state, SPHERES);
     const double reach = exp2(uniform(-2, 6));
-    const double miss = radii[target] * (1 + (rand() % 2 ? 1 : -1) * exp2(uniform(-30, 0)));
+    const double miss =
+        radii[target] * (1 + (random_below(&random_state, 2) ? 1 : -1) * exp2(uniform(-30, 0)));
     double aside[3], along = 0, length = 0;
     for (int axis = 0; axis < 3; axis++) {
         origin[axis] = uniform(-reach, reach);
@@ -94,9 +97,8 @@ TEST(a_tree_over_spheres_changes_no_hit)
         {.size = sizeof *forms, .kernel = CLRT_KERNEL_PAIR},
         {.size = sizeof *forms, .kernel = CLRT_KERNEL_WIDE, .lanes = 8},
     };
-    const unsigned seed = (unsigned)time(NULL);
-    printf("seed %u\n", seed);
-    srand(seed);
+    random_state = (uint64_t)time(NULL);
+    printf("seed %llu\n", (unsigned long long)random_state);
     for (int round = 0; round < 4; round++) {
         ClrtScene *scene = make_scene();
         for (int i = 0; i < RAYS; i++)

@@ -6,6 +6,7 @@
 #include "library/program.h"
 #include "unit/cmocka_all.h"
 
+#define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <pthread.h>

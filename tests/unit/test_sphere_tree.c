@@ -4,15 +4,16 @@
 
 #include "accel/flat.h"
 #include "accel/sphere_tree.h"
+#include "unit/random.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #define SPHERES_MOST 500
 
+static uint64_t random_state;
 static bool was_seen[SPHERES_MOST];
 
 static double value_of(float high, float low)
@@ -59,10 +60,10 @@ static FlatScene random_spheres(uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         SphereData *sphere = &flat.spheres[i];
         for (int axis = 0; axis < 3; axis++) {
-            sphere->center[axis] = (float)rand() / (float)RAND_MAX - 0.5f;
+            sphere->center[axis] = (float)random_between(&random_state, -0.5, 0.5);
             sphere->center_low[axis] = sphere->center[axis] * 0x1p-26f;
         }
-        sphere->radius = exp2f(-20 * ((float)rand() / (float)RAND_MAX));
+        sphere->radius = (float)exp2(random_between(&random_state, -20, 0));
         sphere->radius_low = sphere->radius * 0x1p-26f;
         sphere->material = i;
     }
@@ -71,9 +72,8 @@ static FlatScene random_spheres(uint32_t count)
 
 TEST(bounding_spheres_contain_each_sphere_once)
 {
-    const unsigned seed = (unsigned)time(NULL);
-    printf("seed %u\n", seed);
-    srand(seed);
+    random_state = (uint64_t)time(NULL);
+    printf("seed %llu\n", (unsigned long long)random_state);
     for (uint32_t count = 5; count < SPHERES_MOST; count += 1 + count / 4) {
         Error error = {0};
         FlatScene flat = random_spheres(count);
