@@ -156,6 +156,7 @@ class Merge(Work):
         kept = last.read_bytes()
         process = None
         while process is None or process.returncode == 0:
+            (self.work / "whole.exr").unlink(missing_ok=True)  # of a merge that ended before the change
             self.write(**{f"{self.PARTS}_exr": kept}, other_exr=other)
             process = self.start("merge", *(f"{part}.exr" for part in range(1, self.PARTS + 1)), "-o", "whole.exr")
             while process.poll() is None and not list(self.work.glob(".clrt-*")):
