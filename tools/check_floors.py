@@ -52,8 +52,8 @@ EXCEPTIONS = [("base/thread_pool.c", "pthread.h"), ("base/foreign.c", "dlfcn.h")
 SHARED = "../kernels/shared.h"
 SHARED_BY = "scene/scene.h"
 
-# The header of libclrt declares the requests of the session, and includes nothing of the host. Every
-# layer above the session may include it too.
+# The header of libclrt declares the requests of the session, and includes nothing of the host. The
+# device chooses kernels by it, and every layer above the session may include it too.
 PUBLIC = "library/clrt.h"
 
 # A header declares only functions of the file with its name, except these headers.
@@ -89,7 +89,7 @@ def judge_own(name, target):
     floor, other = floor_of(name), floor_of(target)
     if not target.endswith(".h"):
         return f"{target} is not a header"
-    if target == PUBLIC and (floor == "session" or "session" in BELOW[floor]):
+    if target == PUBLIC and (floor in ("device", "session") or "session" in BELOW[floor]):
         return None
     if other != floor and other not in BELOW[floor]:
         return f"{other} is not below {floor}"

@@ -10,21 +10,21 @@
 void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTIONS_SIZE])
 {
     const bool wide = choice->nodes == NODES_WIDE, packet = choice->family == FAMILY_PACKET;
-    assert((!packet || wide) && (choice->precision == PRECISION_FP32 || !wide));
+    assert((!packet || wide) && (choice->precision == CLRT_FP32 || !wide));
     const int length = snprintf(options, KERNEL_OPTIONS_SIZE,
                                 "-DCLRT_WIDE_NODES=%d -DCLRT_PACKET=%d -DCLRT_FP64=%d", wide,
-                                packet, choice->precision == PRECISION_FP64);
+                                packet, choice->precision == CLRT_FP64);
     if (choice->lanes > 0)
         snprintf(options + length, KERNEL_OPTIONS_SIZE - (size_t)length, " -DCLRT_LANES=%u",
                  choice->lanes);
 }
 
-bool kernel_is_valid(const KernelRequest *request)
+bool kernel_is_valid(const ClrtSettings *wanted)
 {
-    const uint32_t lanes = request->lanes;
+    const uint32_t lanes = wanted->lanes;
     const bool has_lanes = lanes == 4 || lanes == 8 || lanes == 16;
-    return request->form >= KERNEL_WIDE
-               ? request->precision == PRECISION_FP32 && (lanes == 0 || has_lanes)
+    return wanted->kernel >= CLRT_KERNEL_WIDE
+               ? wanted->precision == CLRT_FP32 && (lanes == 0 || has_lanes)
                : lanes == 0;
 }
 
@@ -40,20 +40,21 @@ bool kernel_suits_packets(const Device *device)
     return device->is_cpu;
 }
 
-KernelChoice kernel_choose(const KernelRequest *request, const Device *device)
+KernelChoice kernel_choose(const ClrtSettings *wanted, const Device *device)
 {
-    KernelForm form = request->form;
-    if (form == KERNEL_AUTO && request->precision == PRECISION_FP32 && kernel_suits_packets(device))
-        form = KERNEL_PACKET;
-    return (KernelChoice){.family = form == KERNEL_PACKET ? FAMILY_PACKET : FAMILY_RAY,
-                          .nodes = form <= KERNEL_PAIR ? NODES_PAIR : NODES_WIDE,
-                          .lanes = request->lanes,
-                          .precision = request->precision};
+    ClrtKernel kernel = wanted->kernel;
+    if (kernel == CLRT_KERNEL_AUTO && wanted->precision == CLRT_FP32 &&
+        kernel_suits_packets(device))
+        kernel = CLRT_KERNEL_PACKET;
+    return (KernelChoice){.family = kernel == CLRT_KERNEL_PACKET ? FAMILY_PACKET : FAMILY_RAY,
+                          .nodes = kernel <= CLRT_KERNEL_PAIR ? NODES_PAIR : NODES_WIDE,
+                          .lanes = wanted->lanes,
+                          .precision = wanted->precision};
 }
 
 bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error)
 {
-    return choice->precision == PRECISION_FP32 || device->has_fp64 ||
+    return choice->precision == CLRT_FP32 || device->has_fp64 ||
            error_set(error, "%s has no double arithmetic, which --precision fp64 needs",
                      device->name);
 }
@@ -68,7 +69,7 @@ const char *kernel_nodes_name(NodeLayout nodes)
     return nodes == NODES_WIDE ? "wide" : "pair";
 }
 
-const char *kernel_precision_name(Precision precision)
+const char *kernel_precision_name(ClrtPrecision precision)
 {
-    return precision == PRECISION_FP64 ? "fp64" : "fp32";
+    return precision == CLRT_FP64 ? "fp64" : "fp32";
 }

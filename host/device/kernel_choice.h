@@ -5,44 +5,29 @@
 
 #include "accel/flat.h"
 #include "device/device.h"
+#include "library/clrt.h"
 
 typedef enum {
     FAMILY_RAY,   // rays search the tree one by one
     FAMILY_PACKET // packets of rays search the tree together
 } KernelFamily;
 
-typedef enum {
-    PRECISION_FP32,
-    PRECISION_FP64 // the reference: the same float scene, in double arithmetic
-} Precision;
-
-// Packets require wide nodes. fp64 requires single rays and pair nodes.
+// Packets require wide nodes. fp64 traces the same float scene, and requires single rays and pair
+// nodes.
 typedef struct {
     KernelFamily family;
     NodeLayout nodes;
     uint32_t lanes; // vector width: 4, 8 or 16; 0: the kernels choose it (kernels/lanes.cl)
-    Precision precision;
+    ClrtPrecision precision;
 } KernelChoice;
 
-typedef enum {
-    KERNEL_AUTO,  // packets for fp32 if kernel_suits_packets, otherwise KERNEL_PAIR
-    KERNEL_PAIR,  // single rays, pair nodes
-    KERNEL_WIDE,  // single rays, wide nodes
-    KERNEL_PACKET // packets, wide nodes
-} KernelForm;
+// Returns whether the members kernel, lanes and precision fit together. Kernels with wide nodes
+// allow 0, 4, 8 or 16 lanes, but not fp64. Other kernels require 0 lanes.
+bool kernel_is_valid(const ClrtSettings *wanted);
 
-// The user's request.
-typedef struct {
-    KernelForm form;
-    uint32_t lanes; // as in KernelChoice
-    Precision precision;
-} KernelRequest;
-
-// Returns whether the request's members fit together. Forms with wide nodes allow 0, 4, 8 or 16
-// lanes, but not fp64. Other forms require 0 lanes.
-bool kernel_is_valid(const KernelRequest *request);
-
-KernelChoice kernel_choose(const KernelRequest *request, const Device *device);
+// Returns the wanted kernels. CLRT_KERNEL_AUTO selects packets for fp32 if kernel_suits_packets,
+// and otherwise single rays and pair nodes.
+KernelChoice kernel_choose(const ClrtSettings *wanted, const Device *device);
 
 // Returns whether packets finish most pictures sooner than single rays, including compilation.
 bool kernel_suits_packets(const Device *device);
@@ -57,4 +42,4 @@ void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTION
 
 const char *kernel_family_name(KernelFamily family);
 const char *kernel_nodes_name(NodeLayout nodes);
-const char *kernel_precision_name(Precision precision);
+const char *kernel_precision_name(ClrtPrecision precision);

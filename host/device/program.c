@@ -36,7 +36,7 @@ static const KernelEntry *entry_of(const ProgramSource *source)
 // pixels wrongly.
 static bool is_for_gpu(const ProgramSource *source)
 {
-    return !source->device->is_cpu && source->choice.precision == PRECISION_FP32;
+    return !source->device->is_cpu && source->choice.precision == CLRT_FP32;
 }
 
 // With at most 96 registers instead of 168, an H200 runs almost twice as many work-items at once.

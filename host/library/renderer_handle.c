@@ -40,7 +40,7 @@ static bool take_settings(ClrtSettings *wanted, const ClrtSettings *given, ClrtE
         return false;
     if (!check_settings(wanted, error))
         return false;
-    return request_names_kernel(wanted) ||
+    return kernel_is_valid(wanted) ||
            check_fail(error, CLRT_ARGUMENT,
                       "precision, kernel and lanes contradict each other: the wide and packet "
                       "kernels have 4, 8 or 16 lanes and no fp64");

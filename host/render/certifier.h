@@ -7,7 +7,7 @@
 #include "image/framebuffer.h"
 #include "render/renderer.h"
 
-// The kernel certify_tile. The KernelChoice of this kernel must have PRECISION_FP64.
+// The kernel certify_tile. The KernelChoice of this kernel must have CLRT_FP64.
 extern const KernelEntry certify_entry;
 
 // Fails on devices without double arithmetic, denormal numbers or correctly rounded float division,

@@ -70,7 +70,7 @@ bool explainer_open(Explainer *explainer, Session *session, const RenderSettings
     const SessionScene *scene = &session->scene;
     *explainer = (Explainer){.scene = scene->scene,
                              .normalization = &scene->normalization,
-                             .is_fp64 = session->choice.precision == PRECISION_FP64};
+                             .is_fp64 = session->choice.precision == CLRT_FP64};
     if (!session_renderer(session, &use, settings, &explainer->renderer, error))
         return false;
     const CameraData camera =

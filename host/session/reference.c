@@ -45,10 +45,10 @@ static double part(double value)
 }
 
 static bool open_renderer(Renderer *renderer, Session *session, const RenderSettings *settings,
-                          Precision precision, Error *error)
+                          ClrtPrecision precision, Error *error)
 {
-    const KernelRequest request = {.precision = precision};
-    const KernelChoice choice = kernel_choose(&request, &session->device);
+    const KernelChoice choice =
+        kernel_choose(&(ClrtSettings){.precision = precision}, &session->device);
     const RendererUse use = {.entry = &draw_entry, .choice = &choice};
     return kernel_check_device(&choice, &session->device, error) &&
            session_renderer(session, &use, settings, renderer, error);
@@ -135,8 +135,8 @@ static bool open_reference(Reference *reference, Session *session, const Session
         if (reference->halves[half] == NULL)
             return false;
     }
-    return open_renderer(&reference->fast, session, &settings, PRECISION_FP32, error) &&
-           open_renderer(&reference->exact, session, &settings, PRECISION_FP64, error) &&
+    return open_renderer(&reference->fast, session, &settings, CLRT_FP32, error) &&
+           open_renderer(&reference->exact, session, &settings, CLRT_FP64, error) &&
            framebuffer_make(&reference->pass, settings.width, settings.height, error);
 }
 

@@ -33,12 +33,6 @@ bool request_needs_fp64(const ClrtPicture *wanted)
     return wanted->error > 0 && wanted->error < ERROR_OF_FP64;
 }
 
-bool request_names_kernel(const ClrtSettings *wanted)
-{
-    const KernelRequest request = session_kernel_request(wanted);
-    return kernel_is_valid(&request);
-}
-
 static bool check_numbers(const ClrtPicture *wanted, RequestFault *fault)
 {
     const RequestFault ranges[] = {

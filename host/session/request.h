@@ -34,9 +34,6 @@ bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision pre
 // Returns whether the error goal is too small for fp32. request_check rejects such a goal in fp32.
 bool request_needs_fp64(const ClrtPicture *wanted);
 
-// Returns false if precision, kernel and lanes exclude each other.
-bool request_names_kernel(const ClrtSettings *wanted);
-
 // Returns the picture's goal. Its member `truncated` is 0, because it depends on the scene.
 PictureGoal request_goal(const ClrtPicture *wanted);
 

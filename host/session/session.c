@@ -13,20 +13,13 @@
 
 #include <string.h>
 
-KernelRequest session_kernel_request(const ClrtSettings *settings)
-{
-    return (KernelRequest){(KernelForm)settings->kernel, settings->lanes,
-                           (Precision)settings->precision};
-}
-
 static bool open_device(Session *session, Error *error)
 {
     const SessionSettings *settings = &session->settings;
-    const KernelRequest request = session_kernel_request(&settings->wanted);
     const double start = clock_seconds();
     session->is_open = device_open(&session->device, settings->wanted.device, error);
     session->device_seconds = clock_seconds() - start;
-    session->choice = kernel_choose(&request, &session->device);
+    session->choice = kernel_choose(&settings->wanted, &session->device);
     session->kernels.source = (ProgramSource){.device = &session->device,
                                               .cache = &session->cache,
                                               .kernel_folder = settings->kernel_folder,
@@ -73,7 +66,7 @@ static bool is_compiled(const Session *session, const KernelEntry *entry, Kernel
 // keeps the choice that open_device made.
 static void choose_quick_kernels(Session *session, const SessionWork *work)
 {
-    const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32};
+    const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP32};
     if (work->counts || !leaves_kernels_open(session) || session->choice.family != FAMILY_PACKET ||
         session->settings.kernel_folder != NULL ||
         scene_triangle_count(session->scene.scene) >= QUICK_TRIANGLES ||
@@ -188,5 +181,5 @@ bool session_renderer(Session *session, const RendererUse *use, const RenderSett
 
 KernelChoice session_exact_choice(void)
 {
-    return (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64};
+    return (KernelChoice){FAMILY_RAY, NODES_PAIR, 0, CLRT_FP64};
 }

@@ -97,9 +97,6 @@ SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Erro
 
 BvhBuilder session_builder(const ClrtSettings *settings);
 
-// Returns the kernels that the settings request. The request may be invalid (kernel_is_valid).
-KernelRequest session_kernel_request(const ClrtSettings *settings);
-
 // Returns the scene in the layout of session->choice, or NULL.
 SceneForm *session_own_form(Session *session, Error *error);
 

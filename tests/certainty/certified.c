@@ -39,7 +39,7 @@ static bool certify(Certified *certified, Error *error)
     SceneBuffers buffers = {0};
     const RenderSettings *settings = &certified->settings;
     const KernelSpec spec = {.entry = &certify_entry,
-                             .choice = {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64},
+                             .choice = {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP64},
                              .traits = traits_general(traits_of(&certified->stage.flat, false))};
     KernelSet kernels = {.source = {.device = &studio->device,
                                     .cache = shared_cache(),

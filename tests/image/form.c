@@ -10,25 +10,25 @@
 #include <string.h>
 
 const KernelChoice form_all[FORMS] = {
-    {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},     {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32},
-    {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32},  {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
+    {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP32},     {FAMILY_RAY, NODES_WIDE, 0, CLRT_FP32},
+    {FAMILY_PACKET, NODES_WIDE, 16, CLRT_FP32}, {FAMILY_PACKET, NODES_WIDE, 8, CLRT_FP32},
+    {FAMILY_PACKET, NODES_WIDE, 4, CLRT_FP32},  {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP64}};
 
-const KernelChoice form_few[FORMS_FEW] = {{FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32},
-                                          {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32},
-                                          {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32},
-                                          {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}};
+const KernelChoice form_few[FORMS_FEW] = {{FAMILY_RAY, NODES_PAIR, 0, CLRT_FP32},
+                                          {FAMILY_RAY, NODES_WIDE, 0, CLRT_FP32},
+                                          {FAMILY_PACKET, NODES_WIDE, 0, CLRT_FP32},
+                                          {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP64}};
 
 static const struct {
     const char *name;
     KernelChoice choice;
-} forms[] = {{"pair", {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP32}},
-             {"wide", {FAMILY_RAY, NODES_WIDE, 0, PRECISION_FP32}},
-             {"packet", {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32}},
-             {"packet16", {FAMILY_PACKET, NODES_WIDE, 16, PRECISION_FP32}},
-             {"packet8", {FAMILY_PACKET, NODES_WIDE, 8, PRECISION_FP32}},
-             {"packet4", {FAMILY_PACKET, NODES_WIDE, 4, PRECISION_FP32}},
-             {"fp64", {FAMILY_RAY, NODES_PAIR, 0, PRECISION_FP64}}};
+} forms[] = {{"pair", {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP32}},
+             {"wide", {FAMILY_RAY, NODES_WIDE, 0, CLRT_FP32}},
+             {"packet", {FAMILY_PACKET, NODES_WIDE, 0, CLRT_FP32}},
+             {"packet16", {FAMILY_PACKET, NODES_WIDE, 16, CLRT_FP32}},
+             {"packet8", {FAMILY_PACKET, NODES_WIDE, 8, CLRT_FP32}},
+             {"packet4", {FAMILY_PACKET, NODES_WIDE, 4, CLRT_FP32}},
+             {"fp64", {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP64}}};
 
 static KernelChoice named_choice(const char *name)
 {
@@ -43,7 +43,7 @@ static KernelChoice usual_choice(void)
 {
     Device device;
     Error error = {0};
-    const KernelRequest nothing = {0};
+    const ClrtSettings nothing = {0};
     shared_cache();
     if (!device_open(&device, getenv("CLRT_DEVICE"), &error)) {
         fprintf(stderr, "%s\n", error.text);

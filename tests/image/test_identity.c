@@ -336,7 +336,7 @@ TEST(specialized_rays_draw_the_general_rays_picture)
 // Packets have their own code for spheres, triangles and trees.
 TEST(specialized_packets_draw_the_general_packets_picture)
 {
-    const KernelChoice packet = {FAMILY_PACKET, NODES_WIDE, 0, PRECISION_FP32};
+    const KernelChoice packet = {FAMILY_PACKET, NODES_WIDE, 0, CLRT_FP32};
     expect_extreme_specials_same(&packet);
     expect_special_same(63u & ~1u, &packet);
     expect_special_same(63u & ~2u, &packet);

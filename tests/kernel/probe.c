@@ -9,14 +9,14 @@
 // The embedded sources of kernels/certify.cl, for probes in fp64, and of kernels/ladder.cl.
 extern const char certify_source[], ladder_source[];
 
-static bool probe_open(Probe *probe, const char *path, Precision precision, Error *error)
+static bool probe_open(Probe *probe, const char *path, ClrtPrecision precision, Error *error)
 {
     File file = {0};
     char source[1 << 18];
     *probe = (Probe){0};
     bool ok = file_read(&file, path, error) && device_open(&probe->device, NULL, error);
     snprintf(source, sizeof source, "%s\n%s",
-             precision == PRECISION_FP64 ? certify_source : ladder_source,
+             precision == CLRT_FP64 ? certify_source : ladder_source,
              ok ? (const char *)file.bytes : "");
     const KernelEntry entry = {.source = source};
     const ProgramSource program = {.device = &probe->device,
@@ -28,7 +28,7 @@ static bool probe_open(Probe *probe, const char *path, Precision precision, Erro
     return ok;
 }
 
-int probe_begin(Probe *probe, const char *path, Precision precision)
+int probe_begin(Probe *probe, const char *path, ClrtPrecision precision)
 {
     Error error = {0};
     if (probe_open(probe, path, precision, &error))

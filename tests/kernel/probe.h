@@ -17,7 +17,7 @@ typedef struct {
 
 // Sets up a group of tests: compiles the file for one ray per work-item. Returns 0, or prints the
 // error and returns 1.
-int probe_begin(Probe *probe, const char *path, Precision precision);
+int probe_begin(Probe *probe, const char *path, ClrtPrecision precision);
 void probe_close(Probe *probe);
 
 // Runs kernel with `items` work-items and up to two inputs; unused inputs have size 0. Reads

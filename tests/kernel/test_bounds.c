@@ -339,8 +339,7 @@ TEST(no_rounding_error_exceeds_its_bound)
 
 SET_UP(open_probes)
 {
-    return probe_begin(&probe, PROBES, PRECISION_FP32) +
-           probe_begin(&probe_fp64, PROBES, PRECISION_FP64);
+    return probe_begin(&probe, PROBES, CLRT_FP32) + probe_begin(&probe_fp64, PROBES, CLRT_FP64);
 }
 
 TEAR_DOWN(close_probes)

@@ -344,8 +344,7 @@ TEST(freed_memory_for_results_goes_to_the_next_user_of_this_size)
 
 SET_UP(open_probes)
 {
-    return probe_begin(&probe, PROBES, PRECISION_FP32) +
-           probe_begin(&probe_fp64, PROBES, PRECISION_FP64);
+    return probe_begin(&probe, PROBES, CLRT_FP32) + probe_begin(&probe_fp64, PROBES, CLRT_FP64);
 }
 
 TEAR_DOWN(close_probes)

@@ -92,7 +92,7 @@ TEST(samples_of_a_pixel_share_no_offset)
 
 SET_UP(open_probe)
 {
-    return probe_begin(&probe, CLRT_SOURCE_FOLDER "/tests/kernel/samples.cl", PRECISION_FP32);
+    return probe_begin(&probe, CLRT_SOURCE_FOLDER "/tests/kernel/samples.cl", CLRT_FP32);
 }
 
 TEAR_DOWN(close_probe)

@@ -67,8 +67,8 @@ void surface_case_make(uint64_t *seed, SurfaceCase *made, TriangleData *triangle
 
 SET_UP(open_probes)
 {
-    return probe_begin(&surface_probe, PROBES, PRECISION_FP32) +
-           probe_begin(&surface_probe_fp64, PROBES, PRECISION_FP64);
+    return probe_begin(&surface_probe, PROBES, CLRT_FP32) +
+           probe_begin(&surface_probe_fp64, PROBES, CLRT_FP64);
 }
 
 TEAR_DOWN(close_probes)

@@ -5,7 +5,7 @@
 #include "unit/cmocka_all.h"
 
 static const struct {
-    KernelRequest request;
+    ClrtSettings wanted;
     Device device;
     KernelFamily family;
     NodeLayout nodes;
@@ -19,10 +19,16 @@ static const struct {
     {{0}, {.platform = "Portable Computing Language"}, FAMILY_RAY, NODES_PAIR},
     {{0}, {.platform = "rusticl"}, FAMILY_RAY, NODES_PAIR},
     // The user's choice is kept. fp64 always means rays and pair nodes.
-    {{.form = KERNEL_PACKET}, {.platform = "rusticl", .is_cpu = true}, FAMILY_PACKET, NODES_WIDE},
-    {{.form = KERNEL_WIDE}, {.platform = "rusticl", .is_cpu = true}, FAMILY_RAY, NODES_WIDE},
-    {{.form = KERNEL_PAIR}, {.platform = "Oclgrind", .is_cpu = true}, FAMILY_RAY, NODES_PAIR},
-    {{.precision = PRECISION_FP64},
+    {{.kernel = CLRT_KERNEL_PACKET},
+     {.platform = "rusticl", .is_cpu = true},
+     FAMILY_PACKET,
+     NODES_WIDE},
+    {{.kernel = CLRT_KERNEL_WIDE}, {.platform = "rusticl", .is_cpu = true}, FAMILY_RAY, NODES_WIDE},
+    {{.kernel = CLRT_KERNEL_PAIR},
+     {.platform = "Oclgrind", .is_cpu = true},
+     FAMILY_RAY,
+     NODES_PAIR},
+    {{.precision = CLRT_FP64},
      {.platform = "Portable Computing Language", .is_cpu = true},
      FAMILY_RAY,
      NODES_PAIR},
@@ -31,9 +37,9 @@ static const struct {
 TEST(each_device_gets_its_fastest_form_unless_the_user_chooses)
 {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const KernelChoice choice = kernel_choose(&cases[i].request, &cases[i].device);
+        const KernelChoice choice = kernel_choose(&cases[i].wanted, &cases[i].device);
         assert_int_equal(choice.family, cases[i].family);
         assert_int_equal(choice.nodes, cases[i].nodes);
-        assert_int_equal(choice.precision, cases[i].request.precision);
+        assert_int_equal(choice.precision, cases[i].wanted.precision);
     }
 }

@@ -29,7 +29,7 @@ static void open_renderer(void)
 {
     ClrtError error = {0};
     const KernelChoice form = form_choice();
-    const bool is_exact = form.precision == PRECISION_FP64;
+    const bool is_exact = form.precision == CLRT_FP64;
     const ClrtKernel single = form.nodes == NODES_WIDE ? CLRT_KERNEL_WIDE : CLRT_KERNEL_PAIR;
     const ClrtSettings settings = {.size = sizeof settings,
                                    .device = getenv("CLRT_DEVICE"),
