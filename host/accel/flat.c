@@ -265,7 +265,7 @@ void flat_arrays(const FlatScene *flat, FlatArray arrays[FLAT_ARRAYS])
     memcpy(arrays, all, sizeof all);
 }
 
-static bool make_stages(CompileStages *stages, const CompileSource *source, Error *error)
+static bool make_stages(CompileStages *stages, const FlatSource *source, Error *error)
 {
     const BvhSettings settings = {source->builder, flat_leaves(source->layout)};
     return triangles_make(&stages->triangles, source->scene, source->normalization, source->pool,
@@ -274,22 +274,20 @@ static bool make_stages(CompileStages *stages, const CompileSource *source, Erro
             bvh_build(&stages->bvh, &stages->triangles, &settings, source->pool, error));
 }
 
-bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
-                   Error *error)
+bool scene_compile(FlatScene *flat, CompileStages *stages, const FlatSource *source, Error *error)
 {
     static const Bvh none;
-    const CompileStages *used = source->given != NULL ? source->given : stages;
-    const FlatSource flat_source = {.scene = source->scene,
-                                    .triangles = &used->triangles,
-                                    .bvh = source->has_tree ? &used->bvh : &none,
-                                    .normalization = source->normalization,
-                                    .layout = source->layout,
-                                    .pool = source->pool,
-                                    .is_two_sided = source->is_two_sided,
-                                    .has_tree = source->has_tree};
+    FlatSource complete = *source;
     *stages = (CompileStages){0};
-    return (source->given != NULL || make_stages(stages, source, error)) &&
-           flat_make(flat, &flat_source, error);
+    if (source->triangles == NULL) {
+        if (!make_stages(stages, source, error))
+            return false;
+        complete.triangles = &stages->triangles;
+        complete.bvh = &stages->bvh;
+    }
+    if (!source->has_tree)
+        complete.bvh = &none;
+    return flat_make(flat, &complete, error);
 }
 
 void compile_stages_free(CompileStages *stages)

@@ -30,22 +30,9 @@ typedef struct {
     Bvh bvh;
 } CompileStages;
 
-// The input of scene_compile. This function runs all stages: triangles, tree and flattening.
-typedef struct {
-    const Scene *scene;
-    const CompileStages *given; // of this scene, with a tree; NULL: scene_compile makes them
-    const Normalization *normalization; // of the scene
-    NodeLayout layout;
-    BvhBuilder builder;
-    bool has_tree;     // false: rays test every triangle and every sphere
-    ThreadPool *pool;  // NULL for the caller's thread only
-    bool is_two_sided; // as in FlatSource
-} CompileSource;
-
-// Fills *flat, which must be {0}. Also fills *stages, unless source->given has the stages. The
-// caller always frees both.
-bool scene_compile(FlatScene *flat, CompileStages *stages, const CompileSource *source,
-                   Error *error);
+// Runs all stages: triangles, tree and flattening. Fills *flat, which must be {0}. Also fills
+// *stages, unless the source has triangles and a tree. The caller always frees both.
+bool scene_compile(FlatScene *flat, CompileStages *stages, const FlatSource *source, Error *error);
 void compile_stages_free(CompileStages *stages);
 
 // The features that a scene uses, as the switches of kernels/config.h. A specialized program has no

@@ -34,11 +34,12 @@ typedef struct {
 // The input of flattening. If bvh has no nodes, the kernels test every triangle.
 typedef struct {
     const Scene *scene;
-    const Triangles *triangles;
+    const Triangles *triangles; // NULL: scene_compile makes triangles and tree
     const Bvh *bvh;
     const Normalization *normalization; // of the scene
     NodeLayout layout;
-    ThreadPool *pool;  // NULL for the caller's thread only
-    bool is_two_sided; // all meshes are two-sided; otherwise, each object's two_sided decides
-    bool has_tree;     // many spheres get a tree
+    ThreadPool *pool;   // NULL for the caller's thread only
+    bool is_two_sided;  // all meshes are two-sided; otherwise, each object's two_sided decides
+    bool has_tree;      // false: rays test every triangle and every sphere
+    BvhBuilder builder; // for scene_compile
 } FlatSource;

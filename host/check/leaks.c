@@ -8,9 +8,7 @@
 // All data that the leak test makes from one mesh.
 typedef struct {
     Scene scene; // borrows the mesh
-    CompileStages stages;
-    FlatScene flat;
-    SceneBuffers buffers;
+    SceneForm form;
     Aims aims;
 } StagedMesh;
 
@@ -20,7 +18,7 @@ static bool make_aims(StagedMesh *staged, const Mesh *mesh, const LeakSetting *s
     Weld weld = {0};
     Edges edges = {0};
     const AimSource source = {.mesh = mesh,
-                              .triangles = &staged->stages.triangles,
+                              .triangles = &staged->form.stages.triangles,
                               .weld = &weld,
                               .edges = &edges,
                               .is_inside_out = setting->closedness->is_inside_out};
@@ -55,7 +53,7 @@ static bool trace_aims(StagedMesh *staged, LeakCount *count, const RayCaster *ca
     for (int from = 0; ok && from < 2; from++) {
         const size_t rays = make_rays[from](aims, batch.rays, batch.targets);
         for (size_t first = 0; ok && first < rays; first += CAST_RAYS) {
-            const RayCast cast = {.scene = &staged->buffers,
+            const RayCast cast = {.scene = &staged->form.buffers,
                                   .rays = batch.rays + first,
                                   .count = rays - first < CAST_RAYS ? rays - first : CAST_RAYS};
             ok = ray_caster_cast(caster, &cast, batch.hits + first, NULL, error);
@@ -87,24 +85,22 @@ bool leaks_count(LeakCount *count, RayCaster *caster, const MeshObject *given,
 {
     StagedMesh staged = {0};
     MeshObject object = {.mesh = given->mesh, .two_sided = true};
-    const CompileSource source = {.scene = &staged.scene,
-                                  .normalization = setting->normalization,
-                                  .layout = caster->kernel->choice.nodes,
-                                  .builder = setting->builder,
-                                  .has_tree = setting->uses_bvh,
-                                  .pool = setting->pool};
+    const Session *session = setting->session;
+    SceneForm *form = &staged.form;
+    const FlatSource source = {.scene = &staged.scene,
+                               .normalization = setting->normalization,
+                               .layout = caster->kernel->choice.nodes,
+                               .has_tree = session->settings.wanted.tree != CLRT_TREE_NONE};
     *count = (LeakCount){0};
     bool ok = scene_init(&staged.scene, error) &&
               array_push(&staged.scene.objects, object, error) &&
-              scene_compile(&staged.flat, &staged.stages, &source, error) &&
+              session_compile(session, &source, form, error) &&
               make_aims(&staged, &given->mesh, setting, error) &&
-              scene_buffers_make(&staged.buffers, caster->kernel->device, &staged.flat, error) &&
+              scene_buffers_make(&form->buffers, &session->device, &form->flat, error) &&
               trace_aims(&staged, count, caster, error);
     sum_up(&staged.aims, given, count);
-    scene_buffers_free(&staged.buffers);
     aims_free(&staged.aims);
-    flat_free(&staged.flat);
-    compile_stages_free(&staged.stages);
+    scene_form_free(form);
     if (staged.scene.objects.count > 0)
         staged.scene.objects.data[0].mesh = (Mesh){0}; // the caller owns the mesh
     scene_free(&staged.scene);

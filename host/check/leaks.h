@@ -19,11 +19,9 @@ typedef struct {
 } LeakCount;
 
 typedef struct {
-    const Normalization *normalization;
-    const Closedness *closedness; // of the mesh
-    ThreadPool *pool;
-    BvhBuilder builder;
-    bool uses_bvh;
+    const Session *session;
+    const Normalization *normalization; // of the mesh's scene
+    const Closedness *closedness;       // of the mesh
 } LeakSetting;
 
 bool leaks_count(LeakCount *count, RayCaster *caster, const MeshObject *given,

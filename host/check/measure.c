@@ -13,21 +13,14 @@ bool check_measure(Check *check, Error *error)
 
 static bool count_leaks(Check *check, const Session *session, RayCaster *caster, Error *error)
 {
-    ThreadPool *pool = thread_pool_open(threads_allowed(session->settings.wanted.threads));
     bool ok = true;
     for (size_t object = 0; ok && object < check->scene->objects.count; object++) {
-        const LeakSetting setting = {
-            .normalization = &check->normalization,
-            .closedness = &check->census.meshes[object].closedness,
-            .pool = pool,
-            .builder = session_builder(&session->settings.wanted),
-            .uses_bvh = session->settings.wanted.tree != CLRT_TREE_NONE,
-        };
+        const LeakSetting setting = {session, &check->normalization,
+                                     &check->census.meshes[object].closedness};
         const MeshObject *given = &check->scene->objects.data[object];
         if (given->mesh.triangle_count > 0)
             ok = leaks_count(&check->leaks[object], caster, given, &setting, error);
     }
-    thread_pool_close(pool);
     return ok;
 }
 

@@ -13,7 +13,8 @@ static json_t *tree_reason(const Session *session, const SceneForm *form, bool i
     const uint32_t triangles = form->flat.triangle_count, stored = form->flat.node_count;
     if (is_needed)
         return json_sprintf("%u node%s over the triangles, uploaded as %u %s node%s",
-                            form->tree.node_count, form->tree.node_count == 1 ? "" : "s", stored,
+                            form->stages.bvh.node_count,
+                            form->stages.bvh.node_count == 1 ? "" : "s", stored,
                             kernel_nodes_name(session->choice.nodes), stored == 1 ? "" : "s");
     if (triangles == 0)
         return json_string("there are no triangles to find");

@@ -126,7 +126,7 @@ static Vec3 convert(RayPart *part, size_t entry, const GivenRay *given)
 // the start from the plane.
 static double move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triangle)
 {
-    const FaceCorners corners = corners_of(&scene->triangles, triangle);
+    const FaceCorners corners = corners_of(&scene->form.stages.triangles, triangle);
     const Vec3 normal = normal_of(&corners);
     const double off = vec3_dot(normal, vec3_sub(*origin, corners.at[0]));
     *origin = vec3_sub(*origin, vec3_scale(normal, off));
@@ -135,7 +135,7 @@ static double move_to_plane(Vec3 *origin, const RayScene *scene, uint32_t triang
 
 static uint64_t primitive_count(const RayPart *part)
 {
-    const FlatScene *flat = &part->scene->flat;
+    const FlatScene *flat = &part->scene->form.flat;
     return (uint64_t)flat->sphere_count + flat->triangle_count;
 }
 
@@ -144,7 +144,7 @@ static uint64_t primitive_count(const RayPart *part)
 static double fill_entry(RayPart *part, size_t entry, const GivenRay *given)
 {
     RayData *ray = &part->rays[entry];
-    const uint32_t spheres = part->scene->flat.sphere_count;
+    const uint32_t spheres = part->scene->form.flat.sphere_count;
     double off = 0;
     Vec3 origin = convert(part, entry, given);
     if (given->own != NOTHING && given->own >= primitive_count(part))
@@ -175,7 +175,7 @@ void ray_part_begin(RayPart *part, const Session *session, const RayScene *scene
     part->center = frame->center;
     part->scale = frame->scale;
     part->inverse_scale = 1 / frame->scale;
-    part->cube = cube_around(&scene->flat);
+    part->cube = cube_around(&scene->form.flat);
     part->room = room;
 }
 
@@ -245,7 +245,7 @@ bool ray_part_fill(RayPart *part, const ClrtRays *rays, ClrtError *error)
 
 void ray_part_index(RayPart *part, const RayScene *scene)
 {
-    const uint32_t spheres = scene->flat.sphere_count;
+    const uint32_t spheres = scene->form.flat.sphere_count;
     for (RayData *ray = part->rays; ray < part->rays + part->count; ray++)
         if (part->start == RAYS_ON_SURFACE && ray->own >= spheres && ray->limit >= 0)
             ray->own_index = scene->places[ray->own - spheres].index;
@@ -280,15 +280,15 @@ static Vec3 sphere_normal(const SphereData *sphere, Vec3 point)
 static void store_surface(const RayScene *scene, const RayData *ray, HitData hit,
                           const ClrtHits *hits, size_t result)
 {
-    const uint32_t spheres = scene->flat.sphere_count;
+    const uint32_t spheres = scene->form.flat.sphere_count;
     const Vec3 origin = vec3_of_floats(ray->origin), direction = vec3_of_floats(ray->direction);
     double weights[2] = {0, 0};
     Vec3 normal = {0, 0, 0};
     if (hit.id != NOTHING && hit.id < spheres) {
         const Vec3 point = vec3_add(origin, vec3_scale(direction, (double)hit.t));
-        normal = sphere_normal(&scene->flat.spheres[hit.id], point);
+        normal = sphere_normal(&scene->form.flat.spheres[hit.id], point);
     } else if (hit.id != NOTHING) {
-        const FaceCorners corners = corners_of(&scene->triangles, hit.id - spheres);
+        const FaceCorners corners = corners_of(&scene->form.stages.triangles, hit.id - spheres);
         weights_at(weights, &corners, origin, direction);
         normal = normal_of(&corners);
     }
@@ -304,7 +304,7 @@ static void store_surface(const RayScene *scene, const RayData *ray, HitData hit
 static void store_place(const RayScene *scene, uint32_t id, const ClrtHits *hits, size_t result)
 {
     static const TrianglePlace nowhere = {NOTHING, NOTHING, NOTHING};
-    const uint32_t spheres = scene->flat.sphere_count;
+    const uint32_t spheres = scene->form.flat.sphere_count;
     const TrianglePlace *place =
         id != NOTHING && id >= spheres ? &scene->places[id - spheres] : &nowhere;
     if (hits->meshes != NULL)

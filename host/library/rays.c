@@ -57,7 +57,7 @@ static bool cast(Batch *batch, RayQuery query, HitData *hits, ClrtError *error)
     Error cause = {0};
     RayPart *part = &batch->part;
     const RayScene *scene = renderer_handle_rays(batch->renderer, query);
-    const RayCast cast = {.scene = &scene->buffers,
+    const RayCast cast = {.scene = &scene->form.buffers,
                           .rays = part->rays,
                           .count = part->count,
                           .start = part->start,

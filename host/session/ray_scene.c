@@ -7,9 +7,7 @@
 
 void ray_scene_free(RayScene *ray_scene)
 {
-    scene_buffers_free(&ray_scene->buffers);
-    flat_free(&ray_scene->flat);
-    triangles_free(&ray_scene->triangles);
+    scene_form_free(&ray_scene->form);
     free(ray_scene->places);
     *ray_scene = (RayScene){0};
 }
@@ -17,18 +15,17 @@ void ray_scene_free(RayScene *ray_scene)
 static bool compile(RayScene *ray_scene, const Session *session, NodeLayout layout, bool one_sided,
                     Error *error)
 {
-    CompileStages stages = {0};
     const bool has_tree =
         session->settings.wanted.tree != CLRT_TREE_NONE && session_wants_tree(session, layout);
-    CompileSource source = {.scene = session->scene.scene,
-                            .layout = layout,
-                            .has_tree = has_tree,
-                            .is_two_sided = !one_sided};
-    const bool ok = session_compile(session, &source, &ray_scene->flat, &stages, error);
-    ray_scene->triangles = stages.triangles;
-    stages.triangles = (Triangles){0};
-    compile_stages_free(&stages);
-    return ok;
+    const FlatSource source = {.scene = session->scene.scene,
+                               .normalization = &session->scene.normalization,
+                               .layout = layout,
+                               .is_two_sided = !one_sided,
+                               .has_tree = has_tree};
+    if (!session_compile(session, &source, &ray_scene->form, error))
+        return false;
+    bvh_free(&ray_scene->form.stages.bvh); // frees memory early
+    return true;
 }
 
 // Lists the triangles of all meshes.
@@ -43,7 +40,7 @@ static void name_triangles(TrianglePlace *places, const Scene *scene)
 
 static bool find_places(RayScene *ray_scene, const Scene *scene, Error *error)
 {
-    const FlatScene *flat = &ray_scene->flat;
+    const FlatScene *flat = &ray_scene->form.flat;
     const uint32_t spheres = flat->sphere_count;
     TrianglePlace *places = memory_raw(flat->triangle_count, sizeof *places, error);
     ray_scene->places = places;
@@ -66,10 +63,10 @@ bool ray_scene_take(RayScene *ray_scene, Session *session, NodeLayout layout, bo
     if (ray_scene->is_loaded && ray_scene->one_sided == one_sided)
         return true;
     ray_scene_free(ray_scene);
-    const bool ok =
-        compile(ray_scene, session, layout, one_sided, error) &&
-        find_places(ray_scene, session->scene.scene, error) &&
-        scene_buffers_make(&ray_scene->buffers, &session->device, &ray_scene->flat, error);
+    const bool ok = compile(ray_scene, session, layout, one_sided, error) &&
+                    find_places(ray_scene, session->scene.scene, error) &&
+                    scene_buffers_make(&ray_scene->form.buffers, &session->device,
+                                       &ray_scene->form.flat, error);
     if (!ok)
         ray_scene_free(ray_scene);
     ray_scene->is_loaded = ok;

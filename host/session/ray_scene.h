@@ -13,9 +13,7 @@ typedef struct {
 } TrianglePlace;
 
 typedef struct {
-    FlatScene flat;
-    SceneBuffers buffers;
-    Triangles triangles;   // as traced, in the order of their ids
+    SceneForm form;        // its triangles are as traced, in the order of their ids
     TrianglePlace *places; // of the triangles
     bool is_loaded, one_sided;
 } RayScene;

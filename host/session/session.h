@@ -26,7 +26,7 @@ typedef struct {
 typedef struct {
     FlatScene flat;
     SceneBuffers buffers; // empty until a renderer needs them
-    Bvh tree;             // only its counts
+    CompileStages stages; // in SessionScene::forms, only the counts of the tree
 } SceneForm;
 
 typedef struct {
@@ -87,9 +87,11 @@ void session_scene_free(SessionScene *scene);
 // CLRT_TREE_AUTO and the scene is traced faster without a tree.
 bool session_wants_tree(const Session *session, NodeLayout layout);
 
-// Sets the session's normalization, tree builder and threads in *source, and calls scene_compile.
-bool session_compile(const Session *session, CompileSource *source, FlatScene *flat,
-                     CompileStages *stages, Error *error);
+// Fills *form, which must be {0}, by scene_compile with the session's tree builder and threads. The
+// form has no buffers. The caller frees it, unless the call fails.
+bool session_compile(const Session *session, const FlatSource *source, SceneForm *form,
+                     Error *error);
+void scene_form_free(SceneForm *form);
 
 // Returns the scene in this layout, or NULL on failure. The first call compiles it. The form has no
 // tree if has_tree is false or session_wants_tree returns false.

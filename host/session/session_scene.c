@@ -15,10 +15,8 @@ bool session_take(Session *session, const Scene *scene, Error *error)
 void session_scene_free(SessionScene *scene)
 {
     for (int layout = 0; layout < NODE_LAYOUTS; layout++)
-        for (int has_tree = 0; has_tree < 2; has_tree++) {
-            scene_buffers_free(&scene->forms[layout][has_tree].buffers);
-            flat_free(&scene->forms[layout][has_tree].flat);
-        }
+        for (int has_tree = 0; has_tree < 2; has_tree++)
+            scene_form_free(&scene->forms[layout][has_tree]);
     *scene = (SessionScene){0};
 }
 
@@ -30,33 +28,45 @@ bool session_wants_tree(const Session *session, NodeLayout layout)
            scene->spheres.count > TREELESS_SPHERES;
 }
 
-bool session_compile(const Session *session, CompileSource *source, FlatScene *flat,
-                     CompileStages *stages, Error *error)
+void scene_form_free(SceneForm *form)
 {
-    source->normalization = &session->scene.normalization;
-    source->builder = session_builder(&session->settings.wanted);
-    source->pool = thread_pool_open(threads_allowed(session->settings.wanted.threads));
-    const bool ok = scene_compile(flat, stages, source, error);
-    thread_pool_close(source->pool);
+    scene_buffers_free(&form->buffers);
+    flat_free(&form->flat);
+    compile_stages_free(&form->stages);
+}
+
+bool session_compile(const Session *session, const FlatSource *source, SceneForm *form,
+                     Error *error)
+{
+    FlatSource complete = *source;
+    complete.builder = session_builder(&session->settings.wanted);
+    complete.pool = thread_pool_open(threads_allowed(session->settings.wanted.threads));
+    const bool ok = scene_compile(&form->flat, &form->stages, &complete, error);
+    thread_pool_close(complete.pool);
+    if (!ok)
+        scene_form_free(form);
     return ok;
 }
 
 static bool make_form(Session *session, SceneForm *form, NodeLayout layout, bool has_tree,
                       Error *error)
 {
-    CompileStages stages = {0};
-    CompileSource source = {.scene = session->scene.scene,
-                            .given = session->scene.stages,
-                            .layout = layout,
-                            .has_tree = has_tree};
-    const bool ok = session_compile(session, &source, &form->flat, &stages, error);
-    form->tree = stages.bvh;
-    form->tree.nodes = NULL;
-    form->tree.order = NULL;
-    compile_stages_free(&stages);
-    if (!ok)
-        flat_free(&form->flat);
-    return ok;
+    const SessionScene *scene = &session->scene;
+    const CompileStages *stages = scene->stages;
+    const FlatSource source = {.scene = scene->scene,
+                               .triangles = stages != NULL ? &stages->triangles : NULL,
+                               .bvh = stages != NULL ? &stages->bvh : NULL,
+                               .normalization = &scene->normalization,
+                               .layout = layout,
+                               .has_tree = has_tree};
+    if (!session_compile(session, &source, form, error))
+        return false;
+    Bvh counts = form->stages.bvh;
+    counts.nodes = NULL;
+    counts.order = NULL;
+    compile_stages_free(&form->stages);
+    form->stages.bvh = counts;
+    return true;
 }
 
 SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Error *error)

@@ -19,8 +19,12 @@ static Flattened flattened_as(const char *text, bool uses_bvh, NodeLayout layout
     Error error = {0};
     const Normalization frame = normalization_of(&all.scene);
     const BvhSettings settings = {BVH_SAH, flat_leaves(layout)};
-    const FlatSource source = {&all.scene, &all.triangles, &all.bvh, &frame,
-                               layout,     NULL,           false,    true};
+    const FlatSource source = {.scene = &all.scene,
+                               .triangles = &all.triangles,
+                               .bvh = &all.bvh,
+                               .normalization = &frame,
+                               .layout = layout,
+                               .has_tree = true};
     const bool ok = triangles_make(&all.triangles, &all.scene, &frame, NULL, &error) &&
                     (!uses_bvh || bvh_build(&all.bvh, &all.triangles, &settings, NULL, &error)) &&
                     flat_make(&all.flat, &source, &error);
@@ -129,8 +133,11 @@ TEST(a_lone_leaf_gets_a_node_with_one_child)
     FREED_BY(flat_free) FlatScene flat = {0};
     Error error = {0};
     const Normalization frame = normalization_of(&all.scene);
-    const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame,
-                               NODES_PAIR, NULL,           false, false};
+    const FlatSource source = {.scene = &all.scene,
+                               .triangles = &all.triangles,
+                               .bvh = &leaf,
+                               .normalization = &frame,
+                               .layout = NODES_PAIR};
     assert_true(flat_make(&flat, &source, &error));
     assert_int_equal(flat.node_count, 1);
     assert_int_equal(flat.pairs[0].count[0], all.triangles.count);
@@ -215,8 +222,11 @@ TEST(a_leaf_too_large_for_a_block_becomes_several)
     all.bvh.nodes[0].count = (uint32_t)all.triangles.count;
     all.bvh.nodes[0].first = 0;
     const Normalization frame = normalization_of(&all.scene);
-    const FlatSource source = {&all.scene, &all.triangles, &leaf, &frame,
-                               NODES_WIDE, NULL,           false, false};
+    const FlatSource source = {.scene = &all.scene,
+                               .triangles = &all.triangles,
+                               .bvh = &leaf,
+                               .normalization = &frame,
+                               .layout = NODES_WIDE};
     Error error = {0};
     flat_free(&all.flat);
     assert_true(flat_make(&all.flat, &source, &error));

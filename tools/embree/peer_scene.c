@@ -106,8 +106,11 @@ static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settin
     const Bvh no_tree = {0};
     Triangles triangles = {0};
     FlatScene flat = {0};
-    const FlatSource source = {scene,      &triangles, &no_tree, &normalization,
-                               NODES_PAIR, NULL,       false,    false};
+    const FlatSource source = {.scene = scene,
+                               .triangles = &triangles,
+                               .bvh = &no_tree,
+                               .normalization = &normalization,
+                               .layout = NODES_PAIR};
     peer->camera =
         camera_make(&scene->viewpoints.data[0], &normalization, peer->width, peer->height, 1);
     const bool ok = triangles_make(&triangles, scene, &normalization, NULL, error) &&

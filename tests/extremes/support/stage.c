@@ -91,8 +91,11 @@ void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout l
 {
     Error error = {0};
     *stage = (Stage){.normalization = normalization_of(scene)};
-    const FlatSource source = {
-        scene, &stage->triangles, &stage->bvh, &stage->normalization, layout, NULL, false, false};
+    const FlatSource source = {.scene = scene,
+                               .triangles = &stage->triangles,
+                               .bvh = &stage->bvh,
+                               .normalization = &stage->normalization,
+                               .layout = layout};
     const bool ok = normalization_check(&stage->normalization, scene, &error) &&
                     triangles_make(&stage->triangles, scene, &stage->normalization, NULL, &error) &&
                     build_tree(&stage->bvh, &stage->triangles, tree, layout, &error) &&
