@@ -57,7 +57,7 @@ void picture_print_end(Picture *picture)
 
 ExitCode picture_fail_goal(const Picture *picture, Error *error)
 {
-    if (picture->request.goal.seconds > 0)
+    if (picture->options->picture.seconds > 0)
         error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
                   picture->repetition_seconds[0]);
     else
@@ -73,7 +73,7 @@ ExitCode picture_fail_stopped(const Picture *picture, Error *error)
                *name = path == NULL || strcmp(path, "-") == 0 ? "the picture" : path;
     if (picture->complete)
         error_set(error, "stopped: %s is complete", name);
-    else if (progress->tiles_done == progress->tiles || options_are_adaptive(picture->options))
+    else if (progress->tiles_done == progress->tiles || goal_is_given(&picture->options->picture))
         error_set(error, "stopped: %s is incomplete", name);
     else
         error_set(error, "stopped: %s is incomplete, with %llu of %llu tiles", name,

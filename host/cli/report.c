@@ -85,7 +85,7 @@ static json_t *settings_json(const Picture *picture)
 static json_t *tiles_json(const Picture *picture)
 {
     const uint64_t found = picture->request.settings.ready_tiles;
-    if (options_are_adaptive(picture->options))
+    if (goal_is_given(&picture->options->picture))
         return json_null();
     return JSON(FIELD("total", tile_count(&picture->request.settings)), FIELD("found", found),
                 FIELD("drawn", picture->drawn.progress.tiles_done - found));
@@ -186,7 +186,7 @@ static void print_error(const Picture *picture, const json_t *json, FILE *stream
                "error: about {samples.error_estimate .2g%}, at most {samples.error_bound .2g%} "
                "with 95 % confidence",
                stream);
-    if (picture->request.goal.truncated > 0)
+    if (picture->request.includes_truncated && picture->request.truncated > 0)
         json_print(json,
                    ", including at most {settings.truncation_bound .2g%} because rays end at level "
                    "{settings.max_level}",
@@ -272,8 +272,9 @@ bool report_write_json(const Picture *picture, const char *path, Error *error)
 
 static json_t *stored_samples_json(const Picture *picture)
 {
-    return options_are_adaptive(picture->options) ? json_string("adaptive")
-                                                  : json_count(picture->request.settings.samples);
+    return goal_is_given(&picture->options->picture)
+               ? json_string("adaptive")
+               : json_count(picture->request.settings.samples);
 }
 
 // If the file has counts of tests, adds what they depend on: the tree's builder and node layout.
@@ -293,7 +294,7 @@ static json_t *stored_settings_json(const Picture *picture)
 {
     const RenderSettings *settings = &picture->request.settings;
     const Options *options = picture->options;
-    const bool is_unfinished = !picture->complete && !options_are_adaptive(options);
+    const bool is_unfinished = !picture->complete && !goal_is_given(&options->picture);
     json_t *json =
         json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", json_count(picture->view), "width",
                   json_count(render_whole_width(settings)), "height",

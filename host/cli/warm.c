@@ -10,8 +10,7 @@
 static bool warm_kernel(Session *session, const Options *options, const SceneTraits *traits,
                         const char *name, Error *error)
 {
-    const PictureGoal goal = request_goal(&options->picture);
-    const RendererUse use = {.entry = picture_entry(&goal)};
+    const RendererUse use = {.entry = picture_entry(&options->picture)};
     const Kernel *kernel = session_kernel(session, &use, traits, error);
     if (kernel != NULL && !options->quiet)
         printf("%s kernels, %s, %s nodes, %s: %s %.2f s\n", name,

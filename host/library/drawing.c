@@ -137,7 +137,7 @@ bool drawing_continues(void *context, const RenderProgress *progress)
                            wanted->progress(wanted->user, progress->tiles_done, progress->tiles);
     drawing->tiles_done = progress->tiles_done;
     drawing->tiles = progress->tiles;
-    drawing->is_stopped = !continues && (progress->tiles_done < progress->tiles ||
-                                         goal_is_given(&drawing->request.goal));
+    drawing->is_stopped =
+        !continues && (progress->tiles_done < progress->tiles || goal_is_given(wanted));
     return continues;
 }

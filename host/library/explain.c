@@ -55,7 +55,7 @@ static bool trace(ClrtExplanation *explanation, Drawing *drawing, const uint32_t
 static bool check_pixel(const Drawing *drawing, const uint32_t pixel[2], ClrtError *error)
 {
     const RenderSettings *settings = &drawing->request.settings;
-    if (goal_is_given(&drawing->request.goal) || settings->whole_width > 0)
+    if (goal_is_given(&drawing->wanted) || settings->whole_width > 0)
         return check_fail(error, CLRT_ARGUMENT, "explanations take no goal and no crop");
     return (pixel[0] < settings->width && pixel[1] < settings->height) ||
            check_fail(error, CLRT_ARGUMENT, "pixel %u,%u is not inside the picture of %u x %u",

@@ -49,9 +49,9 @@ bool session_choose_level(Session *session, SessionPicture *request, Error *erro
 {
     Renderer renderer;
     SessionPicture coarse = *request;
-    const bool is_ladder = picture_entry(&request->goal) == &ladder_entry;
+    const bool is_ladder = picture_entry(&request->wanted) == &ladder_entry;
     const RendererUse use = {.entry = is_ladder ? &ladder_entry : &draw_entry,
-                             .counts = request->counts};
+                             .counts = request->wanted.statistics};
     if (request->level_bound <= 0)
         return true;
     if (!session_renderer(session, &use, &request->settings, &renderer, error))

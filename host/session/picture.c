@@ -27,19 +27,20 @@ typedef struct {
     ThreadPool *pool; // for refining
     Framebuffer *framebuffer;
     PictureResult *result;
+    double start; // clock time of the first sample for an error or time goal
 } PictureDrawing;
 
-const KernelEntry *picture_entry(const PictureGoal *goal)
+const KernelEntry *picture_entry(const ClrtPicture *wanted)
 {
-    if (goal->contrast > 0)
+    if (wanted->contrast > 0)
         return &sample_entry;
-    return goal_is_given(goal) ? &ladder_entry : &draw_entry;
+    return goal_is_given(wanted) ? &ladder_entry : &draw_entry;
 }
 
 // Returns the time that a pixel takes, in units of one sample of --aa.
 static double samples_per_pixel(const SessionPicture *request)
 {
-    const PictureGoal *goal = &request->goal;
+    const ClrtPicture *goal = &request->wanted;
     if (goal->error > 0)
         return 1 + ERROR_SAMPLES / goal->error;
     if (goal->contrast > 0)
@@ -50,10 +51,10 @@ static double samples_per_pixel(const SessionPicture *request)
 SessionWork session_work(const SessionPicture *request, double pictures)
 {
     const double pixels = (double)request->settings.width * request->settings.height;
-    return (SessionWork){.entry = picture_entry(&request->goal),
+    return (SessionWork){.entry = picture_entry(&request->wanted),
                          .samples = pictures * pixels * samples_per_pixel(request),
-                         .seconds = pictures * request->goal.seconds,
-                         .counts = request->counts};
+                         .seconds = pictures * request->wanted.seconds,
+                         .counts = request->wanted.statistics};
 }
 
 CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples)
@@ -66,7 +67,8 @@ CameraData session_camera(const Session *session, const SessionPicture *request,
 static bool open_renderer(Session *session, const SessionPicture *request, Renderer *renderer,
                           PictureResult *result, Error *error)
 {
-    const RendererUse use = {.entry = picture_entry(&request->goal), .counts = request->counts};
+    const RendererUse use = {.entry = picture_entry(&request->wanted),
+                             .counts = request->wanted.statistics};
     if (!session_renderer(session, &use, &request->settings, renderer, error))
         return false;
     result->is_special = renderer->is_special;
@@ -136,7 +138,7 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
                                  .pool = drawing->pool,
                                  .scene = session->scene.scene,
                                  .normalization = &session->scene.normalization};
-    const float contrast = (float)drawing->request->goal.contrast;
+    const float contrast = (float)drawing->request->wanted.contrast;
     bool ok = adaptive_open(&adaptive, &setup, drawing->observer, error);
     measure_truncation(drawing, adaptive.samples);
     ok = ok && adaptive_refine(&adaptive, contrast, drawing->observer, error);
@@ -151,14 +153,15 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
     return ok;
 }
 
-// Refines toward the time or error goal. Does nothing if PictureGoal::truncated alone is at least
-// the error goal.
-static bool refine(const PictureGoal *goal, Ladder *ladder, double start, GoalOutcome *outcome,
-                   Error *error)
+// Refines toward the time or error goal. `truncated` is the part of the error goal that max_level
+// takes. If nothing is left, does nothing.
+static bool refine(const PictureDrawing *drawing, Ladder *ladder, double truncated,
+                   GoalOutcome *outcome, Error *error)
 {
-    const GoalTime time = {start, goal->seconds};
-    const double left = goal->error * goal->error - goal->truncated * goal->truncated;
-    if (goal->seconds > 0)
+    const ClrtPicture *wanted = &drawing->request->wanted;
+    const GoalTime time = {drawing->start, wanted->seconds};
+    const double left = wanted->error * wanted->error - truncated * truncated;
+    if (wanted->seconds > 0)
         return goal_spend_time(ladder, &time, outcome, error);
     return left <= 0 || goal_reach_error(ladder, sqrt(left), outcome, error);
 }
@@ -167,9 +170,9 @@ static bool refine(const PictureGoal *goal, Ladder *ladder, double start, GoalOu
 static bool needs_level(const PictureDrawing *drawing, const Ladder *ladder)
 {
     const SessionPicture *request = drawing->request;
-    return request->level_bound > 0 && request->goal.error > 0 &&
+    return request->level_bound > 0 && request->wanted.error > 0 &&
            request->settings.max_level < GLASS_LEVELS &&
-           drawing->result->truncated > TRUNCATED_MOST * request->goal.error &&
+           drawing->result->truncated > TRUNCATED_MOST * request->wanted.error &&
            pixel_requests_are_whole(&ladder->requests);
 }
 
@@ -194,9 +197,8 @@ static bool draw_for_goal(PictureDrawing *drawing, Error *error)
     Ladder ladder;
     GoalOutcome outcome = {0};
     const Session *session = drawing->session;
-    PictureGoal goal = drawing->request->goal;
     PictureResult *result = drawing->result;
-    const double start = clock_seconds();
+    drawing->start = clock_seconds();
     const CameraData camera = session_camera(session, drawing->request, LADDER_GRID);
     const LadderSetup setup = {.renderer = &drawing->renderer,
                                .flat = &drawing->form->flat,
@@ -208,11 +210,10 @@ static bool draw_for_goal(PictureDrawing *drawing, Error *error)
                                .observer = drawing->observer};
     if (!open_ladder(drawing, &setup, &ladder, error))
         return false;
-    if (goal.truncated > 0)
-        goal.truncated = result->truncated;
-    const bool ok = refine(&goal, &ladder, start, &outcome, error);
-    result->estimate = hypot(outcome.estimate, goal.truncated);
-    result->bound = hypot(outcome.bound, goal.truncated);
+    const double truncated = drawing->request->includes_truncated ? result->truncated : 0;
+    const bool ok = refine(drawing, &ladder, truncated, &outcome, error);
+    result->estimate = hypot(outcome.estimate, truncated);
+    result->bound = hypot(outcome.bound, truncated);
     result->goal_missed = !outcome.reached;
     result->samples = ladder.samples;
     result->feature = ladder_feature(&ladder);
@@ -233,8 +234,8 @@ static bool draw_refined(PictureDrawing *drawing, Error *error)
             return false;
     }
     drawing->pool = thread_pool_open(threads_allowed(drawing->session->settings.wanted.threads));
-    const bool ok = drawing->request->goal.contrast > 0 ? draw_adaptively(drawing, error)
-                                                        : draw_for_goal(drawing, error);
+    const bool ok = drawing->request->wanted.contrast > 0 ? draw_adaptively(drawing, error)
+                                                          : draw_for_goal(drawing, error);
     thread_pool_close(drawing->pool);
     return ok;
 }
@@ -271,8 +272,8 @@ bool session_draw(Session *session, SessionPicture *request, const RenderObserve
     if (!open_renderer(session, request, &drawing.renderer, result, error))
         return false;
     drawing.form = session_own_form(session, error);
-    const bool ok = goal_is_given(&request->goal) ? draw_refined(&drawing, error)
-                                                  : draw_evenly(&drawing, error);
+    const bool ok = goal_is_given(&request->wanted) ? draw_refined(&drawing, error)
+                                                    : draw_evenly(&drawing, error);
     result->progress = drawing.renderer.progress;
     result->is_complete = ok && result->progress.tiles_done == result->progress.tiles;
     return ok;

@@ -6,31 +6,23 @@
 #include "image/framebuffer.h"
 #include "session/session.h"
 
-// The point at which refinement stops. At most one of contrast, error and seconds is above 0. If
-// all three are 0, the samples of a pixel form a square with RenderSettings::samples on each side.
-typedef struct {
-    double contrast;  // refine while neighboring samples differ by more than this
-    double error;     // refine until the root mean square error is this small
-    double seconds;   // refine for this time
-    double truncated; // bound on the error that RenderSettings::max_level causes
-} PictureGoal;
-
-// Returns whether the number of samples may differ between pixels.
-static inline bool goal_is_given(const PictureGoal *goal)
+// Returns whether the number of samples may differ between pixels. Otherwise, the samples of a
+// pixel form a square with RenderSettings::samples on each side.
+static inline bool goal_is_given(const ClrtPicture *wanted)
 {
-    return goal->contrast > 0 || goal->error > 0 || goal->seconds > 0;
+    return wanted->contrast > 0 || wanted->error > 0 || wanted->seconds > 0;
 }
 
 typedef struct {
+    ClrtPicture wanted; // only its goal and statistics
     RenderSettings settings;
     Viewpoint viewpoint;
-    PictureGoal goal;
     uint32_t reference_samples; // per pixel of the reference; an even number
     uint32_t reference_level;   // the reference's max_level
     double truncated;           // bound on the error that RenderSettings::max_level causes
+    bool includes_truncated;    // `truncated` is a part of the error goal
     double level_bound; // above 0, only with glass: the error by which session_choose_level and
                         // session_draw choose RenderSettings::max_level
-    bool counts;        // rays and tests
     bool keeps_samples; // stores PictureResult::pixel_samples
 } SessionPicture;
 
@@ -46,18 +38,18 @@ typedef struct {
     RenderProgress progress;
     bool is_complete;
     bool goal_missed;
-    double estimate;         // of the RMSE, including PictureGoal::truncated; for error and time
-                             // goals
-    double bound;            // upper bound of the RMSE with 95 % confidence
-    double feature;          // the smallest diameter that the samples find (session/feature.h)
-    uint64_t pixels;         // drawn by this call
-    uint64_t samples;        // total of these pixels
+    double estimate;  // of the RMSE, including a `truncated` of the error goal; for error and
+                      // time goals
+    double bound;     // upper bound of the RMSE with 95 % confidence
+    double feature;   // the smallest diameter that the samples find (session/feature.h)
+    uint64_t pixels;  // drawn by this call
+    uint64_t samples; // total of these pixels
     uint32_t *pixel_samples; // by pixel; NULL unless a goal and keeps_samples are given; the caller
                              // frees it
 } PictureResult;
 
 // Returns the kernel that draws the colors.
-const KernelEntry *picture_entry(const PictureGoal *goal);
+const KernelEntry *picture_entry(const ClrtPicture *wanted);
 
 // Returns the camera for `samples` sub-pixels along each side of a pixel.
 CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples);

@@ -68,7 +68,7 @@ static bool check_conflicts(const ClrtPicture *wanted, AovSet channels, ClrtPrec
                             RequestFault *fault)
 {
     const char *goal = wanted->error > 0 ? "error" : wanted->seconds > 0 ? "seconds" : "contrast";
-    const bool refines = wanted->error > 0 || wanted->seconds > 0 || wanted->contrast > 0;
+    const bool refines = goal_is_given(wanted);
     const bool is_certain = aov_needs(channels, AOV_NEEDS_CERTAINTY);
     const struct {
         bool is_broken;
@@ -144,9 +144,9 @@ static uint32_t reference_level(const ClrtPicture *wanted, const Scene *scene)
     return limited_level(level > scene->max_level ? level : scene->max_level, scene);
 }
 
-static uint32_t samples_of(const ClrtPicture *wanted, const Scene *scene, const PictureGoal *goal)
+static uint32_t samples_of(const ClrtPicture *wanted, const Scene *scene)
 {
-    if (wanted->samples > 0 || goal_is_given(goal))
+    if (wanted->samples > 0 || goal_is_given(wanted))
         return wanted->samples > 0 ? wanted->samples : 1;
     return scene->mesh_up == UP_AUTO ? 1 : MESH_SAMPLES;
 }
@@ -169,29 +169,22 @@ static bool crop_settings(RenderSettings *settings, const ClrtPicture *wanted)
            wanted->crop_height <= height && wanted->top <= height - wanted->crop_height;
 }
 
-PictureGoal request_goal(const ClrtPicture *wanted)
-{
-    return (PictureGoal){wanted->contrast, wanted->error, wanted->seconds, 0};
-}
-
 bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpoint *camera,
                      SessionPicture *picture)
 {
     const uint32_t level = max_level_of(wanted, scene);
     const uint32_t reference = wanted->reference_samples;
-    *picture = (SessionPicture){.goal = request_goal(wanted),
+    *picture = (SessionPicture){.wanted = *wanted,
                                 .reference_samples = reference > 0 ? reference : REFERENCE_SAMPLES,
                                 .reference_level = reference_level(wanted, scene),
                                 .truncated = truncation_bound(scene, level),
-                                .counts = wanted->statistics};
+                                .includes_truncated = wanted->error > 0 && wanted->max_level == 0};
     if (chooses_level(wanted) && scene_has_glass(scene))
         picture->level_bound = level_bound(wanted, scene);
-    if (wanted->error > 0 && wanted->max_level == 0)
-        picture->goal.truncated = picture->truncated;
     picture->settings =
         (RenderSettings){.width = wanted->width > 0 ? wanted->width : scene->width,
                          .height = wanted->height > 0 ? wanted->height : scene->height,
-                         .samples = samples_of(wanted, scene, &picture->goal),
+                         .samples = samples_of(wanted, scene),
                          .max_level = level,
                          .tile_width = wanted->tile_width > 0 ? wanted->tile_width : TILE,
                          .tile_height = wanted->tile_height > 0 ? wanted->tile_height : TILE};

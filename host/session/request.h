@@ -34,9 +34,6 @@ bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision pre
 // Returns whether the error goal is too small for fp32. request_check rejects such a goal in fp32.
 bool request_needs_fp64(const ClrtPicture *wanted);
 
-// Returns the picture's goal. Its member `truncated` is 0, because it depends on the scene.
-PictureGoal request_goal(const ClrtPicture *wanted);
-
 // Completes a request with the scene's defaults. request_check must have accepted the request. If
 // camera is NULL, the scene must have the view wanted->view. Returns false if the crop is empty or
 // leaves the picture.

@@ -78,7 +78,7 @@ bool tracer_draw(ViewTracer *tracer, const Shot *shot, const RenderObserver *obs
 {
     SessionPicture request = {.settings = tracer_settings(tracer, shot->pass),
                               .viewpoint = *shot->camera,
-                              .counts = shot->pass->kind == PASS_COUNT};
+                              .wanted.statistics = shot->pass->kind == PASS_COUNT};
     return session_draw(&tracer->session, &request, observer, framebuffer, &tracer->drawn, error);
 }
 

@@ -81,7 +81,7 @@ static bool draw_colors(Pipeline *pipeline, Framebuffer *framebuffer, Error *err
         return draw_with_callback(pipeline, framebuffer, error);
     const bool ok = session_draw(pipeline->session, &pipeline->picture, NULL, framebuffer,
                                  &pipeline->result, error);
-    if (ok && request->sample_count != NULL && goal_is_given(&pipeline->picture.goal))
+    if (ok && request->sample_count != NULL && goal_is_given(&pipeline->picture.wanted))
         *request->sample_count = pipeline->result.samples;
     return ok && (!pipeline->result.goal_missed || error_set(error, "the goal is missed"));
 }
@@ -119,11 +119,12 @@ static bool draw(Pipeline *pipeline, Framebuffer *framebuffer, Error *error)
 {
     const PictureRequest *request = pipeline->request;
     const RenderSettings settings = settings_of(request, &pipeline->scene);
-    pipeline->picture = (SessionPicture){
-        .settings = settings,
-        .viewpoint = pipeline->scene.viewpoints.data[request->view - 1],
-        .goal = {.contrast = (double)request->contrast, .error = request->error_goal},
-        .counts = request->tallies != NULL};
+    pipeline->picture =
+        (SessionPicture){.settings = settings,
+                         .viewpoint = pipeline->scene.viewpoints.data[request->view - 1],
+                         .wanted = {.contrast = (double)request->contrast,
+                                    .error = request->error_goal,
+                                    .statistics = request->tallies != NULL}};
     return framebuffer_make(framebuffer, settings.width, settings.height, error) &&
            draw_colors(pipeline, framebuffer, error) && draw_layers(pipeline, error) &&
            visit(pipeline, framebuffer, error);

@@ -168,7 +168,7 @@ static bool check_rules(const Options *options, const Rule *rules, size_t count,
 
 static bool check_file(const Options *options, Error *error)
 {
-    const bool is_adaptive = options_are_adaptive(options);
+    const bool is_adaptive = goal_is_given(&options->picture);
     const bool takes_layers = image_format_takes_layers(options->format);
     const char *reference = options->reference_path;
     const bool are_floats =

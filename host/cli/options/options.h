@@ -157,13 +157,6 @@ typedef struct {
     bool quiet, verbose;
 } Options;
 
-// Returns whether the number of samples may differ between pixels.
-static inline bool options_are_adaptive(const Options *options)
-{
-    return options->picture.contrast > 0 || options->picture.error > 0 ||
-           options->picture.seconds > 0;
-}
-
 // Returns whether JSON replaces the text on standard output.
 static inline bool options_print_json(const Options *options)
 {
