@@ -33,7 +33,7 @@ bool check_trace(Check *check, Session *session, Error *error)
                     count_leaks(check, session, &caster, error);
     ray_caster_close(&caster);
     if (ok) {
-        check->device = session->device.name;
+        check->device = session->device.facts.name;
         return true;
     }
     free(check->leaks);

@@ -7,24 +7,21 @@
 
 #include <stdio.h>
 
-static json_t *device_json(const Device *device)
+static json_t *device_json(const ClrtDevice *facts)
 {
-    char specification[32];
-    snprintf(specification, sizeof specification, "%u:%u", device->platform_number, device->number);
-    return JSON(
-        FIELD("device", specification), FIELD("platform", device->platform),
-        FIELD("name", device->name), FIELD("driver", device->version),
-        FIELD("type", device_type_name(device)), FIELD("compute_units", device->compute_units),
-        FIELD("largest_allocation", device->largest_allocation), FIELD("fp64", device->has_fp64),
-        FIELD("correctly_rounded", device->correct_division),
-        FIELD("denormals", device->has_denormals), FIELD("fma", device->has_fma));
+    return JSON(FIELD("device", facts->device), FIELD("platform", facts->platform),
+                FIELD("name", facts->name), FIELD("driver", facts->driver),
+                FIELD("type", facts->type), FIELD("compute_units", facts->compute_units),
+                FIELD("largest_allocation", facts->largest_allocation), FIELD("fp64", facts->fp64),
+                FIELD("correctly_rounded", facts->correctly_rounded),
+                FIELD("denormals", facts->denormals), FIELD("fma", facts->fma));
 }
 
 static json_t *list_json(const DeviceList *list)
 {
     json_t *devices = json_array();
     for (unsigned i = 0; i < list->count; i++)
-        json_array_append_new(devices, device_json(&list->devices[i]));
+        json_array_append_new(devices, device_json(&list->devices[i].facts));
     return REPORT(1, FIELD("devices", devices));
 }
 

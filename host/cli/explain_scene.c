@@ -117,8 +117,9 @@ static json_t *report_json(const Options *options, const Session *session, const
     json_t *program = JSON(
         FIELD("special", is_special),
         FIELD("reason", scene_program_reason(session->settings.wanted.specialize, is_special)));
-    return REPORT(2, FIELD("scene", options->scene_path), FIELD("device", session->device.name),
-                  FIELD("kernels", kernels), FIELD("program", program),
+    return REPORT(2, FIELD("scene", options->scene_path),
+                  FIELD("device", session->device.facts.name), FIELD("kernels", kernels),
+                  FIELD("program", program),
                   FIELD("parts", parts_json(session, form, counts, is_special)),
                   FIELD("uploaded_bytes", arrays_json(&form->flat)));
 }

@@ -165,7 +165,8 @@ static json_t *report_json(const Picture *picture)
     const uint64_t peak = (uint64_t)usage.ru_maxrss * 1024;
     return REPORT(
         1, FIELD("complete", picture->complete), FIELD("pixel_hash", picture->pixel_hash),
-        FIELD("device", JSON(FIELD("name", device->name), FIELD("driver", device->version))),
+        FIELD("device",
+              JSON(FIELD("name", device->facts.name), FIELD("driver", device->facts.driver))),
         FIELD("bytes",
               JSON(FIELD("uploaded", picture->drawn.upload_size), FIELD("peak_memory", peak))),
         FIELD("scene", scene_json(picture)),
@@ -238,7 +239,7 @@ void report_write_setup(const Picture *picture, FILE *stream)
         "triangles, {bvh.depth} levels\n"
         "device: {device.name}, driver {device.driver}, ",
         stream);
-    fprintf(stream, "%u compute units\n", picture->session->device.compute_units);
+    fprintf(stream, "%u compute units\n", picture->session->device.facts.compute_units);
     json_print(json, "kernels: {settings.kernel}, {settings.nodes} nodes, {settings.precision}, ",
                stream);
     fputs(picture->drawn.is_special ? "specialized" : "general", stream);
@@ -336,8 +337,8 @@ void report_fill_provenance(Provenance *provenance, const Picture *picture)
     scene_hash_name(picture->scene->hash, provenance->texts[STORED_SCENE_HASH]);
     scene_hash_name(picture->scene->mesh_hash, provenance->texts[STORED_MESH_HASH]);
     provenance_write_settings(provenance->texts[STORED_SETTINGS], settings);
-    set(provenance, STORED_DEVICE, picture->session->device.name);
-    set(provenance, STORED_DRIVER, picture->session->device.version);
+    set(provenance, STORED_DEVICE, picture->session->device.facts.name);
+    set(provenance, STORED_DRIVER, picture->session->device.facts.driver);
     set(provenance, STORED_PIXEL_HASH, picture->pixel_hash);
     set(provenance, STORED_COMPLETE, picture->complete ? "yes" : "no");
     json_decref(settings);

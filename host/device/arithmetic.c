@@ -116,8 +116,8 @@ static bool refuse(const Device *device, const float operands[3], const char *op
     return error_set(error,
                      "%s calculates wrongly, so clrt cannot use it: for a = %a, b = %a and c = %a, "
                      "%s has the bits 0x%08x",
-                     device->name, (double)operands[0], (double)operands[1], (double)operands[2],
-                     operation, bits);
+                     device->facts.name, (double)operands[0], (double)operands[1],
+                     (double)operands[2], operation, bits);
 }
 
 static bool compare(const Device *device, const Promise *promise, const Results *found,
@@ -163,7 +163,7 @@ bool arithmetic_is_exact(const Device *device, cl_program program, const char *o
                          Error *error)
 {
     const bool flushes = strstr(options, "-cl-denorms-are-zero") != NULL;
-    const Promise promise = {device->has_denormals && !flushes, device->correct_division};
+    const Promise promise = {device->facts.denormals && !flushes, device->facts.correctly_rounded};
     Results found[CASES];
     return launch(device, program, found, error) && compare(device, &promise, found, error);
 }

@@ -8,9 +8,10 @@ bool upload_array(const Device *device, const FlatArray *array, cl_mem *buffer, 
 {
     static const _Alignas(64) char nothing[64];
     const size_t size = array->bytes;
-    if (size > device->largest_allocation)
+    if (size > device->facts.largest_allocation)
         return error_set(error, "the scene needs a buffer of %zu bytes; %s offers at most %llu",
-                         size, device->name, (unsigned long long)device->largest_allocation);
+                         size, device->facts.name,
+                         (unsigned long long)device->facts.largest_allocation);
     const cl_mem_flags origin = device->shares_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
     void *source = (void *)(size > 0 ? array->data : nothing);
     cl_int status;

@@ -26,35 +26,45 @@ static bool has_extension(cl_device_id id, const char *name)
     return strstr(names, name) != NULL;
 }
 
+static const char *type_name(cl_device_type type)
+{
+    for (size_t i = 0; i + 1 < TYPE_COUNT; i++)
+        if ((types[i].type & type) != 0)
+            return types[i].name;
+    return "other";
+}
+
 static void describe(Device *device)
 {
     cl_device_fp_config config = 0, double_config = 0;
     cl_bool shares_memory = CL_FALSE;
     cl_platform_id platform = NULL;
+    ClrtDevice *facts = &device->facts;
     clGetDeviceInfo(device->id, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL);
-    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof device->platform - 1, device->platform,
+    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof facts->platform - 1, facts->platform,
                       NULL);
     clGetPlatformInfo(platform, CL_PLATFORM_VERSION, sizeof device->platform_version - 1,
                       device->platform_version, NULL);
-    clGetDeviceInfo(device->id, CL_DEVICE_NAME, sizeof device->name - 1, device->name, NULL);
-    clGetDeviceInfo(device->id, CL_DRIVER_VERSION, sizeof device->version - 1, device->version,
-                    NULL);
-    clGetDeviceInfo(device->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof device->largest_allocation,
-                    &device->largest_allocation, NULL);
-    clGetDeviceInfo(device->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof device->compute_units,
-                    &device->compute_units, NULL);
+    clGetDeviceInfo(device->id, CL_DEVICE_NAME, sizeof facts->name - 1, facts->name, NULL);
+    clGetDeviceInfo(device->id, CL_DRIVER_VERSION, sizeof facts->driver - 1, facts->driver, NULL);
+    clGetDeviceInfo(device->id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof facts->largest_allocation,
+                    &facts->largest_allocation, NULL);
+    clGetDeviceInfo(device->id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof facts->compute_units,
+                    &facts->compute_units, NULL);
     clGetDeviceInfo(device->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof config, &config, NULL);
     clGetDeviceInfo(device->id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof double_config, &double_config,
                     NULL);
     clGetDeviceInfo(device->id, CL_DEVICE_TYPE, sizeof device->type, &device->type, NULL);
     clGetDeviceInfo(device->id, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof shares_memory, &shares_memory,
                     NULL);
+    snprintf(facts->device, sizeof facts->device, "%u:%u", device->platform_number, device->number);
+    snprintf(facts->type, sizeof facts->type, "%s", type_name(device->type));
+    facts->denormals = (config & CL_FP_DENORM) != 0;
+    facts->fma = (config & CL_FP_FMA) != 0;
+    facts->correctly_rounded = (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+    facts->fp64 = double_config != 0;
     device->is_cpu = (device->type & CL_DEVICE_TYPE_CPU) != 0;
     device->shares_memory = shares_memory == CL_TRUE;
-    device->has_denormals = (config & CL_FP_DENORM) != 0;
-    device->has_fma = (config & CL_FP_FMA) != 0;
-    device->correct_division = (config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
-    device->has_fp64 = double_config != 0;
     device->limits_registers = has_extension(device->id, "cl_nv_compiler_options");
 }
 
@@ -96,21 +106,14 @@ void device_list_text(const DeviceList *list, char text[DEVICE_TEXT_SIZE])
         const Device *device = &list->devices[i];
         const bool last =
             i + 1 == list->count || list->devices[i + 1].platform_number != device->platform_number;
-        char platform[sizeof device->platform + 32] = "";
+        char platform[sizeof device->facts.platform + 32] = "";
         if (device->number == 0)
             snprintf(platform, sizeof platform, "Platform #%u: %s\n", device->platform_number,
-                     device->platform);
-        used += (size_t)snprintf(text + used, DEVICE_TEXT_SIZE - used, "%s %s Device #%u: %s\n",
-                                 platform, last ? "`--" : "+--", device->number, device->name);
+                     device->facts.platform);
+        used +=
+            (size_t)snprintf(text + used, DEVICE_TEXT_SIZE - used, "%s %s Device #%u: %s\n",
+                             platform, last ? "`--" : "+--", device->number, device->facts.name);
     }
-}
-
-const char *device_type_name(const Device *device)
-{
-    for (size_t i = 0; i + 1 < TYPE_COUNT; i++)
-        if ((types[i].type & device->type) != 0)
-            return types[i].name;
-    return "other";
 }
 
 static bool matches(const Device *device, const char *spec)
@@ -122,7 +125,8 @@ static bool matches(const Device *device, const char *spec)
     for (size_t i = 0; i < TYPE_COUNT; i++)
         if (strcasecmp(spec, types[i].name) == 0)
             return (types[i].type & device->type) != 0;
-    return strcasestr(device->name, spec) != NULL || strcasestr(device->platform, spec) != NULL;
+    return strcasestr(device->facts.name, spec) != NULL ||
+           strcasestr(device->facts.platform, spec) != NULL;
 }
 
 static const Device *choose(const DeviceList *list, const char *spec)

@@ -3,29 +3,22 @@
 #pragma once
 
 #include "device/host_memory.h"
+#include "library/clrt.h"
 
 #include <pthread.h>
 #include <stdint.h>
 
 typedef struct {
+    ClrtDevice facts; // facts.size is not used
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
     HostPool *pool;                   // for HostMemory
     unsigned platform_number, number; // PLATFORM:DEVICE
     cl_device_type type;
-    char platform[256];          // name of the OpenCL platform
-    char name[256];              // as the driver reports it
-    char version[256];           // version of the driver
-    char platform_version[256];  // with PoCL, also the version of LLVM
-    cl_ulong largest_allocation; // bytes
-    cl_uint compute_units;
+    char platform_version[256]; // with PoCL, also the version of LLVM
     bool is_cpu;
     bool shares_memory;    // reads the host's arrays in place
-    bool correct_division; // offers correctly rounded division and square root
-    bool has_denormals;    // keeps floats below 2^-126, which other devices set to zero
-    bool has_fma;          // computes fma in hardware; other devices compute fma in software
-    bool has_fp64;         // supports double precision
     bool limits_registers; // its compiler accepts -cl-nv-maxrregcount
 } Device;
 
@@ -51,9 +44,6 @@ bool device_list(DeviceList *list, Error *error);
 
 // Writes as many devices as fit into the text, in the format of `clinfo -l`.
 void device_list_text(const DeviceList *list, char text[DEVICE_TEXT_SIZE]);
-
-// Returns cpu, gpu, accelerator or other.
-const char *device_type_name(const Device *device);
 
 // Starts a thread that may build programs. Its stack is larger than usual, because OpenCL compilers
 // recurse deeply. Returns false if the system cannot start a thread.

@@ -40,7 +40,7 @@ static bool check_group(const Kernel *kernel, Error *error)
     const uint32_t limit = group_info(kernel, CL_KERNEL_WORK_GROUP_SIZE);
     return limit == 0 || (uint64_t)kernel->group[0] * kernel->group[1] <= limit ||
            error_set(error, "work-groups of %u x %u are too large: %s allows %u work-items",
-                     kernel->group[0], kernel->group[1], kernel->device->name, limit);
+                     kernel->group[0], kernel->group[1], kernel->device->facts.name, limit);
 }
 
 static LaunchShape shape_of(const Kernel *kernel)
@@ -48,7 +48,7 @@ static LaunchShape shape_of(const Kernel *kernel)
     const LaunchFacts facts = {
         .is_cpu = kernel->device->is_cpu,
         .is_wide = kernel->choice.nodes == NODES_WIDE,
-        .compute_units = kernel->device->compute_units,
+        .compute_units = kernel->device->facts.compute_units,
         .group_limit = group_info(kernel, CL_KERNEL_WORK_GROUP_SIZE),
         .group_multiple = group_info(kernel, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE)};
     LaunchShape shape = launch_shape(&facts);

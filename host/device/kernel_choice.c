@@ -35,7 +35,7 @@ static const char *const slow_with_packets[] = {"Intel(R) OpenCL", "rusticl"};
 bool kernel_suits_packets(const Device *device)
 {
     for (size_t i = 0; i < sizeof slow_with_packets / sizeof *slow_with_packets; i++)
-        if (strcmp(device->platform, slow_with_packets[i]) == 0)
+        if (strcmp(device->facts.platform, slow_with_packets[i]) == 0)
             return false;
     return device->is_cpu;
 }
@@ -54,9 +54,9 @@ KernelChoice kernel_choose(const ClrtSettings *wanted, const Device *device)
 
 bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error)
 {
-    return choice->precision == CLRT_FP32 || device->has_fp64 ||
+    return choice->precision == CLRT_FP32 || device->facts.fp64 ||
            error_set(error, "%s has no double arithmetic, which --precision fp64 needs",
-                     device->name);
+                     device->facts.name);
 }
 
 const char *kernel_family_name(KernelFamily family)

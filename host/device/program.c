@@ -54,7 +54,7 @@ static bool write_options(char options[OPTIONS_SIZE], const ProgramSource *sourc
     char choices[KERNEL_OPTIONS_SIZE];
     traits_write_options(&source->traits, switches);
     kernel_write_options(&source->choice, choices);
-    const bool is_correct = source->device->correct_division;
+    const bool is_correct = source->device->facts.correctly_rounded;
     const int length = snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s %s %s %s %s %s %s",
                                 switches, choices, is_for_gpu(source) ? "-DCLRT_GPU=1" : "",
                                 register_limit(source), text_or_nothing(entry_of(source)->options),
@@ -96,8 +96,8 @@ static void report_build_log(const Program *program, const Device *device, cl_in
     char *log = calloc(size + 1, 1);
     if (log != NULL)
         clGetProgramBuildInfo(program->handle, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
-    error_set(error, "the kernels do not build with '%s' on %s: %s\n%s", options, device->name,
-              cl_error_name(status), log != NULL ? log : "");
+    error_set(error, "the kernels do not build with '%s' on %s: %s\n%s", options,
+              device->facts.name, cl_error_name(status), log != NULL ? log : "");
     free(log);
 }
 
@@ -214,7 +214,7 @@ void program_key(const ProgramSource *source, char key[CACHE_KEY_SIZE])
     char options[OPTIONS_SIZE] = "";
     write_options(options, source);
     const char *appended = text_or_nothing(entry_of(source)->source);
-    snprintf(text, sizeof text, "%s|%s|%s|%s|%s|%llx", device->name, device->version,
+    snprintf(text, sizeof text, "%s|%s|%s|%s|%s|%llx", device->facts.name, device->facts.driver,
              device->platform_version, options, text_or_nothing(source->kernel_folder),
              (unsigned long long)source->cache->settings);
     const XXH64_hash_t last = XXH3_64bits(appended, strlen(appended));

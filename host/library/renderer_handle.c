@@ -137,18 +137,5 @@ bool clrt_device_get(uint32_t number, ClrtDevice *device, ClrtError *error)
     if (number >= list.count)
         return check_fail(error, CLRT_ARGUMENT, "device %u does not exist: there are %u", number,
                           list.count);
-    const Device *found = &list.devices[number];
-    ClrtDevice filled = {.size = filled.size,
-                         .compute_units = found->compute_units,
-                         .largest_allocation = found->largest_allocation,
-                         .fp64 = found->has_fp64,
-                         .correctly_rounded = found->correct_division,
-                         .denormals = found->has_denormals,
-                         .fma = found->has_fma};
-    snprintf(filled.device, sizeof filled.device, "%u:%u", found->platform_number, found->number);
-    snprintf(filled.type, sizeof filled.type, "%s", device_type_name(found));
-    memcpy(filled.platform, found->platform, sizeof filled.platform);
-    memcpy(filled.name, found->name, sizeof filled.name);
-    memcpy(filled.driver, found->version, sizeof filled.driver);
-    return fill_struct(error, "the device", device, &filled, sizeof filled);
+    return fill_struct(error, "the device", device, &list.devices[number].facts, sizeof *device);
 }

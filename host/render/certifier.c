@@ -12,13 +12,15 @@ extern const char certify_source[];
 
 bool certifier_check_device(const Device *device, Error *error)
 {
-    if (!device->has_fp64)
-        return error_set(error, "%s has no double arithmetic, which certainty needs", device->name);
-    if (!device->has_denormals)
-        return error_set(error, "%s has no denormal numbers, which certainty needs", device->name);
-    return device->correct_division ||
+    if (!device->facts.fp64)
+        return error_set(error, "%s has no double arithmetic, which certainty needs",
+                         device->facts.name);
+    if (!device->facts.denormals)
+        return error_set(error, "%s has no denormal numbers, which certainty needs",
+                         device->facts.name);
+    return device->facts.correctly_rounded ||
            error_set(error, "%s does not round divisions correctly, which certainty needs",
-                     device->name);
+                     device->facts.name);
 }
 
 const KernelEntry certify_entry = {"certify_tile", certify_source, NULL, "bb", .dimensions = 2};

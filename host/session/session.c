@@ -73,7 +73,7 @@ static void choose_quick_kernels(Session *session, const SessionWork *work)
         is_compiled(session, work->entry, session->choice))
         return;
     const double saved = is_compiled(session, work->entry, quick) ? 0 : QUICK_COMPILE_SECONDS;
-    const double lost = work->samples * SAVED_PER_SAMPLE / session->device.compute_units +
+    const double lost = work->samples * SAVED_PER_SAMPLE / session->device.facts.compute_units +
                         LOST_OF_LIMIT * work->seconds;
     session->is_quick = lost <= PACKET_COMPILE_SECONDS - saved;
     if (session->is_quick)
@@ -128,7 +128,7 @@ static bool specialization_pays(const Session *session, const KernelSpec *specia
 {
     const double samples =
         (double)settings->width * settings->height * settings->samples * settings->samples;
-    const double rate = RAYS_PER_SECOND * session->device.compute_units;
+    const double rate = RAYS_PER_SECOND * session->device.facts.compute_units;
     const double saving = SPECIALIZED_SAVES * samples * RAYS_PER_SAMPLE / rate;
     const ClrtSpecialize wanted = session->settings.wanted.specialize;
     if (wanted != CLRT_SPECIALIZE_AUTO)

@@ -40,7 +40,7 @@ static void open_bench(Bench *bench, const char *path, const char *device)
     cl_int status =
         clBuildProgram(bench->program, 1, &bench->device.id, "-cl-std=CL1.2", NULL, NULL);
     require(cl_succeeded(status, "build the kernels", &error), "kernels", &error);
-    bench->items = (size_t)bench->device.compute_units * 4096;
+    bench->items = (size_t)bench->device.facts.compute_units * 4096;
     require(device_buffer(&bench->device, BYTES, &bench->values, &error) &&
                 device_buffer(&bench->device, bench->items * sizeof(float), &bench->sums, &error),
             "memory", &error);

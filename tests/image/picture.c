@@ -136,7 +136,7 @@ static Session session;
 static void pretend_gpu(Device *device, uint32_t units)
 {
     device->is_cpu = device->shares_memory = false;
-    device->compute_units = units;
+    device->facts.compute_units = units;
 }
 
 // Replaces 16 lanes by 0, which stands for the device's own number, if that number is 16. The

@@ -11,25 +11,31 @@ static const struct {
     NodeLayout nodes;
 } cases[] = {
     // CPUs get packets unless their implementation is slow with them.
-    {{0}, {.platform = "Portable Computing Language", .is_cpu = true}, FAMILY_PACKET, NODES_WIDE},
-    {{0}, {.platform = "Oclgrind", .is_cpu = true}, FAMILY_PACKET, NODES_WIDE},
-    {{0}, {.platform = "Intel(R) OpenCL", .is_cpu = true}, FAMILY_RAY, NODES_PAIR},
-    {{0}, {.platform = "rusticl", .is_cpu = true}, FAMILY_RAY, NODES_PAIR},
-    // Other devices get rays.
-    {{0}, {.platform = "Portable Computing Language"}, FAMILY_RAY, NODES_PAIR},
-    {{0}, {.platform = "rusticl"}, FAMILY_RAY, NODES_PAIR},
-    // The user's choice is kept. fp64 always means rays and pair nodes.
-    {{.kernel = CLRT_KERNEL_PACKET},
-     {.platform = "rusticl", .is_cpu = true},
+    {{0},
+     {.facts.platform = "Portable Computing Language", .is_cpu = true},
      FAMILY_PACKET,
      NODES_WIDE},
-    {{.kernel = CLRT_KERNEL_WIDE}, {.platform = "rusticl", .is_cpu = true}, FAMILY_RAY, NODES_WIDE},
+    {{0}, {.facts.platform = "Oclgrind", .is_cpu = true}, FAMILY_PACKET, NODES_WIDE},
+    {{0}, {.facts.platform = "Intel(R) OpenCL", .is_cpu = true}, FAMILY_RAY, NODES_PAIR},
+    {{0}, {.facts.platform = "rusticl", .is_cpu = true}, FAMILY_RAY, NODES_PAIR},
+    // Other devices get rays.
+    {{0}, {.facts.platform = "Portable Computing Language"}, FAMILY_RAY, NODES_PAIR},
+    {{0}, {.facts.platform = "rusticl"}, FAMILY_RAY, NODES_PAIR},
+    // The user's choice is kept. fp64 always means rays and pair nodes.
+    {{.kernel = CLRT_KERNEL_PACKET},
+     {.facts.platform = "rusticl", .is_cpu = true},
+     FAMILY_PACKET,
+     NODES_WIDE},
+    {{.kernel = CLRT_KERNEL_WIDE},
+     {.facts.platform = "rusticl", .is_cpu = true},
+     FAMILY_RAY,
+     NODES_WIDE},
     {{.kernel = CLRT_KERNEL_PAIR},
-     {.platform = "Oclgrind", .is_cpu = true},
+     {.facts.platform = "Oclgrind", .is_cpu = true},
      FAMILY_RAY,
      NODES_PAIR},
     {{.precision = CLRT_FP64},
-     {.platform = "Portable Computing Language", .is_cpu = true},
+     {.facts.platform = "Portable Computing Language", .is_cpu = true},
      FAMILY_RAY,
      NODES_PAIR},
 };
