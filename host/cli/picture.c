@@ -63,12 +63,10 @@ static bool draw(Picture *picture, Error *error)
 
 static bool trace_layers(Picture *picture, Error *error)
 {
-    const ChannelRequest channels = {picture->options->aovs, picture->drawn.pixel_samples,
-                                     picture->certainty.marks != NULL ? &picture->certainty : NULL};
     Progress progress = progress_begin(picture->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok = session_draw_channels(picture->session, &picture->request, &channels, &observer,
-                                          &picture->layers, error);
+    const bool ok = session_draw_channels(picture->session, &picture->request, &observer,
+                                          &picture->layers, &picture->drawn, error);
     picture->stopped_by = progress_end(&progress);
     picture->complete = picture->complete && picture->stopped_by == 0;
     return ok;
@@ -214,9 +212,7 @@ static void clear(Picture *picture)
     framebuffer_free(&picture->framebuffer);
     framebuffer_free(&picture->reference.picture);
     layers_free(&picture->layers);
-    certainty_map_free(&picture->certainty);
-    free(picture->drawn.pixel_samples);
-    picture->drawn.pixel_samples = NULL;
+    picture_result_free(&picture->drawn);
     picture->repetition_count = 0;
 }
 

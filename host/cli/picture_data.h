@@ -27,11 +27,10 @@ typedef struct {
     Framebuffer framebuffer;
     Framebuffer film; // all frames of an animated file, in a column; empty for other files
     MeasuredReference reference;
-    Layers layers;          // the channels besides the colors
-    CertaintyMap certainty; // empty without --aov certainty
-    Resume resume;          // empty without --resume
-    int stopped_by;         // the signal that stopped the picture, or 0
-    double start, moment;   // when the command began; when the previous frame ended, at first start
+    Layers layers;        // the channels besides the colors
+    Resume resume;        // empty without --resume
+    int stopped_by;       // the signal that stopped the picture, or 0
+    double start, moment; // when the command began; when the previous frame ended, at first start
 
     // For reports.
     const SceneForm *form; // the scene for the picture's kernels

@@ -95,18 +95,12 @@ bool reference_write(const Picture *picture, Error *error)
 bool picture_certify(Picture *picture, Error *error)
 {
     double moment = clock_seconds();
-    const Framebuffer *frame = &picture->framebuffer;
-    if (!aov_needs(picture->options->aovs, AOV_NEEDS_CERTAINTY))
+    if (!aov_needs(picture->options->aovs, AOV_NEEDS_CERTAINTY) || picture->stopped_by != 0)
         return true;
-    if (!certainty_map_make(&picture->certainty, frame->width, frame->height, error))
-        return false;
-    if (picture->stopped_by != 0)
-        return true;
-    const CertifiedPicture certified = {&picture->framebuffer, &picture->certainty};
     Progress progress = progress_begin(picture->options->quiet);
     const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok =
-        session_certify(picture->session, &picture->request, &observer, &certified, error);
+    const bool ok = session_certify(picture->session, &picture->request, &observer,
+                                    &picture->framebuffer, &picture->drawn, error);
     picture->stopped_by = progress_end(&progress);
     picture->complete = picture->complete && picture->stopped_by == 0;
     picture->certainty_seconds = stage_lap(&moment);

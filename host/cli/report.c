@@ -147,7 +147,7 @@ static json_t *reference_json(const MeasuredReference *reference)
 
 static json_t *certainty_json(const Picture *picture)
 {
-    const uint64_t *pixels = picture->certainty.counts;
+    const uint64_t *pixels = picture->drawn.certainty.counts;
     if (!aov_needs(picture->options->aovs, AOV_NEEDS_CERTAINTY))
         return json_null();
     return JSON(FIELD("certified", pixels[CERTAINTY_CERTIFIED]),

@@ -130,7 +130,7 @@ bool stage_request(SessionPicture *request, const Options *options, const Scene 
     (void)is_inside;
     request->settings.part = options->parts > 0 ? options->part - 1 : 0;
     request->settings.parts = options->parts;
-    request->keeps_samples = options->aovs != 0;
+    request->channels = options->aovs;
     return true;
 }
 

@@ -78,9 +78,10 @@ static bool resolve(Drawing *drawing, ClrtError *error)
             ? !scene_handle_take_camera(&camera, wanted->camera, error)
             : !scene_handle_check_view(drawing->handle, wanted->view > 0 ? wanted->view : 1, error))
         return false;
-    return request_resolve(wanted, drawing->scene, has_camera ? &camera : NULL,
-                           &drawing->request) ||
-           check_fail(error, CLRT_ARGUMENT, "the crop is not inside the picture");
+    const bool is_inside =
+        request_resolve(wanted, drawing->scene, has_camera ? &camera : NULL, &drawing->request);
+    drawing->request.channels = drawing->channels;
+    return is_inside || check_fail(error, CLRT_ARGUMENT, "the crop is not inside the picture");
 }
 
 static bool take_request(Drawing *drawing, const ClrtPicture *picture, ClrtError *error)

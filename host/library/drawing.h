@@ -14,7 +14,6 @@ typedef struct {
     AovSet channels;         // the channels of wanted
     SessionPicture request;  // wanted, completed with the scene's defaults
     Framebuffer framebuffer; // borrows the caller's memory
-    CertaintyMap certainty;
     PictureResult drawn;
     double seconds;
     uint64_t tiles_done, tiles;

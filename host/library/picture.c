@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+// Draws the colors and, if a channel needs it, computes the certainty of the pixels.
 static bool draw_colors(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};
@@ -20,22 +21,10 @@ static bool draw_colors(Drawing *drawing, ClrtError *error)
     SessionPicture *request = &drawing->request;
     return (session_choose_level(session, request, &cause) &&
             session_draw(session, request, &observer, &drawing->framebuffer, &drawing->drawn,
-                         &cause)) ||
-           check_fail_for(error, CLRT_DEVICE, &cause);
-}
-
-// Computes the certainty of the pixels if a channel needs it.
-static bool certify(Drawing *drawing, ClrtError *error)
-{
-    Error cause = {0};
-    const RenderObserver observer = {drawing_continues, drawing};
-    const CertifiedPicture certified = {&drawing->framebuffer, &drawing->certainty};
-    if (drawing->is_stopped || !aov_needs(drawing->channels, AOV_NEEDS_CERTAINTY))
-        return true;
-    return (certainty_map_make(&drawing->certainty, drawing->framebuffer.width,
-                               drawing->framebuffer.height, &cause) &&
-            session_certify(&drawing->renderer->session, &drawing->request, &observer, &certified,
-                            &cause)) ||
+                         &cause) &&
+            (drawing->is_stopped ||
+             session_certify(session, request, &observer, &drawing->framebuffer, &drawing->drawn,
+                             &cause))) ||
            check_fail_for(error, CLRT_DEVICE, &cause);
 }
 
@@ -61,15 +50,13 @@ static bool draw_channels(Drawing *drawing, ClrtError *error)
     Error cause = {0};
     Layers layers = {0};
     const RenderObserver observer = {drawing_continues, drawing};
-    const ChannelRequest channels = {drawing->channels, drawing->drawn.pixel_samples,
-                                     drawing->certainty.marks != NULL ? &drawing->certainty : NULL};
     if (drawing->is_stopped || drawing->channels == 0)
         return true;
     aov_name_layers(drawing->channels, &layers);
     const bool ok =
         layers_make(&layers, drawing->framebuffer.width, drawing->framebuffer.height, &cause) &&
-        session_draw_channels(&drawing->renderer->session, &drawing->request, &channels, &observer,
-                              &layers, &cause);
+        session_draw_channels(&drawing->renderer->session, &drawing->request, &observer, &layers,
+                              &drawing->drawn, &cause);
     uint32_t first = 0;
     for (size_t row = 0; ok && !drawing->is_stopped && row < aov_count; row++)
         if ((drawing->channels >> row & 1) != 0)
@@ -88,9 +75,8 @@ static bool check_stopped(const Drawing *drawing, ClrtError *error)
 static bool draw(Drawing *drawing, ClrtError *error)
 {
     const double start = clock_seconds();
-    drawing->request.keeps_samples = drawing->channels != 0;
-    const bool ok = draw_colors(drawing, error) && certify(drawing, error) &&
-                    draw_channels(drawing, error) && check_stopped(drawing, error);
+    const bool ok = draw_colors(drawing, error) && draw_channels(drawing, error) &&
+                    check_stopped(drawing, error);
     drawing->seconds = clock_seconds() - start;
     return ok;
 }
@@ -121,7 +107,7 @@ static void fill_result(const Drawing *drawing)
 {
     const RenderSettings *settings = &drawing->request.settings;
     const PictureResult *drawn = &drawing->drawn;
-    const uint64_t *tallies = drawn->progress.tallies, *marks = drawing->certainty.counts;
+    const uint64_t *tallies = drawn->progress.tallies, *marks = drawn->certainty.counts;
     const ClrtResult filled = {
         .width = settings->width,
         .height = settings->height,
@@ -162,8 +148,7 @@ static bool perform_drawing(Drawing *drawing, const ClrtPicture *picture, float 
     const bool ok = drawing_take_scene(drawing, error) && perform(drawing, error);
     if (ok)
         fill_result(drawing);
-    certainty_map_free(&drawing->certainty);
-    free(drawing->drawn.pixel_samples);
+    picture_result_free(&drawing->drawn);
     drawing_end(drawing);
     return ok;
 }

@@ -64,6 +64,13 @@ CameraData session_camera(const Session *session, const SessionPicture *request,
                        render_whole_width(settings), render_whole_height(settings), samples);
 }
 
+void picture_result_free(PictureResult *result)
+{
+    free(result->pixel_samples);
+    result->pixel_samples = NULL;
+    certainty_map_free(&result->certainty);
+}
+
 static bool open_renderer(Session *session, const SessionPicture *request, Renderer *renderer,
                           PictureResult *result, Error *error)
 {
@@ -228,7 +235,7 @@ static bool draw_refined(PictureDrawing *drawing, Error *error)
     const RenderSettings *settings = &drawing->request->settings;
     PictureResult *result = drawing->result;
     result->pixels = (uint64_t)settings->width * settings->height;
-    if (drawing->request->keeps_samples && result->pixel_samples == NULL) {
+    if (drawing->request->channels != 0 && result->pixel_samples == NULL) {
         result->pixel_samples = memory_raw(result->pixels, sizeof *result->pixel_samples, error);
         if (result->pixel_samples == NULL)
             return false;

@@ -3,7 +3,8 @@
 // a goal, each pixel has as many as it needs.
 #pragma once
 
-#include "image/framebuffer.h"
+#include "render/aov.h"
+#include "render/certifier.h"
 #include "session/session.h"
 
 // Returns whether the number of samples may differ between pixels. Otherwise, the samples of a
@@ -23,7 +24,7 @@ typedef struct {
     bool includes_truncated;    // `truncated` is a part of the error goal
     double level_bound; // above 0, only with glass: the error by which session_choose_level and
                         // session_draw choose RenderSettings::max_level
-    bool keeps_samples; // stores PictureResult::pixel_samples
+    AovSet channels;    // besides the colors; drawn by session_draw_channels
 } SessionPicture;
 
 typedef struct {
@@ -44,9 +45,13 @@ typedef struct {
     double feature;   // the smallest diameter that the samples find (session/feature.h)
     uint64_t pixels;  // drawn by this call
     uint64_t samples; // total of these pixels
-    uint32_t *pixel_samples; // by pixel; NULL unless a goal and keeps_samples are given; the caller
-                             // frees it
+    uint32_t *pixel_samples; // by pixel; NULL unless goal and channels are given
+    // Set by session_certify.
+    CertaintyMap certainty; // empty unless a channel needs it
 } PictureResult;
+
+// Frees pixel_samples and certainty.
+void picture_result_free(PictureResult *result);
 
 // Returns the kernel that draws the colors.
 const KernelEntry *picture_entry(const ClrtPicture *wanted);

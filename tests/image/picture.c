@@ -90,14 +90,14 @@ static bool draw_layers(Pipeline *pipeline, Error *error)
 {
     Layers *layers = pipeline->request->layers;
     const RenderSettings *settings = &pipeline->picture.settings;
-    const ChannelRequest channels = {.set = pipeline->request->aovs};
     if (layers == NULL)
         return true;
     *layers = (Layers){0};
-    aov_name_layers(channels.set, layers);
+    pipeline->picture.channels = pipeline->request->aovs;
+    aov_name_layers(pipeline->picture.channels, layers);
     return layers_make(layers, settings->width, settings->height, error) &&
-           session_draw_channels(pipeline->session, &pipeline->picture, &channels, NULL, layers,
-                                 error);
+           session_draw_channels(pipeline->session, &pipeline->picture, NULL, layers,
+                                 &pipeline->result, error);
 }
 
 static bool visit(Pipeline *pipeline, const Framebuffer *framebuffer, Error *error)
