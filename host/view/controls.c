@@ -30,25 +30,21 @@ static void make_axes(Vec3 axes[3], Vec3 up)
 // Returns the height of a perspective picture at distance 1.
 static double unit_height(const Orbit *orbit)
 {
-    const double half = orbit->fov_degrees / 2;
+    const double half = orbit->camera.fov_degrees / 2;
     return 2 * sine_of_degrees(half) / cosine_of_degrees(half);
 }
 
 // Returns the distance at which a perspective picture has the current scale at the pivot.
 static double shown_distance(const Orbit *orbit)
 {
-    return orbit->height > 0 ? orbit->height / unit_height(orbit) : orbit->distance;
+    return orbit->camera.height > 0 ? orbit->camera.height / unit_height(orbit) : orbit->distance;
 }
 
 Orbit orbit_of(const Viewpoint *viewpoint, bool is_course)
 {
-    Orbit orbit = {.pivot = is_course ? vec3(0, 0, 0) : viewpoint->look_at,
-                   .look_at = viewpoint->look_at,
-                   .up = viewpoint->up,
-                   .fov_degrees = viewpoint->fov_degrees > 0 ? viewpoint->fov_degrees : COURSE_FOV,
-                   .width_degrees = viewpoint->width_degrees,
-                   .height = viewpoint->height,
-                   .width = viewpoint->width};
+    Orbit orbit = {.camera = *viewpoint, .pivot = is_course ? vec3(0, 0, 0) : viewpoint->look_at};
+    if (!(viewpoint->fov_degrees > 0))
+        orbit.camera.fov_degrees = COURSE_FOV;
     make_axes(orbit.axes, viewpoint->up);
     const Vec3 arm = vec3_sub(viewpoint->eye, orbit.pivot);
     const double x = vec3_dot(arm, orbit.axes[0]), y = vec3_dot(arm, orbit.axes[1]);
@@ -68,13 +64,9 @@ Viewpoint orbit_viewpoint(const Orbit *orbit)
     const double z = -orbit->distance * sine_of_degrees(orbit->azimuth);
     const Vec3 across = vec3_add(vec3_scale(orbit->axes[0], x), vec3_scale(orbit->axes[1], y));
     const Vec3 arm = vec3_add(across, vec3_scale(orbit->axes[2], z));
-    return (Viewpoint){.eye = vec3_add(orbit->pivot, arm),
-                       .look_at = orbit->look_at,
-                       .up = orbit->up,
-                       .fov_degrees = orbit->fov_degrees,
-                       .width_degrees = orbit->width_degrees,
-                       .height = orbit->height,
-                       .width = orbit->width};
+    Viewpoint viewpoint = orbit->camera;
+    viewpoint.eye = vec3_add(orbit->pivot, arm);
+    return viewpoint;
 }
 
 static double limited(double value, double low, double high)
@@ -97,9 +89,9 @@ static void set_shown_distance(Orbit *orbit, double distance)
 {
     const double shown = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);
     const double factor = shown / shown_distance(orbit);
-    if (orbit->height > 0) {
-        orbit->height *= factor;
-        orbit->width *= factor;
+    if (orbit->camera.height > 0) {
+        orbit->camera.height *= factor;
+        orbit->camera.width *= factor;
     } else {
         orbit->distance = shown;
     }
@@ -109,12 +101,12 @@ static void set_shown_distance(Orbit *orbit, double distance)
 static void orbit_switch_perspective(Orbit *orbit)
 {
     const double distance = shown_distance(orbit), height = distance * unit_height(orbit);
-    const double half = orbit->width_degrees / 2;
+    const double half = orbit->camera.width_degrees / 2;
     const double width = 2 * distance * sine_of_degrees(half) / cosine_of_degrees(half);
-    const bool becomes_orthographic = orbit->height == 0;
+    const bool becomes_orthographic = orbit->camera.height == 0;
     orbit->distance = distance;
-    orbit->height = becomes_orthographic ? height : 0;
-    orbit->width = becomes_orthographic ? width : 0;
+    orbit->camera.height = becomes_orthographic ? height : 0;
+    orbit->camera.width = becomes_orthographic ? width : 0;
 }
 
 static void orbit_zoom(Orbit *orbit, double down)
@@ -133,7 +125,7 @@ static void orbit_pan(Orbit *orbit, double right, double down)
     const Vec3 step = vec3_add(vec3_scale(across, -height * right),
                                vec3_scale(vec3_cross(across, ahead), height * down));
     orbit->pivot = vec3_add(orbit->pivot, step);
-    orbit->look_at = vec3_add(orbit->look_at, step);
+    orbit->camera.look_at = vec3_add(orbit->camera.look_at, step);
 }
 
 // Zooms by notches of the mouse wheel. Positive notches, away from the user, zoom in.

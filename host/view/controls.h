@@ -7,8 +7,8 @@
 
 // An orbiting camera: two angles and a distance.
 typedef struct {
+    Viewpoint camera; // its eye is not used
     Vec3 pivot;       // the center of the orbit
-    Vec3 look_at, up; // of the camera
     Vec3 axes[3];     // unit length; the last is up
     // The eye's angle in degrees below the plane that contains the pivot and is perpendicular to
     // up. It is negative if the eye is above this plane. The UvA course (scene/scene.c) uses this
@@ -17,8 +17,6 @@ typedef struct {
     double rotation; // degrees around up
     double distance; // from the eye to the pivot
     double unit;     // length unit of steps and limits; 1 for the six default cameras
-    double fov_degrees, width_degrees; // of perspective
-    double height, width;              // as in Viewpoint
 } Orbit;
 
 // Returns the orbit of a camera. If is_course, the camera is one of the six default cameras, which
