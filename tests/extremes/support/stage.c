@@ -95,7 +95,8 @@ void stage_make_as(Stage *stage, const Scene *scene, TreeKind tree, NodeLayout l
                                .triangles = &stage->triangles,
                                .bvh = &stage->bvh,
                                .normalization = &stage->normalization,
-                               .layout = layout};
+                               .layout = layout,
+                               .has_tree = tree != TREE_NONE};
     const bool ok = normalization_check(&stage->normalization, scene, &error) &&
                     triangles_make(&stage->triangles, scene, &stage->normalization, NULL, &error) &&
                     build_tree(&stage->bvh, &stage->triangles, tree, layout, &error) &&
