@@ -7,7 +7,7 @@
 // distance. The 140u cover the rounding of a corner's projection (18u, blur_at) and of the distance
 // (70u + 25u, B12). For rays that leave a surface, boxes also grow by behind_of, because rounding
 // may put a hit behind the origin. With this growth, the axis enters a box before any possible hit
-// of a triangle in the box.
+// of a triangle in the box. Spheres, and the bounding spheres of the tree over them, grow likewise.
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL
 #include "certify_sphere.cl"
@@ -209,15 +209,65 @@ static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
     }
 }
 
+// Returns whether the axis enters the sphere before `reach` if the sphere has grown `factor` times
+// as much as it must. Otherwise the tracer finds no hit of the sphere before `reach` (B21).
+static inline bool cone_may_meet(const RayCone *ray, const PlainSphere *sphere, Real factor,
+                                 Real reach)
+{
+    const Real3 f = difference(sphere->center, ray->origin);
+    const Real middle = dot_product(f, ray->along), apart = length_of(f);
+    const Real growth = growth_at(ray, apart + sphere->radius) + sizes_doubt(ray->u, apart, sphere);
+    const Real radius = sphere->radius + factor * growth;
+    return length_of(difference(f, scaled3(middle, ray->along))) <= radius && middle >= -radius &&
+           middle - radius <= reach;
+}
+
+// A sphere in the order of the tree over spheres or, without a tree, in the order of ids.
+typedef struct {
+    uint entry, id;
+    PlainSphere sphere;
+} SphereVisit;
+
+static inline SphereVisit first_sphere(const FrameData *frame)
+{
+    const bool has_tree = frame->sphere_entries > frame->sphere_count;
+    return (SphereVisit){.entry = has_tree ? frame->sphere_count : 0};
+}
+
+// Finds the next sphere that the cone may hit, from visit->entry on. Returns false if there is
+// none. A bounding sphere grows three times as much as a sphere. It is then entered if a sphere in
+// it is, also with rounding, so the search's result does not depend on the tree. For the same
+// reason, spheres beyond the nearest hit are not left out.
+static inline bool find_sphere(const Tracer *tracer, const ConeSearch *search, SphereVisit *visit)
+{
+    const FrameData *frame = tracer->frame;
+    const bool has_tree = frame->sphere_entries > frame->sphere_count;
+    const uint end = has_tree ? frame->sphere_entries : frame->sphere_count;
+    const bool is_shadow = search->ray->kind == RAY_SHADOW;
+    const Real reach = is_shadow ? cone_reach(search) : INFINITY;
+    while (visit->entry < end) {
+        global const SphereData *data = &tracer->spheres[visit->entry];
+        visit->id = has_tree ? data->id : visit->entry;
+        visit->sphere = plain_sphere(data);
+        const bool is_bound = visit->id == NOTHING;
+        const bool may_meet =
+            cone_may_meet(search->ray, &visit->sphere, is_bound ? 3.0f : 1.0f, reach);
+        visit->entry = is_bound && !may_meet ? data->next : visit->entry + 1;
+        if (may_meet && !is_bound)
+            return true;
+    }
+    return false;
+}
+
 static inline Nearest certify_nearest_hit(const Tracer *tracer, const RayCone *ray)
 {
     ConeSearch search = search_in_cone(ray);
-    for (uint index = 0; index < tracer->frame->sphere_count; index++) {
-        const PlainSphere sphere = plain_sphere(&tracer->spheres[index]);
-        const Chord chord = chord_of(ray, &sphere);
-        const Candidate candidate =
-            index == ray->own ? own_sphere_candidate(ray, &sphere) : sphere_candidate(&chord);
-        nearest_add(&search.nearest, &candidate, index, index);
+    SphereVisit visit = first_sphere(tracer->frame);
+    while (find_sphere(tracer, &search, &visit)) {
+        const Chord chord = chord_of(ray, &visit.sphere);
+        const Candidate candidate = visit.id == ray->own ? own_sphere_candidate(ray, &visit.sphere)
+                                                         : sphere_candidate(&chord);
+        nearest_add(&search.nearest, &candidate, visit.id, visit.id);
     }
     if (tracer->frame->triangle_count > 0)
         search_triangles(tracer, &search);
@@ -228,13 +278,13 @@ static inline void search_spheres(const Tracer *tracer, ConeSearch *search)
 {
     const RayCone *ray = search->ray;
     const Real margin = ray->around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
-    for (uint index = 0; index < tracer->frame->sphere_count; index++) {
-        if (index == ray->own)
+    SphereVisit visit = first_sphere(tracer->frame);
+    while (!search_is_over(search) && find_sphere(tracer, search, &visit)) {
+        if (visit.id == ray->own)
             continue;
-        const PlainSphere sphere = plain_sphere(&tracer->spheres[index]);
-        const Chord chord = chord_of(ray, &sphere);
+        const Chord chord = chord_of(ray, &visit.sphere);
         const Answer met = sphere_blocks(&chord, ray->length - margin, ray->length + margin);
-        add_blocker(tracer, search, met, tracer->spheres[index].material);
+        add_blocker(tracer, search, met, tracer->spheres[visit.id].material);
     }
 }
 

@@ -24,13 +24,18 @@ static inline PlainSphere plain_sphere(global const SphereData *data)
                          sphere.radius.high};
 }
 
-// Bounds the tracer's error as a distance by which the ray moves aside (see the top of this file).
-// The error of this kernel's own fp64 arithmetic is at most 2^-49 times `sizes`.
-static inline Real distance_doubt(Real u, Real apart, const PlainSphere *sphere)
+// Bounds the part of the tracer's error that does not grow for small spheres. The error of this
+// kernel's own fp64 arithmetic is at most 2^-49 times `sizes`.
+static inline Real sizes_doubt(Real u, Real apart, const PlainSphere *sphere)
 {
     const Real sizes = apart + sphere->radius + length_of(sphere->center);
-    return max(0x1p8f * u * u, (Real)(0x1p-48f)) * sizes +
-           0x1p8f * u * u * u * apart * apart / sphere->radius;
+    return max(0x1p8f * u * u, (Real)(0x1p-48f)) * sizes;
+}
+
+// Bounds the tracer's error as a distance by which the ray moves aside (see the top of this file).
+static inline Real distance_doubt(Real u, Real apart, const PlainSphere *sphere)
+{
+    return sizes_doubt(u, apart, sphere) + 0x1p8f * u * u * u * apart * apart / sphere->radius;
 }
 
 typedef struct {

@@ -75,7 +75,7 @@ Certified certified_make(const Scene *scene, const CertifiedView *view)
     settings->height = view->height;
     settings->samples = view->samples;
     settings->max_level = scene->max_level;
-    stage_make_as(&certified.stage, scene, TREE_SAH, NODES_PAIR);
+    stage_make_as(&certified.stage, scene, view->tree, NODES_PAIR);
     certified.camera =
         camera_make(&scene->viewpoints.data[view->view - 1], &certified.stage.normalization,
                     settings->width, settings->height, settings->samples);

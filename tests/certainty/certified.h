@@ -9,6 +9,7 @@ typedef struct {
     uint32_t view; // from 1
     uint32_t width, height;
     uint32_t samples; // N of the N x N samples per pixel
+    TreeKind tree;    // for the certificate
 } CertifiedView;
 
 typedef struct {

@@ -152,10 +152,39 @@ Scene extreme_coincident(void)
     return scene;
 }
 
+Scene extreme_marbles(uint64_t seed)
+{
+    Scene scene = parsed_format("size 384 384\n"
+                                "define chrome matte diffuse 0.5 0.5 0.6 reflectivity 0.5\n"
+                                "light 3 -2 4 0.5\n"
+                                "light 0.1 0.05 0.02 0.4\n"
+                                "camera 2.2 -1.8 1.1 0 0 0 50\n"
+                                "material chrome\n"
+                                "sphere 0 0 -10001 10000\n");
+    Random random = {seed};
+    Sphere ball = scene.spheres.data[0];
+    for (int i = 0; i < 200; i++) {
+        const double before = ball.radius;
+        Error error = {0};
+        ball.radius = exp2(random_between(&random, -12, -2));
+        if (i % 4 == 3)
+            ball.center.x += before + (i % 8 == 3 ? ball.radius : -ball.radius);
+        else
+            ball.center = random_in_cube(&random, 1);
+        require(array_push(&scene.spheres, ball, &error), &error);
+    }
+    return scene;
+}
+
+static Scene marbles(void)
+{
+    return extreme_marbles(13);
+}
+
 const ExtremeScene extreme_scenes[] = {
     {"slivers", slivers},   {"far_away", far_away},       {"planets", planets},
     {"contacts", contacts}, {"mirror_room", mirror_room}, {"mixed_scales", mixed_scales},
-    {"soup", soup},         {"crossing", crossing},
+    {"soup", soup},         {"crossing", crossing},       {"marbles", marbles},
 };
 
 const size_t extreme_scene_count = sizeof extreme_scenes / sizeof extreme_scenes[0];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scenes at the limits of float arithmetic: slivers, distant objects, spheres as large as planets,
-// contacts, crossing planes, and mirrors that face each other.
+// contacts, crossing planes, mirrors that face each other, and many mirroring balls.
 #pragma once
 
 #include "scene/scene.h"
@@ -16,3 +16,6 @@ extern const size_t extreme_scene_count;
 // Returns a ball over a floor. Each triangle exists twice, and one copy has its corners in a random
 // order.
 Scene extreme_coincident(void);
+
+// Returns 200 random mirroring balls on a huge one. Some touch, and some are within others.
+Scene extreme_marbles(uint64_t seed);

@@ -78,7 +78,8 @@ static void check_scene(Sum *sum, uint64_t seed)
     const PictureRequest in_fp64 = rendered_in_form(request, &form_all[FORMS_FP32]);
     FREED_BY(framebuffer_free) Framebuffer exact = rendered(&in_fp64);
     FREED_BY(scene_free) Scene scene = rendered_scene(path);
-    const CertifiedView view = {1, scene.width, scene.height, 1};
+    const CertifiedView view = {
+        .view = 1, .width = scene.width, .height = scene.height, .samples = 1};
     FREED_BY(certified_free) Certified certified = certified_make(&scene, &view);
     unlink(path);
     for (uint32_t i = 0; i < exact.width * exact.height; i++) {

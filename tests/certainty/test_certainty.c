@@ -17,6 +17,7 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
+#include <time.h>
 
 typedef struct {
     uint64_t pixels, compared, wrong, poor; // poor: views with too few certified pixels
@@ -243,4 +244,19 @@ TEST(coincident_triangles_are_certified)
     FREED_BY(scene_free) Scene scene = extreme_coincident();
     check_views(&sum, &scene, "coincident", 980);
     judge(&sum);
+}
+
+// Each run draws another scene.
+TEST(a_tree_over_spheres_changes_no_decision)
+{
+    const uint64_t seed = (uint64_t)time(NULL);
+    FREED_BY(scene_free) Scene scene = extreme_marbles(seed);
+    CertifiedView view = {.view = 1, .width = 192, .height = 192, .samples = 1};
+    FREED_BY(certified_free) Certified with = certified_make(&scene, &view);
+    view.tree = TREE_NONE;
+    FREED_BY(certified_free) Certified without = certified_make(&scene, &view);
+    print_message("seed %llu\n", (unsigned long long)seed);
+    assert_true(with.stage.flat.sphere_entries > without.stage.flat.sphere_entries);
+    assert_memory_equal(with.map.marks, without.map.marks,
+                        (size_t)view.width * view.height * sizeof *with.map.marks);
 }
