@@ -3,14 +3,13 @@
 // atomically for all readers, even if the process is killed.
 //
 // Killed runs leave temporary files. Later runs that write files in the same folder remove them. A
-// run locks its own temporary files, and removes only files that it can lock. On a shared disk,
-// other machines may not see these locks. A temporary file's name therefore contains the start of
-// the system's boot id. On a shared disk, a run removes only files whose names contain its boot id.
+// run locks its own temporary files, and removes only files that it can lock. On a network file
+// system, other machines may not see these locks. A temporary file's name therefore contains the
+// start of the system's boot id. Files with another boot id are removed once they are old.
 #include "base/output_file.h"
 
 #include "base/array.h"
 #include "base/file.h"
-#include "base/shared_disk.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -23,12 +22,14 @@
 #include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #define PREFIX      "clrt-"
 #define SUFFIX_SIZE sizeof PREFIX "0123456701234567"
 #define BOOT_DIGITS 8
 #define ATTEMPTS    100 // to find an unused name
+#define OLD_SECONDS 86400
 
 static bool is_replaceable(const char *path)
 {
@@ -105,15 +106,18 @@ static bool is_temporary(const char *name)
            strspn(name + sizeof PREFIX, "0123456789abcdef") == SUFFIX_SIZE - sizeof PREFIX;
 }
 
-// Removes a temporary file unless a process has locked it. This process locks the file until its
-// name is gone. A process that has just created the file, but not locked it yet, then notices the
-// removal and creates another.
-static void remove_unlocked(int folder, const char *name)
+// Removes a temporary file unless a process has locked it, or another machine may have written to
+// it lately. This process locks the file until its name is gone. A process that has just created
+// the file, but not locked it yet, then notices the removal and creates another.
+static void remove_unlocked(int folder, const char *name, const char *boot)
 {
+    struct stat status;
     const int file = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0)
         return;
-    if (flock(file, LOCK_EX | LOCK_NB) == 0)
+    const bool is_own = strncmp(name + sizeof PREFIX, boot, BOOT_DIGITS) == 0;
+    if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0 &&
+        (is_own || status.st_mtime < time(NULL) - OLD_SECONDS))
         unlinkat(folder, name, 0);
     close(file);
 }
@@ -123,11 +127,9 @@ static void clean_folder(const char *path)
     char boot[BOOT_DIGITS + 1];
     read_boot(boot);
     DIR *folder = opendir(path);
-    const bool is_shared = disk_is_shared(path);
     for (struct dirent *entry = NULL; folder != NULL && (entry = readdir(folder)) != NULL;)
-        if (is_temporary(entry->d_name) &&
-            (!is_shared || strncmp(entry->d_name + sizeof PREFIX, boot, BOOT_DIGITS) == 0))
-            remove_unlocked(dirfd(folder), entry->d_name);
+        if (is_temporary(entry->d_name))
+            remove_unlocked(dirfd(folder), entry->d_name, boot);
     if (folder != NULL)
         closedir(folder);
 }

@@ -29,8 +29,8 @@ typedef bool WriteStream(void *context, FILE *stream, Error *cause);
 bool output_file_write(const char *path, WriteStream *write, void *context, Error *error);
 
 // Returns whether path seems writable. Callers check this before long work. Also removes the
-// temporary files that killed runs left in path's folder. On a disk that machines share, only files
-// of this machine are removed.
+// temporary files that killed runs left in path's folder. Files of other machines are removed after
+// a day.
 bool output_file_check(const char *path, Error *error);
 
 // Copies the rest of a stream. Returns false on failure, with the reason in errno.
