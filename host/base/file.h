@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 typedef struct {
-    char *bytes; // `size` bytes and, except after child_collect, a terminating zero; owned
+    char *bytes; // `size` bytes and, except after foreign_run, a terminating zero; owned
     size_t size;
 } File;
 

@@ -9,7 +9,7 @@
 // Invariant: clrt trusts no byte of the output. Readers first check each size, index and number.
 #pragma once
 
-#include "base/child_process.h"
+#include "base/file.h"
 
 #include <stdint.h>
 
@@ -31,7 +31,8 @@ typedef struct {
 typedef struct {
     const char *library; // for messages
     const char *program; // NULL for this build's clrt-foreign
-    ChildLimits limits;
+    double seconds;      // limit of wall time
+    size_t bytes;        // limit of the output
 } ForeignReader;
 
 // Puts `substitute` in place of characters that are not printable ASCII, because a terminal could
@@ -39,8 +40,10 @@ typedef struct {
 void foreign_make_printable(char *text, size_t size, char substitute);
 
 // Runs clrt-foreign and collects its output. The arguments of clrt-foreign are `words`, in which
-// NULL marks unused entries at the end. On failure, returns false and stores the reason in *cause,
-// without the name of the file. The caller frees stream.
+// NULL marks unused entries at the end. Its environment is the initial environment of this process.
+// Any thread may call foreign_run, even while another thread changes the environment. On failure,
+// returns false and stores the reason in *cause, without the name of the file. The caller frees
+// stream.
 #define FOREIGN_WORDS 3
 bool foreign_run(File *stream, const ForeignReader *reader, const char *const words[FOREIGN_WORDS],
                  Error *cause);

@@ -85,8 +85,7 @@ bool image_process_read(StoredImage *image, const ImageRequest *request, Error *
     const uint64_t most = stored_values_most(request->bytes);
     const size_t heads = sizeof(ForeignHead) + sizeof(StoredImage);
     const ForeignReader reader = {
-        .library = "OpenImageIO",
-        .limits = {.seconds = 125, .bytes = heads + most * sizeof(float)}};
+        .library = "OpenImageIO", .seconds = 125, .bytes = heads + most * sizeof(float)};
     File stream = {0};
     const bool ok = find_module(module, cause) && foreign_run(&stream, &reader, words, cause) &&
                     take_picture(image, &stream, most, cause);

@@ -142,8 +142,8 @@ static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error)
 {
     // clrt-foreign's own time limit is shorter, so clrt-foreign normally ends by itself.
-    static const ForeignReader assimp = {.library = "Assimp",
-                                         .limits = {.seconds = 125, .bytes = (size_t)8 << 30}};
+    static const ForeignReader assimp = {
+        .library = "Assimp", .seconds = 125, .bytes = (size_t)8 << 30};
     const char *const words[FOREIGN_WORDS] = {path};
     const File *kept = kept_stream(options->kept, path);
     File stream = {0};

@@ -9,6 +9,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +45,7 @@ static void write_script(const char *text)
 
 static bool run(const char *text, File *stream, Error *error)
 {
-    const ForeignReader reader = {"Assimp", script, {.seconds = 1, .bytes = 100000}};
+    const ForeignReader reader = {"Assimp", script, 1, 100000};
     write_script(text);
     *error = (Error){0};
     return foreign_run(stream, &reader, words, error);
@@ -83,7 +85,7 @@ TEST(a_program_that_crashes_stays_or_gives_up_is_one_sentence)
 
 TEST(a_missing_program_is_reported)
 {
-    const ForeignReader reader = {"Assimp", "/nonexistent", {.seconds = 1, .bytes = 1}};
+    const ForeignReader reader = {"Assimp", "/nonexistent", 1, 1};
     File stream;
     Error error = {0};
     assert_false(foreign_run(&stream, &reader, words, &error));
@@ -94,7 +96,7 @@ TEST(a_missing_program_is_reported)
 // The program in the current folder may belong to anybody.
 TEST(a_program_of_that_name_in_the_current_folder_is_not_started)
 {
-    const ForeignReader reader = {"Assimp", NULL, {.seconds = 1, .bytes = 1}};
+    const ForeignReader reader = {"Assimp", NULL, 1, 1};
     char folder[] = "/tmp/clrt_folder_XXXXXX";
     FREED_BY(file_free) File stream = {0};
     Error error = {0};
@@ -108,6 +110,69 @@ TEST(a_program_of_that_name_in_the_current_folder_is_not_started)
     assert_int_not_equal(access("started", F_OK), 0);
     assert_int_equal(rename("clrt-foreign", script), 0);
     assert_int_equal(chdir("/") + rmdir(folder), 0);
+}
+
+// Runs the script without limits that matter.
+static void collect(const char *text, File *stream)
+{
+    const ForeignReader reader = {"Assimp", script, 60, 20000000};
+    Error error = {0};
+    write_script(text);
+    const bool ok = foreign_run(stream, &reader, words, &error);
+    assert_string_equal(error.text, "");
+    assert_true(ok);
+}
+
+TEST(a_long_output_arrives_whole)
+{
+    FREED_BY(file_free) File stream;
+    collect("yes | head -c 10000000", &stream);
+    assert_int_equal(stream.size, 10000000);
+    for (size_t i = 0; i < stream.size; i += 2)
+        assert_memory_equal(stream.bytes + i, "y\n", 2);
+}
+
+TEST(a_child_has_empty_streams)
+{
+    FREED_BY(file_free) File stream;
+    collect("wc -c; test -t 1 || echo none; echo lost >&2", &stream);
+    assert_int_equal(stream.size, strlen("0\nnone\n"));
+}
+
+static atomic_bool has_spawned;
+
+// Adds and removes variables, so that the C library moves environ repeatedly.
+static void *add_variables(void *context)
+{
+    (void)context;
+    for (int round = 0; !has_spawned; round++) {
+        char name[32];
+        snprintf(name, sizeof name, "CLRT_TEST_%d", round % 5000);
+        round % 10000 < 5000 ? setenv(name, "1", 1) : unsetenv(name);
+    }
+    return NULL;
+}
+
+TEST(children_start_while_another_thread_changes_the_environment)
+{
+    pthread_t thread;
+    pthread_create(&thread, NULL, add_variables, NULL);
+    for (int i = 0; i < 300; i++) {
+        FREED_BY(file_free) File stream;
+        collect("", &stream);
+    }
+    has_spawned = true;
+    pthread_join(thread, NULL);
+}
+
+TEST(a_child_has_the_environment_of_the_start)
+{
+    FREED_BY(file_free) File stream;
+    setenv("CLRT_TEST_LATE", "1", 1);
+    collect("/usr/bin/env -0", &stream);
+    assert_null(memmem(stream.bytes, stream.size, "CLRT_TEST_LATE", strlen("CLRT_TEST_LATE")));
+    const char *path = getenv("PATH");
+    assert_non_null(memmem(stream.bytes, stream.size, path, strlen(path) + 1));
 }
 
 SET_UP(make_script)

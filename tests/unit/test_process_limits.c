@@ -1,54 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Tests a child process's streams, environment and limits, and that the child ends with its parent.
-#include "base/child_process.h"
-
+// Tests the limits of clrt-foreign, and that it ends with its parent.
 #include "foreign/process_limits.h"
+
 #include "unit/cmocka_all.h"
 
 #include <errno.h>
 #include <pthread.h>
 #include <signal.h>
-#include <stdatomic.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-static ChildFate collect(const char *script, File *output, int *signal)
-{
-    const char *const words[] = {"/bin/sh", "-c", script, NULL};
-    const ChildLimits limits = {.seconds = 60, .bytes = 20000000};
-    ChildProcess child;
-    Error error = {0};
-    assert_true(child_spawn(&child, words, &error));
-    return child_collect(&child, &limits, output, signal, &error);
-}
-
-TEST(a_long_output_arrives_whole)
-{
-    FREED_BY(file_free) File output;
-    int signal;
-    collect("yes | head -c 10000000", &output, &signal);
-    assert_int_equal(output.size, 10000000);
-    for (size_t i = 0; i < output.size; i += 2)
-        assert_memory_equal(output.bytes + i, "y\n", 2);
-}
-
-TEST(a_child_has_empty_streams)
-{
-    FREED_BY(file_free) File output;
-    int signal;
-    collect("wc -c; test -t 1 || echo none; echo lost >&2", &output, &signal);
-    assert_int_equal(output.size, strlen("0\nnone\n"));
-}
-
-TEST(ending_no_child_is_harmless)
-{
-    ChildProcess none = {0};
-    assert_int_equal(child_end(&none), 0);
-}
 
 // Calls `work` in a child process. `work` writes a report to `end`. Returns the child's status
 // after the child and its own children have ended.
@@ -157,51 +119,4 @@ TEST(a_limited_child_ends_after_its_processor_time)
     char started;
     const int status = status_of(burn, &started, 1);
     assert_true(WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM);
-}
-
-static atomic_bool has_spawned;
-
-// Adds and removes variables, so that the C library moves environ repeatedly.
-static void *add_variables(void *context)
-{
-    (void)context;
-    for (int round = 0; !has_spawned; round++) {
-        char name[32];
-        snprintf(name, sizeof name, "CLRT_TEST_%d", round % 5000);
-        round % 10000 < 5000 ? setenv(name, "1", 1) : unsetenv(name);
-    }
-    return NULL;
-}
-
-TEST(children_start_while_another_thread_changes_the_environment)
-{
-    pthread_t thread;
-    pthread_create(&thread, NULL, add_variables, NULL);
-    for (int i = 0; i < 300; i++) {
-        ChildProcess child;
-        Error error = {0};
-        const bool is_spawned = child_spawn(&child, (const char *[]){"/bin/true", NULL}, &error);
-        assert_string_equal(error.text, "");
-        assert_true(is_spawned);
-        child_end(&child);
-    }
-    has_spawned = true;
-    pthread_join(thread, NULL);
-}
-
-TEST(a_spawned_child_has_the_environment_of_the_start)
-{
-    ChildProcess child;
-    FREED_BY(file_free) File output;
-    Error error = {0};
-    int signal;
-    const ChildLimits limits = {.seconds = 60, .bytes = 1000000};
-    setenv("CLRT_TEST_LATE", "1", 1);
-    assert_true(child_spawn(&child, (const char *[]){"/usr/bin/env", "-0", NULL}, &error));
-    // env closes its output before it ends, so child_collect may kill it in between.
-    const ChildFate fate = child_collect(&child, &limits, &output, &signal, &error);
-    assert_true(fate == CHILD_DONE || signal == SIGKILL);
-    assert_null(memmem(output.bytes, output.size, "CLRT_TEST_LATE", strlen("CLRT_TEST_LATE")));
-    const char *path = getenv("PATH");
-    assert_non_null(memmem(output.bytes, output.size, path, strlen(path) + 1));
 }
