@@ -29,7 +29,8 @@ struct ThreadPool {
     atomic_bool closing;
     pthread_mutex_t mutex; // protects sleeping and waking
     pthread_cond_t wake;
-    uint32_t worker_count; // excludes the caller's thread
+    uint32_t others;       // threads to start, without the caller's thread
+    uint32_t worker_count; // threads that have started
     pthread_t workers[];
 };
 
@@ -101,12 +102,17 @@ ThreadPool *thread_pool_open(uint32_t threads)
         return NULL;
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->wake, NULL);
-    for (uint32_t i = 0; i < others; i++) {
-        if (pthread_create(&pool->workers[i], NULL, run_worker, pool) != 0)
-            break;
-        pool->worker_count++;
-    }
+    pool->others = others;
     return pool;
+}
+
+// Starts the threads that are not running. If the system refuses one, does not try again.
+static void start_workers(ThreadPool *pool)
+{
+    while (pool->worker_count < pool->others &&
+           pthread_create(&pool->workers[pool->worker_count], NULL, run_worker, pool) == 0)
+        pool->worker_count++;
+    pool->others = pool->worker_count;
 }
 
 void thread_pool_close(ThreadPool *pool)
@@ -129,6 +135,7 @@ void thread_pool_run(ThreadPool *pool, uint32_t count, ThreadPoolWork *work, voi
             work(context, task);
         return;
     }
+    start_workers(pool);
     pool->work = work;
     pool->context = context;
     pool->count = count;

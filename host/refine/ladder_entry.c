@@ -21,6 +21,9 @@
 #define AREA_HEIGHT 32
 #define RADIUS      2
 
+// A task has at least this many pixels. Waking a thread takes longer than a small picture.
+#define TASK_PIXELS (1u << 16)
+
 // Statistics of the pixels of a row of areas, by stratum.
 typedef struct {
     uint32_t pixels[BEND_CLASSES];
@@ -183,32 +186,40 @@ static void enter_row(const Entering *entering, const Area *area, uint32_t row, 
     count_pixels(ladder, area->left, y, count, entries);
 }
 
-// Assigns the pixels of one row of areas to strata.
-static void enter_rows(void *context, uint32_t top, uint32_t end)
+// Assigns the pixels of a row of areas to strata.
+static void enter_areas(const Entering *entering, uint32_t number)
 {
-    const Entering *entering = context;
     const Ladder *ladder = entering->ladder;
     const Framebuffer *picture = ladder->picture;
-    Area area = {.top = top};
-    memset(ladder_block(ladder, 0, top), 0,
-           (size_t)range_count(end - top, LADDER_BLOCK) *
-               range_count(picture->width, LADDER_BLOCK) * sizeof *ladder->blocks);
+    const uint32_t left_over = picture->height - number * AREA_HEIGHT;
+    const uint32_t rows = left_over < AREA_HEIGHT ? left_over : AREA_HEIGHT;
+    Area area = {.top = number * AREA_HEIGHT};
+    memset(ladder_block(ladder, 0, area.top), 0,
+           (size_t)range_count(rows, LADDER_BLOCK) * range_count(picture->width, LADDER_BLOCK) *
+               sizeof *ladder->blocks);
     for (; area.left < picture->width; area.left += AREA_WIDTH) {
         measure_area(picture, &area);
-        for (uint32_t row = 0; row < end - top; row++)
-            enter_row(entering, &area, row, &entering->entries[top / AREA_HEIGHT]);
+        for (uint32_t row = 0; row < rows; row++)
+            enter_row(entering, &area, row, &entering->entries[number]);
     }
+}
+
+static void enter_rows(void *context, uint32_t first, uint32_t end)
+{
+    for (; first < end; first++)
+        enter_areas(context, first);
 }
 
 static void enter_all(const Entering *entering)
 {
     Ladder *ladder = entering->ladder;
-    const uint32_t height = ladder->picture->height;
-    thread_pool_share(ladder->requests.pool, height, AREA_HEIGHT, enter_rows, (void *)entering);
-    for (uint32_t task = 0; task < range_count(height, AREA_HEIGHT); task++)
+    const uint32_t rows = range_count(ladder->picture->height, AREA_HEIGHT);
+    const uint32_t part = TASK_PIXELS / (AREA_HEIGHT * ladder->picture->width) + 1;
+    thread_pool_share(ladder->requests.pool, rows, part, enter_rows, (void *)entering);
+    for (uint32_t row = 0; row < rows; row++)
         for (uint32_t stratum = 0; stratum < BEND_CLASSES; stratum++)
-            strata_enter(&ladder->statistics, stratum, entering->entries[task].pixels[stratum],
-                         entering->entries[task].features[stratum]);
+            strata_enter(&ladder->statistics, stratum, entering->entries[row].pixels[stratum],
+                         entering->entries[row].features[stratum]);
 }
 
 // Finds the pixels that thin parts touch.
