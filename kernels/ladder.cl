@@ -14,9 +14,12 @@
 // smooth waves would then take 2.6 times as many samples.
 #include "pixels.cl"
 
-// The number of samples per work-item. If the number of requests were limited instead, a work-item
-// could take 1024 samples, and short lists would leave cores idle.
+// The number of samples per work-item, unless a request has more.
 #define ITEM_SAMPLES (BLOCK * BLOCK)
+
+// The numbers of small and of large requests per work-item.
+#define ITEM_SMALL (ITEM_SAMPLES > SMALL_SAMPLES ? ITEM_SAMPLES / SMALL_SAMPLES : 1)
+#define ITEM_LARGE (ITEM_SAMPLES > LARGE_SAMPLES ? ITEM_SAMPLES / LARGE_SAMPLES : 1)
 
 // Color values are rounded to this many bits before squaring, so that the sum of squares of
 // LADDER_GRID samples fits into 64 bits.
@@ -242,29 +245,47 @@ static inline bool is_block_of_sky(const FrameData *frame, const Item *item)
     return !CLRT_STATISTICS && is_sky(frame, item->block.x, item->block.y);
 }
 
-// Stores the sums of the requests `first` to `end` - 1 at the same indices of `results`, which are
-// PixelSums. All requests have the same number of samples. A work-item serves requests for up to
-// ITEM_SAMPLES samples in total, or one larger request. With CLRT_TALLIES, the work-item stores its
-// tally at the index of its first request.
+// The requests of a work-item: their number of samples, the first one's index, and their end.
+typedef struct {
+    uint samples, begin, end;
+} ItemRange;
+
+// Returns the requests of a work-item. The list has `small` small requests and then large ones.
+// `begin` is at least `end` if no requests remain.
+static inline ItemRange range_of(uint number, uint small, uint end)
+{
+    const uint small_items = (small + ITEM_SMALL - 1) / ITEM_SMALL;
+    if (number < small_items)
+        return (ItemRange){SMALL_SAMPLES, number * ITEM_SMALL,
+                           min(small, (number + 1) * ITEM_SMALL)};
+    const uint begin = small + (number - small_items) * ITEM_LARGE;
+    return (ItemRange){LARGE_SAMPLES, begin, min(end, begin + ITEM_LARGE)};
+}
+
+// The work-items with the numbers from `first` on store the sums of their requests at the same
+// indices of `results`, which are PixelSums. The list has `small` requests for SMALL_SAMPLES
+// samples, and then requests for LARGE_SAMPLES. The launch ends at index `end` of the list. With
+// CLRT_TALLIES, a work-item stores its tally at the index of its first request.
 //
-// If the frame has a tile, `requests` is not used. Each number from `first` to `end` - 1 then
-// stands for a pixel's center. A work-item renders the centers of a block, and stores them as in
-// render_tile. Numbers beyond the tile are padding.
+// If the frame has a tile, `requests` and `small` are not used, and each index stands for a pixel's
+// center. A work-item renders the centers of a block, and stores them as in render_tile. Indices
+// beyond the tile are padding.
 kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, uint first,
-                         uint end, global float *results, global uint *tallies)
+                         uint end, global float *results, global uint *tallies, uint small)
 {
     const bool has_tile = frame.tile_width > 0;
-    const uint samples = has_tile ? 1 : requests[first].samples;
-    const uint item_requests = max(ITEM_SAMPLES / samples, 1u);
-    const uint begin = first + item_requests * (uint)get_global_id(0);
-    if (begin >= end)
+    const uint number = first + (uint)get_global_id(0);
+    const ItemRange range =
+        has_tile ? (ItemRange){1, number * ITEM_SAMPLES, min(end, (number + 1) * ITEM_SAMPLES)}
+                 : range_of(number, small, end);
+    if (range.begin >= range.end)
         return;
-    const Item item = {requests + begin,
-                       (global PixelSums *)results + begin,
+    const Item item = {requests + range.begin,
+                       (global PixelSums *)results + range.begin,
                        has_tile ? results : NULL,
-                       has_tile ? tile_block(&frame, begin / ITEM_SAMPLES) : (uint2)(0),
-                       samples,
-                       samples * min(end - begin, item_requests)};
+                       has_tile ? tile_block(&frame, number) : (uint2)(0),
+                       range.samples,
+                       range.samples * (range.end - range.begin)};
     Tally tally = {0};
     const Tracer tracer = TRACER(&tally);
     if (is_block_of_sky(&frame, &item)) {
@@ -273,5 +294,5 @@ kernel void trace_pixels(TRACER_ARGUMENTS, global const PixelRequest *requests, 
     }
     trace_item(&tracer, &item);
     if (CLRT_TALLIES)
-        store_tally(tallies, begin, &tally);
+        store_tally(tallies, range.begin, &tally);
 }

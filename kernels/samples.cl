@@ -25,14 +25,15 @@ static inline Places places_listed(global const uint *places, uint start, uint e
     return (Places){x, y, number < end && x != NOTHING};
 }
 
-// Traces rays through the places `first` to `end` - 1, and stores the results at the same indices
-// of `samples`. A place consists of the coordinates x and y in sub-pixels. If x is NOTHING, the
-// place has no ray. A work-item takes ITEM_SAMPLES consecutive places. With CLRT_TALLIES, a tally
-// is stored at the first place of each beam.
+// Traces rays through places, and stores the results at the same indices of `samples`. A place
+// consists of the coordinates x and y in sub-pixels. If x is NOTHING, the place has no ray. A
+// work-item takes ITEM_SAMPLES consecutive places. The launch starts at the work-item with the
+// number `first`, and ends at index `end` of the list. With CLRT_TALLIES, a tally is stored at the
+// first place of each beam.
 kernel void trace_samples(TRACER_ARGUMENTS, global const uint *places, uint first, uint end,
                           global SampleData *samples, global uint *tallies)
 {
-    const uint begin = first + ITEM_SAMPLES * (uint)get_global_id(0);
+    const uint begin = ITEM_SAMPLES * (first + (uint)get_global_id(0));
     const uint beam = PACKETS * CLRT_LANES;
     for (uint start = begin; start < min(begin + ITEM_SAMPLES, end); start += beam) {
         Tally tally = {0};

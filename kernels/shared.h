@@ -225,16 +225,17 @@ CLRT_SAME_SIZE(SampleData, 16)
 // sample at a pixel's center has the same bits as in a picture with one sample per pixel.
 #define LADDER_GRID 1024
 
-// The most samples in a request. A pixel's requests together have up to LADDER_GRID samples.
-#define REQUEST_SAMPLES 16
+// The numbers of samples in small and in large requests. A pixel's requests together have up to
+// LADDER_GRID samples.
+#define SMALL_SAMPLES 4
+#define LARGE_SAMPLES 16
 
-// A request for 4 or REQUEST_SAMPLES consecutive points of a pixel's sequence.
+// A request for SMALL_SAMPLES or LARGE_SAMPLES consecutive points of a pixel's sequence.
 typedef struct {
     uint x, y;
-    uint first; // number of the first point; a multiple of `samples`
-    uint samples;
+    uint first; // number of the first point; a multiple of the number of points
 } PixelRequest;
-CLRT_SAME_SIZE(PixelRequest, 16)
+CLRT_SAME_SIZE(PixelRequest, 12)
 
 // Sums over the samples of a request. Colors are in steps of 2^-32, and the squares of all three
 // channels in steps of 2^-48.

@@ -96,8 +96,7 @@ bool kernel_run(const Kernel *kernel, const KernelRun *run, Error *error)
 }
 
 // Runs a new kernel without work, because some drivers finish compiling in the first run. FrameData
-// and all numbers are 0, and each buffer holds 16 words with the value NOTHING. The buffers cannot
-// hold zeros, because trace_pixels divides by the number of samples in its first request.
+// and all numbers are 0, and each buffer holds 16 words with the value NOTHING.
 static bool run_empty(const Kernel *kernel, Error *error)
 {
     static const FrameData frame;

@@ -73,7 +73,7 @@ static bool trace_pass(Adaptive *adaptive, uint32_t first, const SeamSearch *sea
     const uint32_t count = cut + (uint32_t)search->asked.count;
     SamplePlace *places = memory_raw(count, sizeof *places, error);
     SampleData *samples = memory_raw(count, sizeof *samples, error);
-    const SampleList list = {places, samples, count};
+    const SampleList list = {places, samples, count, 0};
     Exchange exchange = {tree, first, places, samples};
     bool ok = places != NULL && samples != NULL;
     if (ok) {
@@ -121,7 +121,7 @@ static bool trace_pixels(Adaptive *adaptive, const RenderObserver *observer, Err
     RefineTree *tree = &adaptive->tree;
     const uint32_t count = refine_tree_places(tree);
     SamplePlace *places = memory_raw(count, sizeof *places, error);
-    const SampleList list = {places, tree->pixels, count};
+    const SampleList list = {places, tree->pixels, count, 0};
     if (places == NULL)
         return false;
     Exchange exchange = {.tree = tree, .places = places};

@@ -15,10 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Requests have FIRST_SAMPLES samples until the pixel has REQUEST_SAMPLES samples. Later requests
-// have REQUEST_SAMPLES samples.
-#define FIRST_SAMPLES 4
-
 static inline uint32_t rung_of(const Ladder *ladder, size_t pixel)
 {
     return strata_rung(ladder->strata[pixel]);
@@ -94,10 +90,11 @@ typedef struct {
     uint32_t requests;
 } RungSamples;
 
+// Requests are small until the pixel has LARGE_SAMPLES samples.
 static RungSamples samples_from(uint32_t rung)
 {
     const uint32_t first = rung == 0 ? 0 : ladder_samples[rung];
-    const uint32_t samples = first < REQUEST_SAMPLES ? FIRST_SAMPLES : REQUEST_SAMPLES;
+    const uint32_t samples = first < LARGE_SAMPLES ? SMALL_SAMPLES : LARGE_SAMPLES;
     return (RungSamples){first, samples, (ladder_samples[rung + 1] - first) / samples};
 }
 
@@ -107,8 +104,10 @@ static void list_pixel(Ladder *ladder, uint32_t pixel)
     const uint32_t width = ladder->picture->width;
     const RungSamples next = samples_from(rung_of(ladder, pixel));
     for (uint32_t i = 0; i < next.requests; i++)
-        requests->requests[requests->count++] = (PixelRequest){
-            pixel % width, pixel / width, next.first + i * next.samples, next.samples};
+        requests->requests[requests->count++] =
+            (PixelRequest){pixel % width, pixel / width, next.first + i * next.samples};
+    if (next.samples == SMALL_SAMPLES)
+        requests->small = requests->count;
 }
 
 static double mean_square_change(const float before[3], const float after[3])
@@ -194,7 +193,7 @@ static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Erro
         first += next.requests;
         ladder->samples += next.requests * next.samples;
     }
-    requests->count = 0;
+    requests->count = requests->small = 0;
     return ok;
 }
 
@@ -216,36 +215,28 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
     return true;
 }
 
-// Sorts the list: first the pixels whose requests have FIRST_SAMPLES samples, then those whose
-// requests have REQUEST_SAMPLES. Each group keeps its order. Stores the size of the first group in
-// *first.
-static bool part_list(const Ladder *ladder, uint32_t *pixels, uint64_t count, uint64_t *first,
-                      Error *error)
+// Moves the pixels with small requests to the start of the list. Otherwise, keeps the order.
+static bool part_list(const Ladder *ladder, uint32_t *pixels, uint64_t count, Error *error)
 {
     uint32_t *later = memory_raw(count, sizeof *later, error);
-    uint64_t laters = 0;
-    *first = 0;
+    uint64_t first = 0, laters = 0;
     for (uint64_t i = 0; i < count && later != NULL; i++)
-        if (samples_from(rung_of(ladder, pixels[i])).samples == FIRST_SAMPLES)
-            pixels[(*first)++] = pixels[i];
+        if (samples_from(rung_of(ladder, pixels[i])).samples == SMALL_SAMPLES)
+            pixels[first++] = pixels[i];
         else
             later[laters++] = pixels[i];
     if (laters > 0)
-        memcpy(pixels + *first, later, laters * sizeof *later);
+        memcpy(pixels + first, later, laters * sizeof *later);
     free(later);
     return later != NULL;
 }
 
 bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
 {
-    uint32_t *pixels = ladder->chosen;
-    uint64_t first;
     if (!ladder_choose(ladder, advanced, error))
         return false;
-    return *advanced == 0 || (part_list(ladder, pixels, *advanced, &first, error) &&
-                              climb_chosen(ladder, pixels, first, error) &&
-                              (!pixel_requests_are_whole(&ladder->requests) ||
-                               climb_chosen(ladder, pixels + first, *advanced - first, error)));
+    return *advanced == 0 || (part_list(ladder, ladder->chosen, *advanced, error) &&
+                              climb_chosen(ladder, ladder->chosen, *advanced, error));
 }
 
 // After this many rounds, clrt gives up the error goal.

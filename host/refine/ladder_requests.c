@@ -15,7 +15,7 @@ bool pixel_requests_are_whole(const PixelRequests *requests)
 
 bool pixel_requests_trace(PixelRequests *requests, Error *error)
 {
-    const SampleList list = {requests->requests, requests->sums, requests->count};
+    const SampleList list = {requests->requests, requests->sums, requests->count, requests->small};
     return sampler_trace(requests->renderer, &requests->frame, &list, requests->observer, error);
 }
 

@@ -16,9 +16,9 @@ typedef struct {
     FrameData frame;                // with a camera made for LADDER_GRID samples
     const RenderObserver *observer; // borrowed; may be NULL
     ThreadPool *pool;               // borrowed; NULL for none
-    PixelRequest *requests;         // room for REQUESTS_MOST, all with equal sample counts
+    PixelRequest *requests;         // room for REQUESTS_MOST; small requests come first
     PixelSums *sums;                // of the requests in the latest trace; room for REQUESTS_MOST
-    uint32_t count;                 // requests in the list
+    uint32_t count, small;          // requests in the list, and small requests in the list
 } PixelRequests;
 
 // Returns false if the observer has stopped a trace.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Splits a list of requests into launches and keeps two launches in the queue, so that the device
-// never waits for the host. The size of launches depends on the device (device/launch.h).
+// never waits for the host. The size of launches depends on the device (device/launch.h). Lists of
+// goals are often short, and PoCL then spends more time on launching than on tracing. Small and
+// large requests therefore share launches.
 #include "render/sampler.h"
 
 #include "base/clock.h"
@@ -15,7 +17,7 @@
 // A launch in flight.
 typedef struct {
     cl_event done;
-    uint32_t requests;
+    uint32_t items;
     double start;
 } SampleLaunch;
 
@@ -23,11 +25,11 @@ typedef struct {
     Renderer *renderer;
     const FrameData *frame;
     const SampleList *list;
-    uint32_t item_requests; // requests per work-item
+    uint32_t items; // work-items of the list
     cl_mem requests, results, tallies;
     uint32_t *host_tallies;
     SampleLaunch launches[2];   // launch i is launches[i % 2]
-    uint32_t started, finished; // numbers of requests
+    uint32_t started, finished; // numbers of work-items
     double last_end;
 } Sampling;
 
@@ -66,31 +68,59 @@ static size_t results_size(const Sampling *sampling)
            (is_ladder(sampling->renderer) ? sizeof(PixelSums) : sizeof(SampleData));
 }
 
-// Returns the number of samples of each request. All requests of a list have the same number.
-static uint32_t request_samples(const Sampling *sampling)
-{
-    return is_ladder(sampling->renderer) && !has_tile(sampling->frame)
-               ? ((const PixelRequest *)sampling->list->requests)->samples
-               : 1;
-}
-
 // Returns the number of pixels along a side of a work-item's block.
 static uint32_t block_side(const Renderer *renderer)
 {
     return renderer->kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE : 1;
 }
 
+// Returns the number of samples of each request.
+static uint32_t request_samples(const Sampling *sampling, bool is_small)
+{
+    if (!is_ladder(sampling->renderer) || has_tile(sampling->frame))
+        return 1;
+    return is_small ? SMALL_SAMPLES : LARGE_SAMPLES;
+}
+
 // Returns the number of requests per work-item. The kernels compute the same number.
-static uint32_t item_requests(const Sampling *sampling)
+static uint32_t item_requests(const Sampling *sampling, bool is_small)
 {
     const uint32_t side = block_side(sampling->renderer), most = side * side;
-    const uint32_t samples = request_samples(sampling);
+    const uint32_t samples = request_samples(sampling, is_small);
     return samples < most ? most / samples : 1;
 }
 
+// Returns the number of work-items of the small requests.
+static uint32_t small_items(const Sampling *sampling)
+{
+    return range_count(sampling->list->small, item_requests(sampling, true));
+}
+
+// Returns the number of work-items of the list.
+static uint32_t all_items(const Sampling *sampling)
+{
+    const SampleList *list = sampling->list;
+    return small_items(sampling) +
+           range_count(list->count - list->small, item_requests(sampling, false));
+}
+
+// Returns the number of requests of the list's first `items` work-items.
+static uint32_t requests_of(const Sampling *sampling, uint32_t items)
+{
+    const SampleList *list = sampling->list;
+    const uint32_t early = small_items(sampling);
+    if (items == sampling->items)
+        return list->count;
+    if (items >= early)
+        return list->small + (items - early) * item_requests(sampling, false);
+    return items * item_requests(sampling, true);
+}
+
+// Returns the largest number of samples of the list's work-items.
 static double item_samples(const Sampling *sampling)
 {
-    return (double)sampling->item_requests * request_samples(sampling);
+    const bool is_small = sampling->list->small == sampling->list->count;
+    return (double)item_requests(sampling, is_small) * request_samples(sampling, is_small);
 }
 
 // Returns the largest number of work-items for the next launch.
@@ -145,19 +175,19 @@ static void close_buffers(Sampling *sampling)
 static bool start_launch(Sampling *sampling, SampleLaunch *launch, Error *error)
 {
     const Renderer *renderer = sampling->renderer;
-    const uint32_t most = launch_items(sampling) * sampling->item_requests;
-    const cl_uint first = sampling->started, left = sampling->list->count - first;
-    const cl_uint count = left < most ? left : most, end = first + count;
-    const size_t requests = sampling->item_requests;
-    const KernelRun run = {
-        .queue = renderer->kernel->device->queue,
-        .frame = sampling->frame,
-        .scene = renderer->scene->arrays,
-        .arguments = {&sampling->requests, &first, &end, &sampling->results, &sampling->tallies},
-        .items = {(count + requests - 1) / requests, 1},
-        .done = &launch->done};
-    *launch = (SampleLaunch){.requests = count, .start = clock_seconds()};
-    sampling->started = end;
+    const uint32_t most = launch_items(sampling), left = sampling->items - sampling->started;
+    const uint32_t items = left < most ? left : most;
+    const cl_uint first = sampling->started, end = requests_of(sampling, first + items);
+    const cl_uint small = end < sampling->list->small ? end : sampling->list->small;
+    const KernelRun run = {.queue = renderer->kernel->device->queue,
+                           .frame = sampling->frame,
+                           .scene = renderer->scene->arrays,
+                           .arguments = {&sampling->requests, &first, &end, &sampling->results,
+                                         &sampling->tallies, &small},
+                           .items = {items, 1},
+                           .done = &launch->done};
+    *launch = (SampleLaunch){.items = items, .start = clock_seconds()};
+    sampling->started += items;
     return kernel_run(renderer->kernel, &run, error) &&
            cl_succeeded(clFlush(run.queue), "start the kernel", error);
 }
@@ -169,46 +199,13 @@ static void pace(Sampling *sampling, const SampleLaunch *launch)
     Renderer *renderer = sampling->renderer;
     const double now = clock_seconds();
     const double start = launch->start > sampling->last_end ? launch->start : sampling->last_end;
-    const uint32_t items = (launch->requests - 1) / sampling->item_requests + 1;
-    renderer->launch_samples =
-        item_samples(sampling) *
-        launch_next_items(&renderer->kernel->launch, launch_items(sampling), items, now - start);
+    renderer->launch_samples = item_samples(sampling) *
+                               launch_next_items(&renderer->kernel->launch, launch_items(sampling),
+                                                 launch->items, now - start);
     sampling->last_end = now;
 }
 
-static bool finish_launch(Sampling *sampling, SampleLaunch *launch, Error *error)
-{
-    const cl_int status = clWaitForEvents(1, &launch->done);
-    clReleaseEvent(launch->done);
-    launch->done = NULL;
-    sampling->finished += launch->requests;
-    pace(sampling, launch);
-    return cl_succeeded(status, "trace samples", error);
-}
-
-static bool run_launches(Sampling *sampling, const RenderObserver *observer, Error *error)
-{
-    RenderProgress *progress = &sampling->renderer->progress;
-    const uint32_t count = sampling->list->count, tile = TILE_ITEMS * sampling->item_requests;
-    const uint64_t tiles = progress->tiles_done;
-    uint32_t started = 0, finished = 0; // launches
-    bool wanted = true;
-    const uint32_t all = (count - 1) / tile + 1;
-    progress->tiles += all;
-    while (sampling->finished < (wanted ? count : sampling->started)) {
-        for (; wanted && sampling->started < count && started < finished + 2; started++)
-            if (!start_launch(sampling, &sampling->launches[started % 2], error))
-                return false;
-        if (!finish_launch(sampling, &sampling->launches[finished++ % 2], error))
-            return false;
-        progress->tiles_done =
-            tiles + (sampling->finished == count ? all : sampling->finished / tile);
-        wanted = render_observer_continues(observer, progress) && wanted;
-    }
-    return true;
-}
-
-// Makes the device's results visible to the host.
+// Waits for all launches, and makes their output visible to the host.
 static bool read_back(const Sampling *sampling, cl_mem buffer, size_t size, Error *error)
 {
     cl_command_queue queue = sampling->renderer->kernel->device->queue;
@@ -217,9 +214,43 @@ static bool read_back(const Sampling *sampling, cl_mem buffer, size_t size, Erro
         clEnqueueMapBuffer(queue, buffer, CL_TRUE, CL_MAP_READ, 0, size, 0, NULL, NULL, &status);
     if (status == CL_SUCCESS)
         status = clEnqueueUnmapMemObject(queue, buffer, seen, 0, NULL, NULL);
-    if (status == CL_SUCCESS)
-        status = clFinish(queue);
     return cl_succeeded(status, "read samples back", error);
+}
+
+// Waits for the launch. The last launch is not awaited separately, because on CPUs each wait takes
+// as long as tracing about 500 samples.
+static bool finish_launch(Sampling *sampling, SampleLaunch *launch, Error *error)
+{
+    sampling->finished += launch->items;
+    const bool ok = sampling->finished == sampling->items
+                        ? read_back(sampling, sampling->results, results_size(sampling), error)
+                        : cl_succeeded(clWaitForEvents(1, &launch->done), "trace samples", error);
+    clReleaseEvent(launch->done);
+    launch->done = NULL;
+    pace(sampling, launch);
+    return ok;
+}
+
+static bool run_launches(Sampling *sampling, const RenderObserver *observer, Error *error)
+{
+    RenderProgress *progress = &sampling->renderer->progress;
+    const uint32_t count = sampling->items;
+    const uint64_t tiles = progress->tiles_done;
+    uint32_t started = 0, finished = 0; // launches
+    bool wanted = true;
+    const uint32_t all = range_count(count, TILE_ITEMS);
+    progress->tiles += all;
+    while (sampling->finished < (wanted ? count : sampling->started)) {
+        for (; wanted && sampling->started < count && started < finished + 2; started++)
+            if (!start_launch(sampling, &sampling->launches[started % 2], error))
+                return false;
+        if (!finish_launch(sampling, &sampling->launches[finished++ % 2], error))
+            return false;
+        progress->tiles_done =
+            tiles + (sampling->finished == count ? all : sampling->finished / TILE_ITEMS);
+        wanted = render_observer_continues(observer, progress) && wanted;
+    }
+    return true;
 }
 
 static bool read_tallies(Sampling *sampling, Error *error)
@@ -241,12 +272,11 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
     if (list->count == 0)
         return true;
     Sampling sampling = {.renderer = renderer, .frame = frame, .list = list};
-    sampling.item_requests = item_requests(&sampling);
+    sampling.items = all_items(&sampling);
     if (renderer->launch_samples <= 0)
         renderer->launch_samples = launch_first_items(&renderer->kernel->launch, 1);
     bool ok = open_buffers(&sampling, error) && run_launches(&sampling, observer, error) &&
-              read_tallies(&sampling, error) &&
-              read_back(&sampling, sampling.results, results_size(&sampling), error);
+              read_tallies(&sampling, error);
     close_buffers(&sampling);
     return ok;
 }
@@ -256,9 +286,9 @@ bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, float (*co
 {
     const PixelRequest none = {0};
     const uint32_t side = block_side(renderer);
-    const SampleList list = {&none, colors,
-                             range_count(frame->tile_width, side) *
-                                 range_count(frame->tile_height, side) * side * side};
+    const uint32_t blocks =
+        range_count(frame->tile_width, side) * range_count(frame->tile_height, side);
+    const SampleList list = {&none, colors, blocks * side * side, 0};
     return sampler_trace(renderer, frame, &list, observer, error);
 }
 
@@ -267,4 +297,4 @@ extern const char samples_source[], ladder_source[];
 
 const KernelEntry sample_entry = {"trace_samples", samples_source, "-DCLRT_SIGNATURES=1", "bnnbb",
                                   .dimensions = 1};
-const KernelEntry ladder_entry = {"trace_pixels", ladder_source, NULL, "bnnbb", .dimensions = 1};
+const KernelEntry ladder_entry = {"trace_pixels", ladder_source, NULL, "bnnbbn", .dimensions = 1};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A list of requests -> their samples. With sample_entry, a request is a sample's position, and the
-// result is its color and signature. With ladder_entry, a request is a set of a pixel's samples.
+// result is its color and signature. With ladder_entry, a request is a set of a pixel's samples. It
+// is small or large (SMALL_SAMPLES, LARGE_SAMPLES).
 // The result has the sums of these samples' colors and of the squares of the colors. With
 // ladder_entry, a tile can also be rendered with one sample per pixel.
 //
@@ -24,6 +25,7 @@ typedef struct {
     const void *requests;
     void *results; // output; undefined for skipped requests
     uint32_t count;
+    uint32_t small; // with ladder_entry: number of small requests, which precede the large ones
 } SampleList;
 
 // Traces the requests in `list`. The frame must not have a tile. The renderer's kernel must have

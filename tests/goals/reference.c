@@ -105,7 +105,7 @@ static bool take_range(Reference *reference, Renderer *renderer, const FrameData
     const uint32_t each = 2 * range.count, most = LIST_SAMPLES / each;
     for (uint32_t first = 0; first < pixels; first += most) {
         const uint32_t count = pixels - first < most ? pixels - first : most;
-        const SampleList list = {reference->places, reference->results, count * each};
+        const SampleList list = {reference->places, reference->results, count * each, 0};
         for (uint32_t i = 0; i < count; i++)
             list_samples(reference, first + i, range, reference->places + (size_t)i * each);
         if (!sampler_trace(renderer, frame, &list, NULL, error))

@@ -10,12 +10,14 @@
 
 static Probe probe;
 
-static void trace(const PixelRequest *requests, uint32_t count, uint32_t places[][2])
+// Stores the positions of the samples of `count` requests. Each request has `samples` samples.
+static void trace(const PixelRequest *requests, uint32_t count, uint32_t samples,
+                  uint32_t places[][2])
 {
-    const size_t samples = (size_t)count * requests->samples;
-    const ProbeInput inputs[2] = {{requests, count * sizeof *requests}, {0}};
-    assert_true(probe_run(&probe, "probe_places", inputs, samples,
-                          (ProbeInput){places, samples * sizeof *places}));
+    const size_t all = (size_t)count * samples;
+    const ProbeInput inputs[2] = {{requests, count * sizeof *requests}, {&samples, sizeof samples}};
+    assert_true(
+        probe_run(&probe, "probe_places", inputs, all, (ProbeInput){places, all * sizeof *places}));
 }
 
 // Stores the positions of the first LADDER_GRID samples of a pixel. Each request takes `samples` of
@@ -24,8 +26,8 @@ static void place_all(uint32_t x, uint32_t y, uint32_t samples, uint32_t places[
 {
     PixelRequest requests[LADDER_GRID];
     for (uint32_t i = 0; i < LADDER_GRID / samples; i++)
-        requests[i] = (PixelRequest){x, y, i * samples, samples};
-    trace(requests, LADDER_GRID / samples, places);
+        requests[i] = (PixelRequest){x, y, i * samples};
+    trace(requests, LADDER_GRID / samples, samples, places);
 }
 
 // Divides the pixel into columns x rows rectangles, and expects one of the first columns * rows
@@ -45,7 +47,7 @@ TEST(every_rung_has_one_sample_in_each_rectangle_of_its_size)
 {
     static uint32_t places[LADDER_GRID][2];
     for (uint32_t pixel = 0; pixel < 20; pixel++) {
-        place_all(pixel, 3 * pixel, REQUEST_SAMPLES, places);
+        place_all(pixel, 3 * pixel, LARGE_SAMPLES, places);
         for (uint32_t count = 4; count <= LADDER_GRID; count *= 2)
             for (uint32_t columns = 1; columns <= count; columns *= 2)
                 expect_one_in_each(places, columns, count / columns);
@@ -56,7 +58,7 @@ TEST(positions_do_not_depend_on_the_sizes_of_requests)
 {
     static uint32_t fours[LADDER_GRID][2], places[LADDER_GRID][2];
     place_all(7, 1000, 4, fours);
-    place_all(7, 1000, REQUEST_SAMPLES, places);
+    place_all(7, 1000, LARGE_SAMPLES, places);
     assert_memory_equal(fours, places, sizeof places);
 }
 
@@ -78,8 +80,8 @@ TEST(samples_of_a_pixel_share_no_offset)
     static PixelRequest requests[PIXELS];
     static uint32_t places[PIXELS * COUNT][2];
     for (uint32_t i = 0; i < PIXELS; i++)
-        requests[i] = (PixelRequest){i % 64, i / 64, 0, COUNT};
-    trace(requests, PIXELS, places);
+        requests[i] = (PixelRequest){i % 64, i / 64, 0};
+    trace(requests, PIXELS, COUNT, places);
     for (int axis = 0; axis < 2; axis++)
         for (uint32_t one = 0; one < COUNT; one++)
             for (uint32_t other = 0; other < one; other++) {
