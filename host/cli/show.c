@@ -43,7 +43,7 @@ ExitCode show_scene(const Options *options, Session *session, Scene *scene, Erro
         .uses_bvh = options->renderer.tree != CLRT_TREE_NONE,
         .encoding = options->encoding,
         .exposure = (int)lround(2 * options->exposure),
-        .tracer = {.session = stage_settings(options),
+        .worker = {.session = stage_settings(options),
                    .cache = session->cache,
                    .max_level = options->picture.max_level},
         .keys = options->keys,

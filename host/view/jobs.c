@@ -4,6 +4,7 @@
 #include "view/worker_inside.h"
 
 #include "base/clock.h"
+#include "explain/report.h"
 
 // The shortest interval between status updates for tiles, in seconds.
 #define WAKE_STEP 0.03
@@ -56,9 +57,10 @@ static bool is_current(const Tracing *tracing)
                    request->uses_bvh == job->request.uses_bvh &&
                    request->width == job->request.width && request->height == job->request.height;
     if (!is_kept)
-        current = current && request->is_traced && request->subject == job->request.subject &&
-                  request->explains == job->request.explains &&
-                  (job->pass.samples == 1 || request->samples == job->pass.samples);
+        current =
+            current && request->is_traced && request->subject == job->request.subject &&
+            request->explains == job->request.explains &&
+            (job->pass.settings.samples == 1 || request->samples == job->pass.settings.samples);
     pthread_mutex_unlock(&worker->mutex);
     return current;
 }
@@ -83,7 +85,9 @@ static bool tile_done(void *context, const RenderProgress *progress)
 // other processes may have slowed the picture.
 static void update_sample_cost(Worker *worker, const Pass *pass, double seconds, double part)
 {
-    const double samples = part * pass->width * pass->height * pass->samples * pass->samples;
+    const RenderSettings *settings = &pass->settings;
+    const double samples =
+        part * settings->width * settings->height * settings->samples * settings->samples;
     if (pass->kind == PASS_COUNT || samples < 1)
         return;
     const double cost = seconds / samples, before = worker->sample_seconds;
@@ -96,7 +100,8 @@ static void update_sample_cost(Worker *worker, const Pass *pass, double seconds,
 static void record_picture(WorkerStatus *status, const Job *job)
 {
     const Pass *pass = &job->pass;
-    status->reached = (PlanReached){job->request.subject, pass->divisor, pass->samples, false};
+    status->reached =
+        (PlanReached){job->request.subject, pass->divisor, pass->settings.samples, false};
     status->done.camera = job->request.camera;
     status->done.gain = job->request.gain;
     status->moving_frames += pass->kind == PASS_MOVING;
@@ -105,7 +110,7 @@ static void record_picture(WorkerStatus *status, const Job *job)
 
 static void finish_pass(Worker *worker, const Job *job, Layer *layer, double seconds)
 {
-    const RenderProgress *progress = &worker->tracer.drawn.progress;
+    const RenderProgress *progress = &worker->drawn.progress;
     const bool whole = progress->tiles_done == progress->tiles;
     update_sample_cost(worker, &job->pass, seconds,
                        (double)progress->tiles_done / (double)progress->tiles);
@@ -137,15 +142,16 @@ static void report_failure(Worker *worker, const Job *job, const Error *error)
 void jobs_trace(Worker *worker, const Job *job)
 {
     Error error = {0};
-    const RenderSettings settings = tracer_settings(&worker->tracer, &job->pass);
+    SessionPicture picture = {.settings = job->pass.settings,
+                              .viewpoint = job->request.camera,
+                              .wanted.statistics = job->pass.kind == PASS_COUNT};
     const bool hidden = job->pass.kind != PASS_FULL;
-    Layer *layer = canvas_begin(worker->setup.canvas, &settings, hidden, &error);
+    Layer *layer = canvas_begin(worker->setup.canvas, &picture.settings, hidden, &error);
     const double start = clock_seconds();
     Tracing tracing = {worker, job, layer, start};
     const RenderObserver observer = {tile_done, &tracing};
-    const Shot shot = {&job->request.camera, &job->pass};
-    if (layer != NULL &&
-        tracer_draw(&worker->tracer, &shot, &observer, &layer->framebuffer, &error)) {
+    if (layer != NULL && session_draw(&worker->session, &picture, &observer, &layer->framebuffer,
+                                      &worker->drawn, &error)) {
         finish_pass(worker, job, layer, clock_seconds() - start);
         return;
     }
@@ -183,16 +189,50 @@ static void report_fault(Worker *worker, WorkerFault fault, const Error *error)
     end_update(worker);
 }
 
-static bool take(Worker *worker, const Job *job, Model *model, Error *error)
+// Compiles the scene and the kernels for the next pass.
+static bool prepare(Worker *worker, Error *error)
 {
     report_busy(worker, "compiling the kernels");
-    const bool ok = tracer_take(&worker->tracer, model, job->request.uses_bvh, error);
-    if (ok) {
-        worker->sample_seconds =
-            plan_first_guess((uint32_t)model->stages.triangles.count, job->request.uses_bvh);
-        worker->has_measured = false;
+    return session_prepare(&worker->session, &(SessionPicture){0}, &worker->drawn, error);
+}
+
+// Traces the model from now on. Without a tree, rays test all triangles. On failure, the worker
+// keeps the previous model.
+static bool take(Worker *worker, const Job *job, Model *model, Error *error)
+{
+    Session *session = &worker->session;
+    SessionScene before = session->scene;
+    const ClrtTree tree = session->settings.wanted.tree;
+    const bool uses_bvh = job->request.uses_bvh;
+    session->scene = (SessionScene){
+        .scene = &model->scene, .normalization = model->normalization, .stages = &model->stages};
+    session->settings.wanted.tree = uses_bvh ? CLRT_TREE_SAH : CLRT_TREE_NONE;
+    if (!prepare(worker, error)) {
+        session_scene_free(&session->scene);
+        session->scene = before;
+        session->settings.wanted.tree = tree;
+        return false;
     }
-    return ok;
+    Model *held = model_hold(model);
+    session_scene_free(&before);
+    model_release(worker->traced);
+    worker->traced = held;
+    worker->sample_seconds = plan_first_guess((uint32_t)model->stages.triangles.count, uses_bvh);
+    worker->has_measured = false;
+    return true;
+}
+
+// Compiles the kernels again, from the kernel folder if there is one. On failure, the worker keeps
+// the previous kernels.
+static void renew(Worker *worker, Error *error)
+{
+    KernelSet *kernels = &worker->session.kernels;
+    KernelSet before = *kernels;
+    *kernels = (KernelSet){.source = before.source};
+    const bool ok = prepare(worker, error);
+    kernel_set_clear(ok ? &before : kernels);
+    if (!ok)
+        *kernels = before;
 }
 
 // Publishes the model for the window. has_tree is false while the model's tree is not built.
@@ -212,7 +252,7 @@ static void publish(Worker *worker, Model *model, bool has_tree)
 void jobs_load(Worker *worker, const Job *job)
 {
     Error scene_failure = {0}, failure = {0};
-    const uint32_t threads = threads_allowed(worker->setup.options->session.wanted.threads);
+    const uint32_t threads = threads_allowed(worker->setup.session.wanted.threads);
     const bool is_first = worker->model == NULL;
     report_busy(worker, "reading the scene");
     Model *model = model_load(job->request.path, &job->request.load, threads, &scene_failure);
@@ -220,17 +260,20 @@ void jobs_load(Worker *worker, const Job *job)
     if (ok && is_first) {
         publish(worker, model, false);
         report_busy(worker, "opening the device");
-        ok = tracer_open(&worker->tracer, worker->setup.options, &failure);
+        worker->session =
+            (Session){.settings = worker->setup.session, .cache = worker->setup.cache};
+        ok = session_open(&worker->session, &failure);
     }
     if (ok) {
-        const BvhSettings tree = tracer_tree(&worker->tracer);
+        const BvhSettings tree = {session_builder(&worker->setup.session.wanted),
+                                  flat_leaves(worker->session.choice.nodes)};
         ok = model_build_tree(model, &tree, threads, is_first ? &failure : &scene_failure);
     }
     if (ok && is_first)
         publish(worker, model, true);
     if (ok && take(worker, job, model, &failure))
         publish(worker, model, true);
-    if (worker->tracer.model == NULL)
+    if (worker->traced == NULL)
         report_fault(worker, model == NULL ? FAULT_SCENE : FAULT_DEVICE,
                      model == NULL ? &scene_failure : &failure);
     else if (ok)
@@ -244,11 +287,9 @@ void jobs_take(Worker *worker, const Job *job)
     Error error = {0};
     const WorkerRequest *done = &worker->status.done;
     const bool is_taken =
-        job->request.uses_bvh == done->uses_bvh || take(worker, job, worker->tracer.model, &error);
-    if (is_taken && job->request.renewals != done->renewals) {
-        report_busy(worker, "compiling the kernels");
-        tracer_renew(&worker->tracer, &error);
-    }
+        job->request.uses_bvh == done->uses_bvh || take(worker, job, worker->traced, &error);
+    if (is_taken && job->request.renewals != done->renewals)
+        renew(worker, &error);
     report_taken(worker, job, &error);
 }
 
@@ -257,16 +298,21 @@ void jobs_explain(Worker *worker, const Job *job)
     Error error = {0};
     char text[EXPLANATION_SIZE] = "";
     const WorkerRequest *request = &job->request;
-    const Pass pass = {
-        .width = request->width, .height = request->height, .samples = request->samples, .tile = 1};
-    const ExplainReport head = {.pixel = {request->pixel[0], request->pixel[1]},
-                                .encoding = worker->setup.canvas->encoding,
-                                .is_brief = true};
+    const RenderSettings settings = worker_settings(worker, request);
+    const ExplainReport report = {.scene = &worker->traced->scene,
+                                  .settings = &settings,
+                                  .pixel = {request->pixel[0], request->pixel[1]},
+                                  .encoding = worker->setup.canvas->encoding,
+                                  .is_brief = true};
     report_busy(worker, "explaining the pixel");
+    Explainer explainer;
     FILE *stream = fmemopen(text, sizeof text - 1, "w"); // the last byte stays zero
-    const bool ok =
-        stream != NULL &&
-        tracer_explain(&worker->tracer, &(Shot){&request->camera, &pass}, &head, stream, &error);
+    bool ok = stream != NULL &&
+              explainer_open(&explainer, &worker->session, &settings, &request->camera, &error);
+    if (ok) {
+        ok = explain_write_text(&report, &explainer, stream, &error);
+        explainer_close(&explainer);
+    }
     if (stream != NULL)
         fclose(stream);
     WorkerStatus *status = begin_update(worker);

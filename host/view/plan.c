@@ -20,7 +20,7 @@ static uint32_t divided(uint32_t length, uint32_t divisor)
 
 static double pixel_count(const PlanRequest *request, uint32_t divisor)
 {
-    return (double)divided(request->width, divisor) * divided(request->height, divisor);
+    return (double)divided(request->full.width, divisor) * divided(request->full.height, divisor);
 }
 
 // Returns the smallest divisor that meets the time limit, or the largest divisor if no divisor
@@ -46,26 +46,28 @@ static uint32_t tile_side(double pixel_seconds)
 
 static Pass make_pass(const PlanRequest *request, PassKind kind, uint32_t divisor, uint32_t samples)
 {
-    return (Pass){.kind = kind,
-                  .divisor = divisor,
-                  .samples = samples,
-                  .width = divided(request->width, divisor),
-                  .height = divided(request->height, divisor),
-                  .tile = tile_side(request->sample_seconds * samples * samples)};
+    Pass pass = {.kind = kind, .divisor = divisor, .settings = request->full};
+    pass.settings.width = divided(request->full.width, divisor);
+    pass.settings.height = divided(request->full.height, divisor);
+    pass.settings.samples = samples;
+    pass.settings.tile_width = pass.settings.tile_height =
+        tile_side(request->sample_seconds * samples * samples);
+    return pass;
 }
 
 Pass plan_pass(const PlanRequest *request, const PlanReached *reached)
 {
-    if (!request->is_wanted || request->width == 0 || request->height == 0)
+    const RenderSettings *full = &request->full;
+    if (!request->is_wanted || full->width == 0 || full->height == 0)
         return (Pass){0};
     if (reached->subject != request->subject)
         return make_pass(request, PASS_MOVING, moving_divisor(request), 1);
     if (reached->divisor > 1)
         return make_pass(request, PASS_FULL, 1, 1);
-    if (reached->samples != request->samples)
-        return make_pass(request, PASS_FULL, 1, request->samples);
+    if (reached->samples != full->samples)
+        return make_pass(request, PASS_FULL, 1, full->samples);
     if (!reached->is_counted)
-        return make_pass(request, PASS_COUNT, 1, request->samples);
+        return make_pass(request, PASS_COUNT, 1, full->samples);
     return (Pass){0};
 }
 

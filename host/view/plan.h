@@ -6,16 +6,14 @@
 // and triangle tests.
 #pragma once
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "render/tile.h"
 
 #define PLAN_FRAME_SECONDS (1 / 30.0)
 
 typedef struct {
     bool is_wanted;
     uint64_t subject; // identifies scene, camera and size; pictures of other subjects do not count
-    uint32_t width, height;
-    uint32_t samples;      // along each side of a pixel
+    RenderSettings full;   // of the full picture with all samples
     double sample_seconds; // tracing time per sample, guessed at first, then measured
 } PlanRequest;
 
@@ -35,10 +33,8 @@ typedef enum {
 
 typedef struct {
     PassKind kind;
-    uint32_t divisor; // one traced pixel covers divisor x divisor pixels
-    uint32_t samples;
-    uint32_t width, height; // of the traced picture
-    uint32_t tile;          // side of a tile in pixels; small, so that passes stop quickly
+    uint32_t divisor;        // one traced pixel covers divisor x divisor pixels
+    RenderSettings settings; // of the traced picture; tiles are small, so that passes stop quickly
 } Pass;
 
 Pass plan_pass(const PlanRequest *request, const PlanReached *reached);

@@ -249,10 +249,12 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
                                       .samples = 1};
     viewer->status.busy = "";
     canvas_open(&viewer->canvas, settings->encoding);
-    const WorkerSetup setup = {&viewer->settings.tracer, &viewer->canvas, glfwPostEmptyEvent};
+    WorkerSetup setup = settings->worker;
+    setup.canvas = &viewer->canvas;
+    setup.wake = glfwPostEmptyEvent;
     ViewerEnd end = VIEWER_NO_DEVICE;
     // Watches the files before they are first read, so that changes during the read are detected.
-    const char *kernels = settings->tracer.session.kernel_folder;
+    const char *kernels = settings->worker.session.kernel_folder;
     if (viewer_watch_files(viewer, error) &&
         watch_set(&viewer->kernel_files, &kernels, kernels != NULL, error))
         viewer->worker = worker_start(&setup, &viewer->request, error);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "image/image_file.h"
-#include "view/tracer.h"
+#include "view/worker.h"
 
 typedef struct {
     const char *scene_path;
@@ -13,12 +13,12 @@ typedef struct {
     uint32_t samples;       // along each side of a pixel, with anti-aliasing
     bool smooth, uses_bvh;  // initial values; smooth: resting pictures are anti-aliased
     Encoding encoding;
-    int exposure; // initial, in half stops
-    TracerOptions tracer;
-    const char *keys; // keys to play, starting in the OpenGL view; NULL for none
-    bool statistics;  // print frame times at the end
-    bool verbose;     // print the state whenever it changes
-    double patience;  // seconds to wait for the worker thread at the end
+    int exposure;       // initial, in half stops
+    WorkerSetup worker; // without canvas and wake
+    const char *keys;   // keys to play, starting in the OpenGL view; NULL for none
+    bool statistics;    // print frame times at the end
+    bool verbose;       // print the state whenever it changes
+    double patience;    // seconds to wait for the worker thread at the end
 } ViewerSettings;
 
 typedef enum { VIEWER_CLOSED, VIEWER_NO_WINDOW, VIEWER_NO_SCENE, VIEWER_NO_DEVICE } ViewerEnd;

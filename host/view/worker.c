@@ -5,14 +5,25 @@
 
 #include <stdlib.h>
 
+RenderSettings worker_settings(const Worker *worker, const WorkerRequest *request)
+{
+    const int32_t level = worker->setup.max_level;
+    const uint32_t given = level == CLRT_LEVEL_NONE ? 0 : (uint32_t)level;
+    const bool is_scenes = level == 0 && worker->traced != NULL;
+    return (RenderSettings){.width = request->width,
+                            .height = request->height,
+                            .samples = request->samples,
+                            .max_level = is_scenes ? worker->traced->scene.max_level : given,
+                            .tile_width = 1,
+                            .tile_height = 1};
+}
+
 static Pass next_pass(const Worker *worker)
 {
     const WorkerRequest *request = &worker->request;
-    const PlanRequest plan = {.is_wanted = request->is_traced && worker->tracer.model != NULL,
+    const PlanRequest plan = {.is_wanted = request->is_traced && worker->traced != NULL,
                               .subject = request->subject,
-                              .width = request->width,
-                              .height = request->height,
-                              .samples = request->samples,
+                              .full = worker_settings(worker, request),
                               .sample_seconds = worker->sample_seconds};
     return plan_pass(&plan, &worker->status.reached);
 }
@@ -45,12 +56,12 @@ static Job await_job(Worker *worker)
         job.kind = next_kind(worker, &job.pass);
         if (job.kind != JOB_PASS || job.pass.kind != PASS_NONE)
             break;
-        if (kernel_set_is_saved(&worker->tracer.session.kernels)) {
+        if (kernel_set_is_saved(&worker->session.kernels)) {
             pthread_cond_wait(&worker->changed, &worker->mutex);
             continue;
         }
         pthread_mutex_unlock(&worker->mutex);
-        kernel_set_save(&worker->tracer.session.kernels);
+        kernel_set_save(&worker->session.kernels);
         pthread_mutex_lock(&worker->mutex);
     }
     pthread_mutex_unlock(&worker->mutex);
@@ -67,7 +78,8 @@ static void *work(void *context)
     Worker *worker = context;
     for (Job job = await_job(worker); job.kind != JOB_STOP; job = await_job(worker))
         run[job.kind](worker, &job);
-    tracer_close(&worker->tracer);
+    session_close(&worker->session);
+    model_release(worker->traced);
     return NULL;
 }
 

@@ -16,8 +16,10 @@
 // Invariant: one mutex guards request, status and model, and no thread holds it during long work.
 #pragma once
 
+#include "session/session.h"
 #include "view/draw/canvas.h"
-#include "view/tracer.h"
+#include "view/model.h"
+#include "view/plan.h"
 
 typedef struct {
     const char *path; // path of the scene; the string outlives the worker
@@ -59,9 +61,11 @@ typedef struct {
 
 typedef struct Worker Worker;
 
-// The inputs of a worker. The options and the canvas must outlive the worker.
+// The inputs of a worker. The canvas must outlive the worker.
 typedef struct {
-    const TracerOptions *options;
+    SessionSettings session;
+    Cache cache;
+    int32_t max_level; // as ClrtPicture::max_level
     Canvas *canvas;
     void (*wake)(void); // called by the worker after every status update
 } WorkerSetup;

@@ -2,6 +2,7 @@
 // The data that worker.c and jobs.c share. worker.c chooses jobs, and jobs.c runs them.
 #pragma once
 
+#include "session/picture.h"
 #include "view/worker.h"
 
 struct Worker {
@@ -14,7 +15,9 @@ struct Worker {
     Model *model;
     bool stops;
     // Only the worker thread uses the members below.
-    ViewTracer tracer;
+    Session session;
+    Model *traced;         // the session's model, with a reference; may be NULL
+    PictureResult drawn;   // the latest picture
     double sample_seconds; // tracing time per sample
     bool has_measured;     // sample_seconds is measured, not guessed
     double woken;          // clock time of the latest status update
@@ -27,6 +30,9 @@ typedef struct {
     WorkerRequest request; // the request when the job was chosen
     Pass pass;
 } Job;
+
+// Returns the settings of the picture that the request describes, with tiles of one pixel.
+RenderSettings worker_settings(const Worker *worker, const WorkerRequest *request);
 
 // Each function runs one kind of job. The first load also opens the device.
 void jobs_load(Worker *worker, const Job *job);

@@ -39,7 +39,7 @@ static void show_once(const char *keys)
         .height = 256,
         .samples = 2,
         .uses_bvh = true,
-        .tracer = {.session = {.wanted = {.threads = 2}}, .cache = cache},
+        .worker = {.session = {.wanted = {.threads = 2}}, .cache = cache},
         .keys = keys,
         .patience = 60};
     if (viewer_run(&settings, &error) != VIEWER_CLOSED)

@@ -19,9 +19,7 @@
 
 static const PlanRequest plain = {.is_wanted = true,
                                   .subject = 7,
-                                  .width = 500,
-                                  .height = 300,
-                                  .samples = 2,
+                                  .full = {.width = 500, .height = 300, .samples = 2},
                                   .sample_seconds = 1e-9};
 
 TEST(a_still_picture_sharpens_step_by_step)
@@ -31,14 +29,14 @@ TEST(a_still_picture_sharpens_step_by_step)
     PlanReached reached = {0};
     Pass pass = plan_pass(&request, &reached);
     assert_int_equal(pass.kind, PASS_MOVING);
-    assert_true(pass.divisor > 1 && pass.samples == 1);
-    assert_int_equal(pass.width, (500 + pass.divisor - 1) / pass.divisor);
+    assert_true(pass.divisor > 1 && pass.settings.samples == 1);
+    assert_int_equal(pass.settings.width, (500 + pass.divisor - 1) / pass.divisor);
     reached = (PlanReached){7, pass.divisor, 1, false};
     pass = plan_pass(&request, &reached);
-    assert_true(pass.kind == PASS_FULL && pass.divisor == 1 && pass.samples == 1);
+    assert_true(pass.kind == PASS_FULL && pass.divisor == 1 && pass.settings.samples == 1);
     reached = (PlanReached){7, 1, 1, false};
     pass = plan_pass(&request, &reached);
-    assert_true(pass.kind == PASS_FULL && pass.samples == 2);
+    assert_true(pass.kind == PASS_FULL && pass.settings.samples == 2);
     reached = (PlanReached){7, 1, 2, false};
     assert_int_equal(plan_pass(&request, &reached).kind, PASS_COUNT);
     reached.is_counted = true;
@@ -54,7 +52,8 @@ TEST(moving_pictures_take_the_time_of_a_frame)
         request.sample_seconds = cost;
         const Pass pass = plan_pass(&request, &reached);
         assert_int_equal(pass.kind, PASS_MOVING);
-        assert_true(pass.width * pass.height * cost < PLAN_FRAME_SECONDS || pass.divisor == 16);
+        assert_true(pass.settings.width * pass.settings.height * cost < PLAN_FRAME_SECONDS ||
+                    pass.divisor == 16);
     }
 }
 
@@ -62,12 +61,13 @@ TEST(tiles_are_so_small_that_stopping_takes_no_time)
 {
     const PlanReached reached = {7, 1, 1, false};
     PlanRequest request = plain;
-    assert_int_equal(plan_pass(&request, &reached).tile, 128);
+    assert_int_equal(plan_pass(&request, &reached).settings.tile_width, 128);
     for (double cost = 1e-9; cost < 4e-5; cost *= 1.1) {
         request.sample_seconds = cost;
         const Pass pass = plan_pass(&request, &reached);
-        const double seconds = pass.tile * pass.tile * cost * pass.samples * pass.samples;
-        assert_true(seconds < 0.02 || pass.tile == 8);
+        const double seconds = pass.settings.tile_width * pass.settings.tile_width * cost *
+                               pass.settings.samples * pass.settings.samples;
+        assert_true(seconds < 0.02 || pass.settings.tile_width == 8);
     }
 }
 
@@ -75,7 +75,7 @@ TEST(nothing_is_traced_without_a_request_or_without_a_window)
 {
     const PlanReached reached = {0};
     PlanRequest request = plain;
-    request.width = 0;
+    request.full.width = 0;
     assert_int_equal(plan_pass(&request, &reached).kind, PASS_NONE);
     request = plain;
     request.is_wanted = false;

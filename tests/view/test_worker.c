@@ -63,8 +63,10 @@ TEST(a_long_picture_of_a_moving_camera_is_stopped)
     Error error = {0};
     cache_open(&cache);
     canvas_open(&canvas, ENCODE_RAW);
-    const TracerOptions options = {.session = {.wanted = {.threads = 2}}, .cache = cache};
-    const WorkerSetup setup = {&options, &canvas, ignore_news};
+    const WorkerSetup setup = {.session = {.wanted = {.threads = 2}},
+                               .cache = cache,
+                               .canvas = &canvas,
+                               .wake = ignore_news};
     // The coarse picture has 750,000 pixels.
     WorkerRequest request = {
         .path = path, .loads = 1, .width = 16000, .height = 12000, .samples = 1, .gain = 1};
