@@ -40,8 +40,8 @@ static const char *name_material(const Scene *scene, uint32_t material)
 {
     static const char *const courses[] = {"0", "1", "2", "3"};
     for (size_t i = 0; i < scene->material_names.list.count; i++)
-        if (scene->material_names.list.data[i].material == material)
-            return scene->material_names.list.data[i].name;
+        if (scene->material_names.list.data[i]->material == material)
+            return scene->material_names.list.data[i]->name;
     assert(material < sizeof courses / sizeof *courses);
     return courses[material];
 }

@@ -1,70 +1,48 @@
 // SPDX-License-Identifier: MIT
-// Finds names by a hash table with linear probing. At most half of the slots are in use, so a
-// search tests few slots.
+// Finds names in a balanced tree of the C library.
 #include "scene/material_names.h"
 
+#include <search.h>
 #include <stdlib.h>
 #include <string.h>
-#include <xxhash.h>
 
-#define FIRST_SLOTS 64
-
-// Returns the slot of the name, or the empty slot where the name belongs.
-static uint32_t *find_slot(const MaterialNames *names, const char *name, size_t length)
+static int compare(const void *first, const void *second)
 {
-    const size_t mask = names->slots.count - 1;
-    for (size_t place = XXH3_64bits(name, length) & mask;; place = (place + 1) & mask) {
-        uint32_t *slot = &names->slots.data[place];
-        if (*slot == 0)
-            return slot;
-        const char *held = names->list.data[*slot - 1].name;
-        if (strlen(held) == length && memcmp(held, name, length) == 0)
-            return slot;
-    }
-}
-
-// Stores the entry in the table, unless an earlier entry has the same name.
-static void enter(MaterialNames *names, size_t index)
-{
-    const char *name = names->list.data[index].name;
-    uint32_t *slot = find_slot(names, name, strlen(name));
-    if (*slot == 0)
-        *slot = (uint32_t)index + 1;
-}
-
-// Doubles the table and enters all names again.
-static bool grow(MaterialNames *names, Error *error)
-{
-    const size_t count = names->slots.count == 0 ? FIRST_SLOTS : 2 * names->slots.count;
-    uint32_t *slots = memory_zeroed(count, sizeof *slots, error);
-    if (slots == NULL)
-        return false;
-    free(names->slots.memory);
-    names->slots.data = slots;
-    names->slots.count = names->slots.capacity = count;
-    for (size_t index = 0; index < names->list.count; index++)
-        enter(names, index);
-    return true;
+    const MaterialName *a = first, *b = second;
+    return strcmp(a->name, b->name);
 }
 
 bool material_names_add(MaterialNames *names, const MaterialName *name, Error *error)
 {
-    if ((2 * (names->list.count + 1) > names->slots.count && !grow(names, error)) ||
-        !array_push(&names->list, *name, error))
+    MaterialName *held = memory_raw(1, sizeof *held, error);
+    if (held == NULL || !array_push(&names->list, held, error)) {
+        free(held);
         return false;
-    enter(names, names->list.count - 1);
-    return true;
+    }
+    *held = *name;
+    return tsearch(held, &names->tree, compare) != NULL || error_out_of_memory(error, sizeof *held);
 }
 
 const MaterialName *material_names_find(const MaterialNames *names, const char *name, size_t length)
 {
-    const uint32_t slot = names->slots.count == 0 ? 0 : *find_slot(names, name, length);
-    return slot == 0 ? NULL : &names->list.data[slot - 1];
+    MaterialName key = {0};
+    if (length >= sizeof key.name)
+        return NULL;
+    memcpy(key.name, name, length);
+    MaterialName *const *found = tfind(&key, &names->tree, compare);
+    return found == NULL ? NULL : *found;
+}
+
+static void keep(void *name)
+{
+    (void)name; // list owns it
 }
 
 void material_names_free(MaterialNames *names)
 {
+    tdestroy(names->tree, keep);
+    for (size_t i = 0; i < names->list.count; i++)
+        free(names->list.data[i]);
     free(names->list.memory);
-    free(names->slots.memory);
     *names = (MaterialNames){0};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The names of materials, in the order in which they were added, and a hash table that finds them.
+// The names of materials, in the order in which they were added, and a tree that finds them.
 #pragma once
 
 #include "base/array.h"
@@ -13,8 +13,8 @@ typedef struct {
 
 // {0} has no names.
 typedef struct {
-    ARRAY(MaterialName) list;
-    ARRAY(uint32_t) slots; // their count is a power of two; each is 1 + an index in list, or 0
+    ARRAY(MaterialName *) list; // owned
+    void *tree;                 // by name; of tsearch
 } MaterialNames;
 
 // Appends a name. Returns false if memory runs out.

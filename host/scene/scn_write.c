@@ -196,8 +196,8 @@ static bool choose_names(Writer *writer, Error *error)
     const char **given = memory_zeroed(scene->materials.count, sizeof *given, error);
     bool ok = given != NULL;
     for (size_t i = 0; ok && i < scene->material_names.list.count; i++)
-        given[scene->material_names.list.data[i].material] =
-            scene->material_names.list.data[i].name;
+        given[scene->material_names.list.data[i]->material] =
+            scene->material_names.list.data[i]->name;
     for (uint32_t i = COURSE_MATERIALS; ok && i < scene->materials.count; i++)
         ok = choose_name(writer, i, given[i], error);
     free(given);
@@ -206,7 +206,7 @@ static bool choose_names(Writer *writer, Error *error)
 
 static const char *name_of(const Writer *writer, size_t material)
 {
-    return writer->names.list.data[material - COURSE_MATERIALS].name;
+    return writer->names.list.data[material - COURSE_MATERIALS]->name;
 }
 
 // Omits the properties that the material's shader ignores, and a checker of size 0.

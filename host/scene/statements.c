@@ -56,7 +56,7 @@ static bool unknown_name(const Scene *scene, const Tokens *tokens, Token token)
     if (names == NULL)
         return false;
     for (size_t i = 0; i < count; i++)
-        names[i] = scene->material_names.list.data[i].name;
+        names[i] = scene->material_names.list.data[i]->name;
     if (token.text != NULL)
         nearest = word_nearest(token.text, token.length, names, count);
     if (nearest == NULL)
