@@ -12,7 +12,7 @@
 // The following functions visit each edge once and join its triangles into fans. A point with
 // several fans is pinched.
 
-static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t count)
+static void judge_edge(MeshCensus *census, const EdgeSide *sides, size_t count)
 {
     uint32_t lowest = sides[0].triangle;
     for (size_t side = 1; side < count; side++) {
@@ -21,23 +21,23 @@ static void judge_edge(Closedness *closedness, const EdgeSide *sides, size_t cou
         // highest point.
         if (sides[side].opposite == sides[side - 1].opposite &&
             sides[side].opposite > sides[side].high)
-            mesh_fault_add(&closedness->duplicates, sides[side].triangle);
+            mesh_fault_add(&census->duplicates, sides[side].triangle);
     }
-    closedness->edge_count++;
+    census->facts.edge_count++;
     if (count == 1)
-        mesh_fault_add(&closedness->open, lowest);
+        mesh_fault_add(&census->open, lowest);
     else if (count > 2)
-        mesh_fault_add(&closedness->crowded, lowest);
+        mesh_fault_add(&census->crowded, lowest);
     else if (sides[0].falling == sides[1].falling)
-        mesh_fault_add(&closedness->turned, lowest);
+        mesh_fault_add(&census->turned, lowest);
 }
 
-static void visit_edges(Closedness *closedness, const Edges *edges, Fans *fans)
+static void visit_edges(MeshCensus *census, const Edges *edges, Fans *fans)
 {
     Edge edge = {0};
     while (edges_next(edges, &edge)) {
         const EdgeSide *sides = edge.sides;
-        judge_edge(closedness, sides, edge.count);
+        judge_edge(census, sides, edge.count);
         for (size_t side = 1; side < edge.count; side++) {
             fans_join(fans, edge.low, sides[0].triangle, sides[side].triangle);
             fans_join(fans, sides[0].high, sides[0].triangle, sides[side].triangle);
@@ -45,7 +45,7 @@ static void visit_edges(Closedness *closedness, const Edges *edges, Fans *fans)
     }
 }
 
-static bool count_pinched(Closedness *closedness, const Fans *fans, Error *error)
+static bool count_pinched(MeshCensus *census, const Fans *fans, Error *error)
 {
     const Mesh *mesh = fans->mesh;
     bool *has_fan = memory_zeroed(mesh->vertex_count, sizeof *has_fan, error);
@@ -56,7 +56,7 @@ static bool count_pinched(Closedness *closedness, const Fans *fans, Error *error
         if (fans->parents[corner] != corner)
             continue;
         if (has_fan[point] && !is_pinched[point]) {
-            mesh_fault_add(&closedness->pinched, corner / 3);
+            mesh_fault_add(&census->pinched, corner / 3);
             is_pinched[point] = true;
         }
         has_fan[point] = true;
@@ -89,19 +89,19 @@ static double signed_volume(const Mesh *mesh)
     return volume;
 }
 
-bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld, const Edges *edges,
-                     Error *error)
+bool mesh_faults_find(MeshCensus *census, const Mesh *mesh, const Weld *weld, const Edges *edges,
+                      Error *error)
 {
     Fans fans;
-    *closedness = (Closedness){0};
+    *census = (MeshCensus){0};
     if (!fans_make(&fans, mesh, weld, error))
         return false;
-    visit_edges(closedness, edges, &fans);
-    const bool ok = count_pinched(closedness, &fans, error);
-    closedness->is_closed = mesh->triangle_count > 0 && closedness->open.count == 0 &&
-                            closedness->crowded.count == 0 && closedness->turned.count == 0 &&
-                            closedness->pinched.count == 0;
-    closedness->is_inside_out = closedness->is_closed && signed_volume(mesh) < 0;
+    visit_edges(census, edges, &fans);
+    const bool ok = count_pinched(census, &fans, error);
+    census->facts.closed = mesh->triangle_count > 0 && census->open.count == 0 &&
+                           census->crowded.count == 0 && census->turned.count == 0 &&
+                           census->pinched.count == 0;
+    census->facts.inside_out = census->facts.closed && signed_volume(mesh) < 0;
     free(fans.parents);
     return ok;
 }
@@ -191,11 +191,10 @@ static bool find_unused_materials(Census *census, const Scene *scene, Error *err
 // Replaces indices of triangles by their numbers in the file.
 static void number_triangles(MeshCensus *census, const MeshObject *object)
 {
-    Closedness *closed = &census->closedness;
     Features *features = &census->features;
     size_t *const triangles[] = {
-        &closed->open.first,      &closed->crowded.first,     &closed->turned.first,
-        &closed->pinched.first,   &closed->duplicates.first,  &features->flat.first,
+        &census->open.first,      &census->crowded.first,     &census->turned.first,
+        &census->pinched.first,   &census->duplicates.first,  &features->flat.first,
         &features->edge.triangle, &features->height.triangle, &features->written_edge.triangle};
     for (size_t i = 0; i < sizeof triangles / sizeof *triangles; i++)
         *triangles[i] = (size_t)number_in_file(object, *triangles[i]);
@@ -208,10 +207,17 @@ static bool take_mesh(MeshCensus *census, const MeshObject *object,
     Weld weld = {0};
     Edges edges = {0};
     const bool ok = weld_make(&weld, mesh, error) && edges_make(&edges, mesh, &weld, error) &&
-                    closedness_find(&census->closedness, mesh, &weld, &edges, error);
-    census->features = features_of(mesh, normalization);
-    census->unused_vertices = weld.unused_count;
-    census->repeated_vertices = weld.repeated_count;
+                    mesh_faults_find(census, mesh, &weld, &edges, error);
+    const Features features = features_of(mesh, normalization);
+    census->features = features;
+    census->facts.triangle_count = mesh->triangle_count;
+    census->facts.vertex_count = mesh->vertex_count;
+    census->facts.unused_vertices = weld.unused_count;
+    census->facts.repeated_vertices = weld.repeated_count;
+    census->facts.shortest_edge = features.edge.size;
+    census->facts.shortest_steps = features.edge.steps;
+    census->facts.lowest_height = features.height.size;
+    census->facts.lowest_steps = features.height.steps;
     number_triangles(census, object);
     edges_free(&edges);
     weld_free(&weld);

@@ -3,34 +3,29 @@
 #pragma once
 
 #include "check/features.h"
+#include "library/clrt.h"
 #include "mesh/edges.h"
 
 // A mesh is closed if every edge has two consistently oriented triangles, and the triangles around
 // each point form one fan.
 
-// Each MeshFault counts edges, points or triangles. Its field `first` is a triangle at a fault.
+// The counts of one mesh. Triangles are numbered as in the file. The faults that the file's reader
+// found are in the Mesh.
 typedef struct {
-    size_t edge_count;
+    ClrtCheckedMesh facts; // size and path are unset; the counts of rays are 0 before leaks_count
+    // Each MeshFault counts edges, points, triangles or rays. Its `first` is a triangle at a fault.
     MeshFault open;       // edges of one triangle
     MeshFault crowded;    // edges of more than two triangles
     MeshFault turned;     // edges that both triangles follow in the same direction
     MeshFault pinched;    // points whose triangles form several fans
     MeshFault duplicates; // triangles with the corners of an earlier triangle, in any order
-    bool is_closed;       // the mesh has triangles, and none of the first four faults
-    bool is_inside_out;   // the mesh is closed, and the fronts face inwards
-} Closedness;
-
-bool closedness_find(Closedness *closedness, const Mesh *mesh, const Weld *weld, const Edges *edges,
-                     Error *error);
-
-// The counts of one mesh. Triangles are numbered as in the file. The faults that the file's reader
-// found are in the Mesh.
-typedef struct {
-    Closedness closedness;
+    MeshFault leaks;      // rays that passed
     Features features;
-    size_t unused_vertices;   // vertices that no triangle uses
-    size_t repeated_vertices; // used vertices at the position of an earlier used vertex
 } MeshCensus;
+
+// Finds the first five faults, counts the edges, and finds whether the mesh is closed.
+bool mesh_faults_find(MeshCensus *census, const Mesh *mesh, const Weld *weld, const Edges *edges,
+                      Error *error);
 
 typedef struct {
     MeshCensus *meshes; // by object; owned

@@ -73,8 +73,7 @@ static bool find_container(EnclosedEyes *found, const Scene *scene, const Census
     found->sphere = 0;
     for (size_t i = 0; i < scene->objects.count; i++) {
         found->object = i;
-        if (census->meshes[i].closedness.is_closed &&
-            mesh_contains(&scene->objects.data[i].mesh, eye))
+        if (census->meshes[i].facts.closed && mesh_contains(&scene->objects.data[i].mesh, eye))
             return true;
     }
     return false;
@@ -206,8 +205,6 @@ void check_count_faults(const Check *check, size_t object, MeshFault counts[FAUL
     const MeshObject *given = &check->scene->objects.data[object];
     const Mesh *mesh = &given->mesh;
     const MeshCensus *census = &check->census.meshes[object];
-    const Closedness *closed = &census->closedness;
-    const bool leaks = check->leaks != NULL && closed->is_closed;
     counts[FAULT_BAD_POSITIONS] = mesh->bad_positions;
     counts[FAULT_BAD_NORMALS] = mesh->bad_normals;
     counts[FAULT_LOST_CORNERS] = mesh->lost_corners;
@@ -215,12 +212,13 @@ void check_count_faults(const Check *check, size_t object, MeshFault counts[FAUL
     counts[FAULT_LOST_CORNERS].first += given->number_before;
     counts[FAULT_EQUAL_CORNERS].first += given->number_before;
     counts[FAULT_FLAT] = census->features.flat;
-    counts[FAULT_DUPLICATES] = closed->duplicates;
-    counts[FAULT_LEAKS] = leaks ? check->leaks[object].leaks : (MeshFault){0};
-    counts[FAULT_OPEN] = closed->open;
-    counts[FAULT_CROWDED] = closed->crowded;
-    counts[FAULT_TURNED] = closed->turned;
-    counts[FAULT_PINCHED] = closed->pinched;
+    counts[FAULT_DUPLICATES] = census->duplicates;
+    counts[FAULT_LEAKS] =
+        check->device != NULL && census->facts.closed ? census->leaks : (MeshFault){0};
+    counts[FAULT_OPEN] = census->open;
+    counts[FAULT_CROWDED] = census->crowded;
+    counts[FAULT_TURNED] = census->turned;
+    counts[FAULT_PINCHED] = census->pinched;
 }
 
 static void add_mesh_faults(Check *check, size_t object)
@@ -242,18 +240,18 @@ static void add_shape(Check *check, size_t object)
     const MeshObject *mesh = &check->scene->objects.data[object];
     const MeshCensus *census = &check->census.meshes[object];
     const bool is_glass = check->scene->materials.data[mesh->material].shader == SHADER_GLASS;
-    const bool is_open = mesh->mesh.triangle_count > 0 && !census->closedness.is_closed;
+    const bool is_open = mesh->mesh.triangle_count > 0 && !census->facts.closed;
     add(check, "empty_mesh", note(object, mesh->mesh.triangle_count == 0),
         "the mesh has no triangles");
-    const bool is_inside_out = census->closedness.is_inside_out;
+    const bool is_inside_out = census->facts.inside_out;
     add(check, "inside_out", note(object, is_inside_out && !is_glass && !mesh->two_sided),
         "its fronts face inwards, so only its far side is visible from outside");
     add(check, "inside_out", note(object, is_inside_out && is_glass),
         "its fronts face inwards, so its glass is outside");
     add(check, "open_glass", note(object, is_glass && is_open),
         "it is glass but not closed, so light that enters it may never leave it");
-    add(check, "unused_vertices", note(object, census->unused_vertices),
-        "%zu vertices that no triangle uses", census->unused_vertices);
+    add(check, "unused_vertices", note(object, census->facts.unused_vertices),
+        "%zu vertices that no triangle uses", (size_t)census->facts.unused_vertices);
     const bool is_placed = check->scale_fault.text[0] == '\0';
     add(check, "out_of_view",
         note(object, is_placed && is_out_of_view(check->scene, &check->normalization, object)),

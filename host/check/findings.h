@@ -11,7 +11,6 @@ typedef struct {
     Normalization normalization;
     Census census;
     const char *device; // its name; NULL if no rays were traced
-    LeakCount *leaks;   // by object; NULL if no rays were traced; owned
     Error scale_fault;  // the reason why the scene cannot be drawn; empty if it can be drawn
     Error device_fault; // the reason why no rays could be traced; empty otherwise
     ARRAY(ClrtFinding) findings; // for each object in order, then for the scene

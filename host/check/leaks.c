@@ -12,8 +12,7 @@ typedef struct {
     Aims aims;
 } StagedMesh;
 
-static bool make_aims(StagedMesh *staged, const Mesh *mesh, const LeakSetting *setting,
-                      Error *error)
+static bool make_aims(StagedMesh *staged, const Mesh *mesh, bool is_inside_out, Error *error)
 {
     Weld weld = {0};
     Edges edges = {0};
@@ -21,7 +20,7 @@ static bool make_aims(StagedMesh *staged, const Mesh *mesh, const LeakSetting *s
                               .triangles = &staged->form.stages.triangles,
                               .weld = &weld,
                               .edges = &edges,
-                              .is_inside_out = setting->closedness->is_inside_out};
+                              .is_inside_out = is_inside_out};
     const bool ok = weld_make(&weld, mesh, error) && edges_make(&edges, mesh, &weld, error) &&
                     aims_make(&staged->aims, &source, LEAKS_AIMS, error);
     edges_free(&edges);
@@ -43,7 +42,8 @@ static bool make_batch(RayBatch *batch, size_t count, Error *error)
     return batch->rays != NULL && batch->targets != NULL && batch->hits != NULL;
 }
 
-static bool trace_aims(StagedMesh *staged, LeakCount *count, const RayCaster *caster, Error *error)
+static bool trace_aims(StagedMesh *staged, MeshCensus *census, const RayCaster *caster,
+                       Error *error)
 {
     Aims *aims = &staged->aims;
     size_t (*const make_rays[2])(Aims *, RayData *, uint32_t *) = {aims_shoot_from_afar,
@@ -60,7 +60,7 @@ static bool trace_aims(StagedMesh *staged, LeakCount *count, const RayCaster *ca
         }
         if (ok)
             aims_judge(aims, batch.targets, batch.hits, rays);
-        count->rays += rays;
+        census->facts.ray_count += rays;
     }
     free(batch.rays);
     free(batch.targets);
@@ -68,37 +68,37 @@ static bool trace_aims(StagedMesh *staged, LeakCount *count, const RayCaster *ca
     return ok;
 }
 
-static void sum_up(const Aims *aims, const MeshObject *given, LeakCount *count)
+static void sum_up(const Aims *aims, const MeshObject *given, MeshCensus *census)
 {
-    count->total = aims->total;
+    ClrtCheckedMesh *facts = &census->facts;
+    facts->aim_count = aims->total;
     for (size_t i = 0; i < aims->count; i++) {
         const Aim *aimed = &aims->aims[i];
-        count->aimed += aimed->state != AIM_UNTRIED;
-        count->hidden += aimed->state == AIM_HIDDEN;
+        facts->aimed_at += aimed->state != AIM_UNTRIED;
+        facts->hidden += aimed->state == AIM_HIDDEN;
         if (aimed->state == AIM_LEAKED)
-            mesh_fault_add(&count->leaks, (size_t)number_in_file(given, aimed->triangle));
+            mesh_fault_add(&census->leaks, (size_t)number_in_file(given, aimed->triangle));
     }
+    facts->leaks = census->leaks.count;
 }
 
-bool leaks_count(LeakCount *count, RayCaster *caster, const MeshObject *given,
-                 const LeakSetting *setting, Error *error)
+bool leaks_count(MeshCensus *census, RayCaster *caster, const MeshObject *given,
+                 const Normalization *normalization, const Session *session, Error *error)
 {
     StagedMesh staged = {0};
     MeshObject object = {.mesh = given->mesh, .two_sided = true};
-    const Session *session = setting->session;
     SceneForm *form = &staged.form;
     const FlatSource source = {.scene = &staged.scene,
-                               .normalization = setting->normalization,
+                               .normalization = normalization,
                                .layout = caster->kernel->choice.nodes,
                                .has_tree = session->settings.wanted.tree != CLRT_TREE_NONE};
-    *count = (LeakCount){0};
     bool ok = scene_init(&staged.scene, error) &&
               array_push(&staged.scene.objects, object, error) &&
               session_compile(session, &source, form, error) &&
-              make_aims(&staged, &given->mesh, setting, error) &&
+              make_aims(&staged, &given->mesh, census->facts.inside_out, error) &&
               scene_buffers_make(&form->buffers, &session->device, &form->flat, error) &&
-              trace_aims(&staged, count, caster, error);
-    sum_up(&staged.aims, given, count);
+              trace_aims(&staged, census, caster, error);
+    sum_up(&staged.aims, given, census);
     aims_free(&staged.aims);
     scene_form_free(form);
     if (staged.scene.objects.count > 0)

@@ -10,19 +10,7 @@
 // The check casts rays at no more than this number of aims per mesh.
 #define LEAKS_AIMS 1048576
 
-typedef struct {
-    size_t total;    // aims of the mesh (aims.h): edges, points and positions beyond open edges
-    size_t aimed;    // aims that got a ray
-    size_t rays;     // rays cast; some aims got two
-    size_t hidden;   // aims behind other parts of the mesh
-    MeshFault leaks; // rays that passed; `first` is a triangle there, numbered as in the file
-} LeakCount;
-
-typedef struct {
-    const Session *session;
-    const Normalization *normalization; // of the mesh's scene
-    const Closedness *closedness;       // of the mesh
-} LeakSetting;
-
-bool leaks_count(LeakCount *count, RayCaster *caster, const MeshObject *given,
-                 const LeakSetting *setting, Error *error);
+// Fills the facts about aims, rays and leaks in census. `normalization` is that of the mesh's
+// scene.
+bool leaks_count(MeshCensus *census, RayCaster *caster, const MeshObject *given,
+                 const Normalization *normalization, const Session *session, Error *error);

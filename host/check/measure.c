@@ -15,11 +15,10 @@ static bool count_leaks(Check *check, const Session *session, RayCaster *caster,
 {
     bool ok = true;
     for (size_t object = 0; ok && object < check->scene->objects.count; object++) {
-        const LeakSetting setting = {session, &check->normalization,
-                                     &check->census.meshes[object].closedness};
         const MeshObject *given = &check->scene->objects.data[object];
         if (given->mesh.triangle_count > 0)
-            ok = leaks_count(&check->leaks[object], caster, given, &setting, error);
+            ok = leaks_count(&check->census.meshes[object], caster, given, &check->normalization,
+                             session, error);
     }
     return ok;
 }
@@ -27,24 +26,16 @@ static bool count_leaks(Check *check, const Session *session, RayCaster *caster,
 bool check_trace(Check *check, Session *session, Error *error)
 {
     RayCaster caster = {0};
-    check->leaks = memory_zeroed(check->scene->objects.count, sizeof *check->leaks, error);
-    const bool ok = check->leaks != NULL &&
-                    ray_caster_open(&caster, session, RAYS_NEAREST, error) &&
+    const bool ok = ray_caster_open(&caster, session, RAYS_NEAREST, error) &&
                     count_leaks(check, session, &caster, error);
     ray_caster_close(&caster);
-    if (ok) {
-        check->device = session->device.facts.name;
-        return true;
-    }
-    free(check->leaks);
-    check->leaks = NULL;
-    return false;
+    check->device = ok ? session->device.facts.name : NULL;
+    return ok;
 }
 
 void check_free(Check *check)
 {
     free(check->findings.memory);
-    free(check->leaks);
     census_free(&check->census);
     *check = (Check){0};
 }

@@ -8,7 +8,7 @@
 // Measures the meshes of check->scene without a device.
 bool check_measure(Check *check, Error *error);
 
-// Casts rays at the meshes, after check_measure. On failure, check->leaks is NULL.
+// Casts rays at the meshes, after check_measure. On failure, check->device is NULL.
 bool check_trace(Check *check, Session *session, Error *error);
 
 void check_free(Check *check);

@@ -20,14 +20,14 @@ static json_t *feature_json(const Feature *feature)
                 FIELD("triangle", found ? json_count(feature->triangle) : json_null()));
 }
 
-static json_t *leaks_json(const Check *check, size_t object)
+static json_t *leaks_json(const Check *check, const MeshCensus *census)
 {
-    if (check->leaks == NULL)
+    const ClrtCheckedMesh *facts = &census->facts;
+    if (check->device == NULL)
         return json_null();
-    const LeakCount *leaks = &check->leaks[object];
-    return JSON(FIELD("leaks", fault_json(leaks->leaks)), FIELD("rays", leaks->rays),
-                FIELD("aims", leaks->total), FIELD("aimed_at", leaks->aimed),
-                FIELD("hidden", leaks->hidden), FIELD("cap", json_count(LEAKS_AIMS)));
+    return JSON(FIELD("leaks", fault_json(census->leaks)), FIELD("rays", facts->ray_count),
+                FIELD("aims", facts->aim_count), FIELD("aimed_at", facts->aimed_at),
+                FIELD("hidden", facts->hidden), FIELD("cap", json_count(LEAKS_AIMS)));
 }
 
 // Returns the counts of an object's faults. The leaks are in the member "leak_test" instead.
@@ -44,21 +44,20 @@ static json_t *faults_json(const Check *check, size_t object)
 
 static json_t *mesh_json(const Check *check, size_t object)
 {
-    const Mesh *mesh = &check->scene->objects.data[object].mesh;
     const MeshCensus *census = &check->census.meshes[object];
+    const ClrtCheckedMesh *facts = &census->facts;
     const Features *features = &census->features;
     return JSON(FIELD("path", check_mesh_path(check, object)),
-                FIELD("triangles", mesh->triangle_count), FIELD("vertices", mesh->vertex_count),
-                FIELD("edges", census->closedness.edge_count),
-                FIELD("closed", census->closedness.is_closed),
-                FIELD("inside_out", census->closedness.is_inside_out),
-                FIELD("unused_vertices", census->unused_vertices),
-                FIELD("repeated_vertices", census->repeated_vertices),
+                FIELD("triangles", facts->triangle_count), FIELD("vertices", facts->vertex_count),
+                FIELD("edges", facts->edge_count), FIELD("closed", facts->closed),
+                FIELD("inside_out", facts->inside_out),
+                FIELD("unused_vertices", facts->unused_vertices),
+                FIELD("repeated_vertices", facts->repeated_vertices),
                 FIELD("faults", faults_json(check, object)),
                 FIELD("shortest_edge", feature_json(&features->edge)),
                 FIELD("lowest_height", feature_json(&features->height)),
                 FIELD("shortest_written_edge", feature_json(&features->written_edge)),
-                FIELD("leak_test", leaks_json(check, object)),
+                FIELD("leak_test", leaks_json(check, census)),
                 FIELD("holds_floats", features->holds_floats));
 }
 
@@ -123,21 +122,20 @@ static void write_findings(const Check *check, uint32_t mesh, size_t *next, FILE
 
 static void write_mesh(const Check *check, const json_t *mesh, size_t object, FILE *stream)
 {
-    const LeakCount *leaks = check->leaks == NULL ? NULL : &check->leaks[object];
-    const bool is_closed = check->census.meshes[object].closedness.is_closed;
+    const ClrtCheckedMesh *facts = &check->census.meshes[object].facts;
     json_print(mesh, "{path}: {triangles} triangles, {vertices} vertices, ", stream);
-    fputs(is_closed ? "closed\n" : "not closed\n", stream);
-    if (check->scene->objects.data[object].mesh.triangle_count == 0)
+    fputs(facts->closed ? "closed\n" : "not closed\n", stream);
+    if (facts->triangle_count == 0)
         return;
     json_print(mesh,
                "  shortest edge {shortest_edge.size .3g}, lowest height {lowest_height.size .3g}: "
                "{shortest_edge.steps .3g} and {lowest_height.steps .3g} steps of float\n",
                stream);
-    if (leaks == NULL)
+    if (check->device == NULL)
         return;
     json_print(
         mesh,
-        leaks->total > LEAKS_AIMS
+        facts->aim_count > LEAKS_AIMS
             ? "  {leak_test.rays} rays at {leak_test.aimed_at} of its {leak_test.aims} edges "
               "and points (at most {leak_test.cap} are aimed at)"
             : "  {leak_test.rays} rays at {leak_test.aimed_at} of its {leak_test.aims} edges "
@@ -146,7 +144,7 @@ static void write_mesh(const Check *check, const json_t *mesh, size_t object, FI
     json_print(mesh,
                ": {leak_test.hidden} hidden by other parts, {leak_test.leaks.count} pass through",
                stream);
-    fputs(leaks->leaks.count > 0 && !is_closed ? ", because it is not closed\n" : "\n", stream);
+    fputs(facts->leaks > 0 && !facts->closed ? ", because it is not closed\n" : "\n", stream);
 }
 
 void check_report_write_text(const Check *check, FILE *stream)
@@ -163,7 +161,7 @@ void check_report_write_text(const Check *check, FILE *stream)
             scene->lights.count);
     write_findings(check, NOTHING, &next, stream);
     json_decref(json);
-    if (check->leaks != NULL)
+    if (check->device != NULL)
         fprintf(stream, "  rays were traced on %s\n", check->device);
     else if (check->device_fault.text[0] != '\0')
         fprintf(stream, "  leaks were not tested: %s\n", check->device_fault.text);

@@ -22,32 +22,6 @@ void clrt_check_free(ClrtCheck *check)
     free(check);
 }
 
-static ClrtCheckedMesh mesh_of(const Check *check, size_t object)
-{
-    const char *path = check_mesh_path(check, object);
-    const Mesh *mesh = &check->scene->objects.data[object].mesh;
-    const MeshCensus *census = &check->census.meshes[object];
-    const LeakCount *leaks = &check->leaks[object];
-    ClrtCheckedMesh made = {.closed = census->closedness.is_closed,
-                            .inside_out = census->closedness.is_inside_out,
-                            .triangle_count = mesh->triangle_count,
-                            .vertex_count = mesh->vertex_count,
-                            .edge_count = census->closedness.edge_count,
-                            .unused_vertices = census->unused_vertices,
-                            .repeated_vertices = census->repeated_vertices,
-                            .shortest_edge = census->features.edge.size,
-                            .lowest_height = census->features.height.size,
-                            .shortest_steps = census->features.edge.steps,
-                            .lowest_steps = census->features.height.steps,
-                            .aim_count = leaks->total,
-                            .aimed_at = leaks->aimed,
-                            .ray_count = leaks->rays,
-                            .hidden = leaks->hidden,
-                            .leaks = leaks->leaks.count};
-    snprintf(made.path, sizeof made.path, "%s", path != NULL ? path : "");
-    return made;
-}
-
 // Moves the results into *made, which starts empty.
 static bool keep(ClrtCheck *made, Check *check, Error *cause)
 {
@@ -58,8 +32,11 @@ static bool keep(ClrtCheck *made, Check *check, Error *cause)
     made->findings = check->findings.data;
     check->findings.memory = NULL;
     made->meshes = memory_raw(meshes, sizeof *made->meshes, cause);
-    for (size_t i = 0; made->meshes != NULL && i < meshes; i++)
-        made->meshes[i] = mesh_of(check, i);
+    for (size_t i = 0; made->meshes != NULL && i < meshes; i++) {
+        const char *path = check_mesh_path(check, i);
+        made->meshes[i] = check->census.meshes[i].facts;
+        snprintf(made->meshes[i].path, sizeof made->meshes[i].path, "%s", path != NULL ? path : "");
+    }
     return made->meshes != NULL;
 }
 

@@ -29,13 +29,13 @@ static void judge_mesh(const Mesh *mesh)
 {
     Weld weld = {0};
     Edges edges = {0};
-    Closedness closedness = {0};
+    MeshCensus census = {0};
     Error error = {0};
     const Normalization frame = {{0, 0, 0}, 1};
     demand(weld_make(&weld, mesh, &error) && edges_make(&edges, mesh, &weld, &error) &&
-           closedness_find(&closedness, mesh, &weld, &edges, &error));
+           mesh_faults_find(&census, mesh, &weld, &edges, &error));
     demand(weld.unused_count + weld.repeated_count <= mesh->vertex_count);
-    demand(closedness.edge_count <= 3 * mesh->triangle_count);
+    demand(census.facts.edge_count <= 3 * mesh->triangle_count);
     demand(features_of(mesh, &frame).flat.count <= mesh->triangle_count);
     edges_free(&edges);
     weld_free(&weld);

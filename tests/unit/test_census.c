@@ -129,15 +129,15 @@ static const struct {
 TEST(edges_points_and_triangles_are_counted_by_fault)
 {
     for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
-        const Closedness found = mesh_census(meshes[i].points, meshes[i].faces).closedness;
-        assert_int_equal(found.edge_count, meshes[i].edge_count);
+        const MeshCensus found = mesh_census(meshes[i].points, meshes[i].faces);
+        assert_int_equal(found.facts.edge_count, meshes[i].edge_count);
         expect_fault(&found.open, meshes[i].open);
         expect_fault(&found.crowded, meshes[i].crowded);
         expect_fault(&found.turned, meshes[i].turned);
         expect_fault(&found.pinched, meshes[i].pinched);
         expect_fault(&found.duplicates, meshes[i].duplicates);
-        assert_int_equal(found.is_closed, meshes[i].is_closed);
-        assert_int_equal(found.is_inside_out, meshes[i].is_inside_out);
+        assert_int_equal(found.facts.closed, meshes[i].is_closed);
+        assert_int_equal(found.facts.inside_out, meshes[i].is_inside_out);
     }
 }
 
@@ -146,17 +146,17 @@ TEST(vertices_at_one_position_are_one_point)
     const MeshCensus found = mesh_census("0 0 0  0 1 0  1 0 0  0 0 0  1 0 0  0 0 1 "
                                          " -0 -0 0  0 0 1  0 1 0  1 0 0  0 1 0  0 0 1",
                                          "0 1 2  3 4 5  6 7 8  9 10 11");
-    assert_true(found.closedness.is_closed);
-    assert_int_equal(found.closedness.edge_count, 6);
-    assert_int_equal(found.repeated_vertices, 8);
-    assert_int_equal(found.unused_vertices, 0);
+    assert_true(found.facts.closed);
+    assert_int_equal(found.facts.edge_count, 6);
+    assert_int_equal(found.facts.repeated_vertices, 8);
+    assert_int_equal(found.facts.unused_vertices, 0);
 }
 
 TEST(vertices_that_nothing_uses_are_counted_apart)
 {
     const MeshCensus found = mesh_census("5 5 5  0 0 0  1 0 0  0 1 0  0 0 0  5 5 5", "1 2 3");
-    assert_int_equal(found.unused_vertices, 3);
-    assert_int_equal(found.repeated_vertices, 0);
+    assert_int_equal(found.facts.unused_vertices, 3);
+    assert_int_equal(found.facts.repeated_vertices, 0);
     assert_true(found.features.extent == 1);
 }
 
@@ -167,10 +167,10 @@ TEST(an_edge_of_many_triangles_is_sorted_too)
         snprintf(points + strlen(points), sizeof points - strlen(points), "  0 1 %d", i % 50);
         snprintf(faces + strlen(faces), sizeof faces - strlen(faces), "  0 1 %d", i + 2);
     }
-    const Closedness found = mesh_census(points, faces).closedness;
+    const MeshCensus found = mesh_census(points, faces);
     expect_fault(&found.crowded, (Expected){1, 0});
     expect_fault(&found.duplicates, (Expected){10, 50});
-    assert_int_equal(found.edge_count, 1 + 2 * 50);
+    assert_int_equal(found.facts.edge_count, 1 + 2 * 50);
 }
 
 TEST(triangles_of_no_area_are_counted)
@@ -193,8 +193,8 @@ TEST(nothing_of_an_empty_mesh_is_closed)
 {
     FREED_BY(release) Taken taken = census_of_mesh("0 0 0", "");
     assert_int_equal(taken.census.empty_meshes, 1);
-    assert_false(taken.census.meshes[0].closedness.is_closed);
-    assert_int_equal(taken.census.meshes[0].unused_vertices, 1);
+    assert_false(taken.census.meshes[0].facts.closed);
+    assert_int_equal(taken.census.meshes[0].facts.unused_vertices, 1);
     assert_true(isinf(taken.census.meshes[0].features.edge.steps));
 }
 
