@@ -6,7 +6,7 @@
 // and triangle tests.
 #pragma once
 
-#include "render/tile.h"
+#include "session/session.h"
 
 #define PLAN_FRAME_SECONDS (1 / 30.0)
 
