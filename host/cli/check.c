@@ -1,14 +1,177 @@
 // SPDX-License-Identifier: MIT
 // clrt check: reads the scene, examines its geometry, casts rays to find leaks if there is a
-// device, and writes a report.
+// device, and writes a report. The text lists each mesh with its findings. JSON contains every
+// count, even if it is 0.
 #include "cli/commands.h"
 
 #include "base/clock.h"
 #include "check/measure.h"
-#include "check/report.h"
 #include "cli/stages.h"
+#include "image/json_file.h"
 
-#include <stdio.h>
+#include <math.h>
+
+static json_t *fault_json(MeshFault fault)
+{
+    return JSON(FIELD("count", fault.count),
+                FIELD("first", fault.count > 0 ? json_count(fault.first) : json_null()));
+}
+
+static json_t *feature_json(const Feature *feature)
+{
+    const bool found = isfinite(feature->steps);
+    return JSON(FIELD("size", found ? feature->size : (double)NAN), FIELD("steps", feature->steps),
+                FIELD("triangle", found ? json_count(feature->triangle) : json_null()));
+}
+
+static json_t *leaks_json(const Check *check, const MeshCensus *census)
+{
+    const ClrtCheckedMesh *facts = &census->facts;
+    if (check->device == NULL)
+        return json_null();
+    return JSON(FIELD("leaks", fault_json(census->leaks)), FIELD("rays", facts->ray_count),
+                FIELD("aims", facts->aim_count), FIELD("aimed_at", facts->aimed_at),
+                FIELD("hidden", facts->hidden), FIELD("cap", json_count(LEAKS_AIMS)));
+}
+
+// Returns the counts of an object's faults. The leaks are in the member "leak_test" instead.
+static json_t *faults_json(const Check *check, size_t object)
+{
+    MeshFault counts[FAULT_KINDS];
+    json_t *all = json_object();
+    check_count_faults(check, object, counts);
+    for (FaultKind kind = 0; kind < FAULT_KINDS; kind++)
+        if (kind != FAULT_LEAKS)
+            json_object_set_new(all, fault_name(kind), fault_json(counts[kind]));
+    return all;
+}
+
+static json_t *mesh_json(const Check *check, size_t object)
+{
+    const MeshCensus *census = &check->census.meshes[object];
+    const ClrtCheckedMesh *facts = &census->facts;
+    const Features *features = &census->features;
+    return JSON(FIELD("path", check_mesh_path(check, object)),
+                FIELD("triangles", facts->triangle_count), FIELD("vertices", facts->vertex_count),
+                FIELD("edges", facts->edge_count), FIELD("closed", facts->closed),
+                FIELD("inside_out", facts->inside_out),
+                FIELD("unused_vertices", facts->unused_vertices),
+                FIELD("repeated_vertices", facts->repeated_vertices),
+                FIELD("faults", faults_json(check, object)),
+                FIELD("shortest_edge", feature_json(&features->edge)),
+                FIELD("lowest_height", feature_json(&features->height)),
+                FIELD("shortest_written_edge", feature_json(&features->written_edge)),
+                FIELD("leak_test", leaks_json(check, census)),
+                FIELD("holds_floats", features->holds_floats));
+}
+
+static json_t *meshes_json(const Check *check)
+{
+    json_t *list = json_array();
+    for (size_t object = 0; object < check->scene->objects.count; object++)
+        json_array_append_new(list, mesh_json(check, object));
+    return list;
+}
+
+static json_t *findings_json(const Check *check)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < check->findings.count; i++) {
+        const ClrtFinding *finding = &check->findings.data[i];
+        const bool is_of_mesh = finding->mesh != NOTHING;
+        json_array_append_new(
+            list, JSON(FIELD("kind", (const char *)finding->kind), FIELD("fails", finding->fails),
+                       FIELD("mesh", is_of_mesh ? json_count(finding->mesh) : json_null()),
+                       FIELD("count", finding->count), FIELD("text", (const char *)finding->text)));
+    }
+    return list;
+}
+
+static json_t *scene_json(const Check *check)
+{
+    const Scene *scene = check->scene;
+    const Census *census = &check->census;
+    return JSON(FIELD("path", check->scene_path), FIELD("lights", scene->lights.count),
+                FIELD("spheres", scene->spheres.count), FIELD("empty_meshes", census->empty_meshes),
+                FIELD("duplicate_meshes", census->duplicate_meshes),
+                FIELD("duplicate_spheres", census->duplicate_spheres),
+                FIELD("duplicate_lights", census->duplicate_lights),
+                FIELD("unused_materials", census->unused_materials));
+}
+
+static json_t *report_json(const Check *check)
+{
+    return REPORT(1, FIELD("fine", (bool)(check_count_failing(check) == 0)),
+                  FIELD("device", check->device), FIELD("scene", scene_json(check)),
+                  FIELD("meshes", meshes_json(check)), FIELD("findings", findings_json(check)),
+                  FIELD("seconds", check->seconds));
+}
+
+// Writes the findings of a mesh, or of the whole scene if mesh is NOTHING. The findings start at
+// index *next, and *next advances past them.
+static void write_findings(const Check *check, uint32_t mesh, size_t *next, FILE *stream)
+{
+    for (; *next < check->findings.count; ++*next) {
+        const ClrtFinding *finding = &check->findings.data[*next];
+        if (finding->mesh != mesh)
+            return;
+        fprintf(stream, "  %s: %s\n", finding->fails ? "FAULT" : "note", finding->text);
+    }
+}
+
+static void write_mesh(const Check *check, const json_t *mesh, size_t object, FILE *stream)
+{
+    const ClrtCheckedMesh *facts = &check->census.meshes[object].facts;
+    json_print(mesh, "{path}: {triangles} triangles, {vertices} vertices, ", stream);
+    fputs(facts->closed ? "closed\n" : "not closed\n", stream);
+    if (facts->triangle_count == 0)
+        return;
+    json_print(mesh,
+               "  shortest edge {shortest_edge.size .3g}, lowest height {lowest_height.size .3g}: "
+               "{shortest_edge.steps .3g} and {lowest_height.steps .3g} steps of float\n",
+               stream);
+    if (check->device == NULL)
+        return;
+    json_print(
+        mesh,
+        facts->aim_count > LEAKS_AIMS
+            ? "  {leak_test.rays} rays at {leak_test.aimed_at} of its {leak_test.aims} edges "
+              "and points (at most {leak_test.cap} are aimed at)"
+            : "  {leak_test.rays} rays at {leak_test.aimed_at} of its {leak_test.aims} edges "
+              "and points",
+        stream);
+    json_print(mesh,
+               ": {leak_test.hidden} hidden by other parts, {leak_test.leaks.count} pass through",
+               stream);
+    fputs(facts->leaks > 0 && !facts->closed ? ", because it is not closed\n" : "\n", stream);
+}
+
+static void write_text(const Check *check, FILE *stream)
+{
+    const Scene *scene = check->scene;
+    size_t next = 0; // findings are in the order of the objects
+    json_t *json = report_json(check);
+    for (size_t object = 0; object < scene->objects.count; object++) {
+        write_mesh(check, json_array_get(json_object_get(json, "meshes"), object), object, stream);
+        write_findings(check, (uint32_t)object, &next, stream);
+    }
+    fprintf(stream, "%s: %zu meshes, %zu triangles, %zu spheres, %zu lights\n", check->scene_path,
+            scene->objects.count, scene_triangle_count(scene), scene->spheres.count,
+            scene->lights.count);
+    write_findings(check, NOTHING, &next, stream);
+    json_decref(json);
+    if (check->device != NULL)
+        fprintf(stream, "  rays were traced on %s\n", check->device);
+    else if (check->device_fault.text[0] != '\0')
+        fprintf(stream, "  leaks were not tested: %s\n", check->device_fault.text);
+    const size_t failing = check_count_failing(check), all = check->findings.count;
+    if (all == 0)
+        fputs("fine\n", stream);
+    else if (failing == 0)
+        fprintf(stream, "no faults, %zu note%s\n", all, all == 1 ? "" : "s");
+    else
+        fprintf(stream, "%zu of %zu findings are faults\n", failing, all);
+}
 
 static bool find_leaks(Check *check, Session *session, const Options *options, Error *error)
 {
@@ -28,10 +191,11 @@ static ExitCode report(Check *check, const Options *options, Error *error)
 {
     if (!check_find(check, error))
         return EXIT_SCENE;
-    if (options->json_path != NULL && !check_report_write_json(check, options->json_path, error))
+    if (options->json_path != NULL &&
+        !json_file_write(report_json(check), options->json_path, error))
         return EXIT_OUTPUT;
     if (!options->quiet && !options_print_json(options))
-        check_report_write_text(check, stdout);
+        write_text(check, stdout);
     return check_count_failing(check) > 0 ? EXIT_FAULTS : EXIT_DONE;
 }
 

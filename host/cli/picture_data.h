@@ -4,7 +4,7 @@
 
 #include "cli/stages.h"
 #include "jobs/resume.h"
-#include "session/channels.h"
+#include "session/picture.h"
 
 // A picture's reference, and the picture's difference from it.
 typedef struct {

@@ -3,13 +3,86 @@
 #include "foreign/model.h"
 
 #include "foreign/parts.h"
-#include "foreign/polygons.h"
 #include "foreign/send.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <string.h>
+
+// The following functions estimate Assimp's time for polygons, and compare it with a limit. Assimp
+// takes at least n * n steps for a polygon of n corners.
+
+// The largest number of steps for a model. A single polygon of 30,000 corners reaches this limit,
+// and takes about five seconds.
+#define STEPS_MOST 900000000.0
+
+typedef struct {
+    double steps;
+    unsigned most; // largest number of corners of a polygon
+} Polygons;
+
+static void add_polygon(Polygons *polygons, unsigned corners)
+{
+    polygons->steps += corners > 4 ? (double)corners * corners : 0;
+    polygons->most = corners > polygons->most ? corners : polygons->most;
+}
+
+static bool check_polygons(const Polygons *polygons, Error *error)
+{
+    return polygons->steps <= STEPS_MOST ||
+           error_set(error,
+                     "its polygons of up to %u corners take too long to triangulate; PLY files may "
+                     "have such polygons if they are convex",
+                     polygons->most);
+}
+
+// Returns false if the scene's polygons take too long to triangulate.
+static bool check_scene(const struct aiScene *scene, Error *error)
+{
+    Polygons polygons = {0};
+    for (unsigned mesh = 0; mesh < scene->mNumMeshes; mesh++)
+        for (unsigned face = 0; face < scene->mMeshes[mesh]->mNumFaces; face++)
+            add_polygon(&polygons, scene->mMeshes[mesh]->mFaces[face].mNumIndices);
+    return check_polygons(&polygons, error);
+}
+
+// Returns the position after the line that starts at `begin`. A backslash before the line feed
+// continues the line.
+static size_t line_end(const File *file, size_t begin)
+{
+    for (size_t i = begin; i < file->size; i++)
+        if (file->bytes[i] == '\n' && (i == begin || file->bytes[i - 1] != '\\'))
+            return i + 1;
+    return file->size;
+}
+
+static bool is_blank(char byte)
+{
+    return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n' || byte == '\\';
+}
+
+// Returns the number of words in a line after the first word.
+static unsigned count_corners(const char *line, size_t size)
+{
+    unsigned count = 0;
+    for (size_t i = 1; i < size; i++)
+        count += is_blank(line[i - 1]) && !is_blank(line[i]);
+    return count;
+}
+
+// Returns false if the polygons of an OBJ file take too long. This check reads the file's text
+// before Assimp does, because Assimp 5.4 takes at least n * n steps to read a face of n corners.
+static bool check_obj(const File *file, Error *error)
+{
+    Polygons polygons = {0};
+    for (size_t begin = 0, end; begin < file->size; begin = end) {
+        end = line_end(file, begin);
+        if (file->bytes[begin] == 'f')
+            add_polygon(&polygons, count_corners(file->bytes + begin, end - begin));
+    }
+    return check_polygons(&polygons, error);
+}
 
 static bool fail(Error *error)
 {
@@ -30,7 +103,7 @@ static const struct aiScene *import(Files *files, Error *error)
     const struct aiScene *scene =
         aiImportFileExWithProperties(files->model, 0, &files->interface, settings);
     aiReleasePropertyStore(settings);
-    if (scene != NULL && !polygons_check_scene(scene, error)) {
+    if (scene != NULL && !check_scene(scene, error)) {
         aiReleaseImport(scene);
         return NULL;
     }
@@ -82,8 +155,7 @@ bool model_send(FILE *stream, Files *files, Error *error)
 {
     PartCounts counts;
     if (!files_open_model(files, error) ||
-        (file_has_ending(files->model, ".obj") &&
-         !polygons_check_obj(&files->opened.data[0].file, error)))
+        (file_has_ending(files->model, ".obj") && !check_obj(&files->opened.data[0].file, error)))
         return false;
     const struct aiScene *scene = import(files, error);
     if (scene == NULL)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A traced picture: its colors as floats, and its other channels.
+// A traced picture: its colors as floats, its other channels, and the conversion of colors to the
+// bytes of 8-bit files and of the window.
 #pragma once
 
 #include "base/array.h"
@@ -44,3 +45,10 @@ static inline uint32_t *layers_at(const Layers *layers, uint32_t x, uint32_t y)
 {
     return layers->values + ((size_t)y * layers->width + x) * layers->count;
 }
+
+typedef enum { ENCODE_RAW, ENCODE_SRGB } Encoding;
+
+// Multiplies `count` values by gain, limits them to 1 and rounds them to bytes.
+// ENCODE_SRGB applies the sRGB curve (IEC 61966-2-1) before rounding.
+void encode_channels(const float *values, size_t count, Encoding encoding, double gain,
+                     unsigned char *bytes);

@@ -2,7 +2,6 @@
 // The settings for writing a picture file.
 #pragma once
 
-#include "image/encode.h"
 #include "image/framebuffer.h"
 
 // A text in the file. PNG and EXR store it under its name, but EXR renames the date and omits the

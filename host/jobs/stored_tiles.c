@@ -5,7 +5,7 @@
 
 #include "base/processors.h"
 #include "base/thread_pool.h"
-#include "session/channels.h"
+#include "session/picture.h"
 
 #include <assert.h>
 #include <pthread.h>

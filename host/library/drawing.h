@@ -3,7 +3,7 @@
 #pragma once
 
 #include "library/handles.h"
-#include "session/channels.h"
+#include "session/picture.h"
 #include "session/request.h"
 
 typedef struct {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TilePass and Renderer -> values for each pixel.
+// TilePass and Renderer -> values for each pixel. Camera and Renderer -> a picture.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -22,3 +22,12 @@ typedef struct {
 // false. Adds each finished tile to progress.
 bool tile_pass_run(const TilePass *pass, const Renderer *renderer, const RenderObserver *observer,
                    RenderProgress *progress, Error *error);
+
+// The kernel render_tile.
+extern const KernelEntry draw_entry;
+
+// Draws the camera's picture into framebuffer. Fails if the framebuffer's size differs from
+// tile_frame_size. If the observer stops the picture early, the call returns true, and
+// renderer->progress has fewer tiles_done than tiles.
+bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
+                   Framebuffer *framebuffer, Error *error);

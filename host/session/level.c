@@ -7,7 +7,7 @@
 #include "session/level.h"
 
 #include "refine/ladder_requests.h"
-#include "render/draw.h"
+#include "render/tile_pass.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A request for a picture -> its colors. Without a goal, all pixels have equally many samples. With
-// a goal, each pixel has as many as it needs.
+// A request for a picture -> its colors, its channels and the certainty of its pixels. Without a
+// goal, all pixels have equally many samples. With a goal, each pixel has as many as it needs.
 #pragma once
 
 #include "render/aov.h"
@@ -71,3 +71,16 @@ bool session_prepare(Session *session, const SessionPicture *request, PictureRes
 // above 0, the call may increase settings.max_level for an error goal.
 bool session_draw(Session *session, SessionPicture *request, const RenderObserver *observer,
                   Framebuffer *framebuffer, PictureResult *result, Error *error);
+
+// If a channel needs it, computes the certainty of each pixel into *result. Pixels that are certain
+// in fp64, but not in float, get the colors of fp64. Stops when the observer returns false. Fails
+// on devices without double arithmetic, denormal numbers or correctly rounded division.
+bool session_certify(Session *session, const SessionPicture *request,
+                     const RenderObserver *observer, Framebuffer *framebuffer,
+                     PictureResult *result, Error *error);
+
+// Computes the channels of a picture with this result into *layers. Stops when the observer returns
+// false. *layers must have the names of request->channels (aov_name_layers) and the picture's size.
+bool session_draw_channels(Session *session, const SessionPicture *request,
+                           const RenderObserver *observer, Layers *layers,
+                           const PictureResult *result, Error *error);

@@ -13,7 +13,7 @@
 // passes suffice.
 #include "session/reference.h"
 
-#include "render/draw.h"
+#include "render/tile_pass.h"
 #include "scene/camera.h"
 
 #include <math.h>

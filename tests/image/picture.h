@@ -3,9 +3,9 @@
 #pragma once
 
 #include "refine/ladder.h"
-#include "render/draw.h"
-#include "session/channels.h"
+#include "render/tile_pass.h"
 #include "session/explainer.h"
+#include "session/picture.h"
 
 // A callback that receives a picture and an explainer for its pixels.
 typedef void PictureVisit(Explainer *explainer, const Framebuffer *picture, void *context);

@@ -6,7 +6,7 @@
 #include "compare/difference.h"
 #include "image/image_file.h"
 #include "scene/scn.h"
-#include "session/channels.h"
+#include "session/picture.h"
 #include "session/request.h"
 
 #include <jansson.h>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "outcome.h"
-#include "render/draw.h"
+#include "render/tile_pass.h"
 #include "stage.h"
 
 typedef struct {
