@@ -7,6 +7,8 @@
 // therefore first poll for the next generation, and then sleep.
 #include "base/thread_pool.h"
 
+#include "base/processors.h"
+
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
@@ -29,9 +31,9 @@ struct ThreadPool {
     atomic_bool closing;
     pthread_mutex_t mutex; // protects sleeping and waking
     pthread_cond_t wake;
-    uint32_t others;       // threads to start, without the caller's thread
+    uint32_t threads;      // including the caller's thread; 0: not known yet
     uint32_t worker_count; // threads that have started
-    pthread_t workers[];
+    pthread_t workers[THREADS_MAX];
 };
 
 static uint32_t generation_of(PoolState state)
@@ -94,25 +96,26 @@ static uint32_t begin_generation(ThreadPool *pool, uint32_t count)
 
 ThreadPool *thread_pool_open(uint32_t threads)
 {
-    if (threads <= 1)
-        return NULL;
-    const uint32_t others = (threads < THREADS_MAX ? threads : THREADS_MAX) - 1;
-    ThreadPool *pool = calloc(1, sizeof *pool + others * sizeof pool->workers[0]);
+    ThreadPool *pool = threads == 1 ? NULL : calloc(1, sizeof *pool);
     if (pool == NULL)
         return NULL;
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->wake, NULL);
-    pool->others = others;
+    pool->threads = threads < THREADS_MAX ? threads : THREADS_MAX;
     return pool;
 }
 
 // Starts the threads that are not running. If the system refuses one, does not try again.
 static void start_workers(ThreadPool *pool)
 {
-    while (pool->worker_count < pool->others &&
+    if (pool->threads == 0) {
+        const uint32_t usable = processors_usable();
+        pool->threads = usable < THREADS_MAX ? usable : THREADS_MAX;
+    }
+    while (pool->worker_count + 1 < pool->threads &&
            pthread_create(&pool->workers[pool->worker_count], NULL, run_worker, pool) == 0)
         pool->worker_count++;
-    pool->others = pool->worker_count;
+    pool->threads = pool->worker_count + 1;
 }
 
 void thread_pool_close(ThreadPool *pool)

@@ -10,9 +10,10 @@ typedef struct ThreadPool ThreadPool;
 // Runs one task.
 typedef void ThreadPoolWork(void *context, uint32_t task);
 
-// Opens a pool of up to `threads` threads, including the caller's thread. The other threads start
-// when the pool first has several tasks. The pool has fewer threads if the system cannot start
-// them. NULL is a valid pool that consists of the caller's thread alone.
+// Opens a pool of up to `threads` threads, including the caller's thread. With 0, the pool has a
+// thread for each processor that the process may use. The other threads start when the pool first
+// has several tasks. The pool has fewer threads if the system cannot start them. NULL is a valid
+// pool that consists of the caller's thread alone.
 ThreadPool *thread_pool_open(uint32_t threads);
 void thread_pool_close(ThreadPool *pool);
 

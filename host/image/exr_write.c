@@ -8,7 +8,6 @@
 // them in the order of their numbers. Equal pictures therefore give equal files.
 #include "image/exr_write.h"
 
-#include "base/processors.h"
 #include "base/thread_pool.h"
 
 #include <pthread.h>
@@ -173,7 +172,7 @@ static bool write_tiles(TileWriter *writer, uint32_t count)
     const ImagePart *part = writer->settings->part;
     if (fseeko(writer->stream, table + (off_t)size, SEEK_SET) != 0)
         return false;
-    ThreadPool *pool = thread_pool_open(processors_usable());
+    ThreadPool *pool = thread_pool_open(0);
     thread_pool_run(pool, part != NULL ? (uint32_t)part->tile_count : count, run_tile, writer);
     thread_pool_close(pool);
     return !writer->has_failed && fseeko(writer->stream, table, SEEK_SET) == 0 &&

@@ -3,7 +3,6 @@
 // settings, except for the entries `part` and `tile`.
 #include "jobs/stored_tiles.h"
 
-#include "base/processors.h"
 #include "base/thread_pool.h"
 #include "session/picture.h"
 
@@ -175,7 +174,7 @@ bool stored_tiles_run(const RenderSettings *settings, uint64_t count, TileWork *
                       const void *context, Error *error)
 {
     assert(count < UINT32_MAX);
-    ThreadPool *pool = thread_pool_open(processors_usable());
+    ThreadPool *pool = thread_pool_open(0);
     TileRun run = {settings, work, context, PTHREAD_MUTEX_INITIALIZER, UINT32_MAX, error};
     thread_pool_run(pool, (uint32_t)count, run_tile, &run);
     thread_pool_close(pool);

@@ -241,7 +241,7 @@ static bool draw_refined(PictureDrawing *drawing, Error *error)
         if (result->pixel_samples == NULL)
             return false;
     }
-    drawing->pool = thread_pool_open(threads_allowed(drawing->session->settings.wanted.threads));
+    drawing->pool = thread_pool_open(drawing->session->settings.wanted.threads);
     const bool ok = drawing->request->wanted.contrast > 0 ? draw_adaptively(drawing, error)
                                                           : draw_for_goal(drawing, error);
     thread_pool_close(drawing->pool);

@@ -40,7 +40,7 @@ bool session_compile(const Session *session, const FlatSource *source, SceneForm
 {
     FlatSource complete = *source;
     complete.builder = session_builder(&session->settings.wanted);
-    complete.pool = thread_pool_open(threads_allowed(session->settings.wanted.threads));
+    complete.pool = thread_pool_open(session->settings.wanted.threads);
     const bool ok = scene_compile(&form->flat, &form->stages, &complete, error);
     thread_pool_close(complete.pool);
     if (!ok)

@@ -3,7 +3,6 @@
 // pixels of ordinary scenes must be certified, and only repaired pixels may change. Tier 0 compares
 // some pixels of small pictures. Tier 1 compares all certified and repaired pixels, over ten
 // million.
-#include "base/processors.h"
 #include "base/thread_pool.h"
 #include "certainty/certified.h"
 #include "certainty/extreme_scenes.h"
@@ -75,7 +74,7 @@ static bool real_compare(Comparison *comparison, const Certified *certified, uin
                                     certified->settings.max_level},
                            .step = step};
     if (ok) {
-        ThreadPool *pool = thread_pool_open(processors_usable());
+        ThreadPool *pool = thread_pool_open(0);
         thread_pool_run(pool, (comparing.view.height + step - 1) / step, compare_row, &comparing);
         thread_pool_close(pool);
     }

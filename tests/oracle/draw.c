@@ -2,7 +2,6 @@
 // Draws a picture with the oracle on all processors, row by row.
 #include "oracle/oracle.h"
 
-#include "base/processors.h"
 #include "base/thread_pool.h"
 
 typedef struct {
@@ -43,7 +42,7 @@ bool oracle_draw(const OracleView *view, uint32_t samples, uint32_t step, Frameb
     if (!framebuffer_make(framebuffer, width, height, error))
         return false;
     Drawing drawing = {.view = view, .samples = samples, .step = step, .framebuffer = framebuffer};
-    ThreadPool *pool = thread_pool_open(processors_usable());
+    ThreadPool *pool = thread_pool_open(0);
     thread_pool_run(pool, height, draw_row, &drawing);
     thread_pool_close(pool);
     return true;
