@@ -159,8 +159,8 @@ static bool climb(Ladder *ladder, uint32_t pixel, uint32_t first, Error *error)
     pixel_sums_mean(sums, samples, color);
     strata_advance(&ladder->statistics, stratum, feature, mean_square_change(before, color));
     const double variance = pixel_sums_variance(sums, samples);
-    const bool is_bent = strata_is_bent(stratum, sqrt(feature));
-    const uint32_t next = strata_of_deviation(rung + 1, sqrt(variance), is_bent);
+    const BentClass bent = strata_bent_class(stratum, sqrt(feature));
+    const uint32_t next = strata_of_deviation(rung + 1, sqrt(variance), bent);
     ladder->strata[pixel] = (uint8_t)next;
     *ladder_block(ladder, request->x, request->y) |= ladder_stratum_bit(next);
     strata_enter(&ladder->statistics, next, 1, variance / samples);

@@ -21,14 +21,17 @@ static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 
 // FLAT_CLASS on has a second stratum, for pixels near contrast. The second strata are numbered from
 // NEAR_CLASS on. From octave FLAT_CLASS on, a pixel that a thin part touches (refine/thin_parts.h)
 // is in THIN_CLASS instead. On higher rungs, strata are octaves of the standard deviation of a
-// pixel's samples. Bent pixels, which had a large bend or a thin part on rung 0, form strata of
-// their own.
+// pixel's samples. Each octave has a stratum for each BentClass, because a few samples may miss an
+// edge that the bend shows.
 #define FLAT_CLASS        4
 #define NEAR_CLASS        8
 #define THIN_CLASS        12
 #define BEND_CLASSES      13
 #define DEVIATION_CLASSES 7
-#define STRATA_COUNT      (BEND_CLASSES + (LADDER_RUNGS - 1) * 2 * DEVIATION_CLASSES)
+#define STRATA_COUNT      (BEND_CLASSES + (LADDER_RUNGS - 1) * BENT_CLASSES * DEVIATION_CLASSES)
+
+// The size of a pixel's bend on rung 0.
+typedef enum { BENT_LITTLE, BENT_SOME, BENT_MUCH, BENT_CLASSES } BentClass;
 
 // A change is the mean square difference between a pixel's colors before and after it advances. A
 // feature is the squared bend on rung 0, and the variance of the mean on higher rungs. It is
@@ -50,13 +53,15 @@ typedef struct {
 // The mean square error of a picture.
 typedef struct {
     double mean;  // expected
-    double bound; // mean plus two standard deviations
+    double bound; // upper bound with 95 % confidence
 } StrataEstimate;
 
 // Returns the rung of a stratum.
 static inline uint32_t strata_rung(uint32_t stratum)
 {
-    return stratum < BEND_CLASSES ? 0 : 1 + (stratum - BEND_CLASSES) / (2 * DEVIATION_CLASSES);
+    return stratum < BEND_CLASSES
+               ? 0
+               : 1 + (stratum - BEND_CLASSES) / (BENT_CLASSES * DEVIATION_CLASSES);
 }
 
 // A pixel is near contrast if a nearby pixel has a bend of at least CONTRAST.
@@ -86,11 +91,11 @@ static inline uint32_t strata_of_bend(float bend, float nearby, bool is_thin)
 }
 
 // Returns the stratum of a pixel above rung 0 from the standard deviation of its samples.
-uint32_t strata_of_deviation(uint32_t rung, double deviation, bool is_bent);
+uint32_t strata_of_deviation(uint32_t rung, double deviation, BentClass bent);
 
-// Returns whether a pixel of the stratum counts as bent on the next rung. Uses `bend` only for
-// strata of rung 0.
-bool strata_is_bent(uint32_t stratum, double bend);
+// Returns the class that a pixel of the stratum has on the next rung. Uses `bend` only for strata
+// of rung 0.
+BentClass strata_bent_class(uint32_t stratum, double bend);
 
 // Records that pixels enter a stratum. `features` is the sum of the pixels' features.
 void strata_enter(Strata *strata, uint32_t stratum, uint64_t pixels, double features);

@@ -51,7 +51,7 @@ static void advance(Pixel *pixel, Strata *strata, uint64_t *state)
     const double change = rung == 0 ? pixel->error + later : pixel->error - later;
     strata_advance(strata, pixel->stratum, pixel->feature, change);
     pixel->error = later;
-    pixel->stratum = strata_of_deviation(rung + 1, sqrt(pixel->feature), false);
+    pixel->stratum = strata_of_deviation(rung + 1, sqrt(pixel->feature), BENT_LITTLE);
     pixel->feature *= part;
     pixel->chance = random_unit(state);
     strata_enter(strata, pixel->stratum, 1, pixel->feature);
@@ -117,7 +117,8 @@ static double flat_estimate(uint32_t rung, double reflectivity)
 {
     Strata strata = {.pixels = PIXELS, .reflectivity = reflectivity};
     strata_enter(&strata,
-                 rung == 0 ? strata_of_bend(0, 0, false) : strata_of_deviation(rung, 0, false),
+                 rung == 0 ? strata_of_bend(0, 0, false)
+                           : strata_of_deviation(rung, 0, BENT_LITTLE),
                  PIXELS, 0);
     return strata_estimate(&strata).mean;
 }
@@ -136,7 +137,7 @@ TEST(pixels_on_the_last_rung_exhaust_the_ladder)
     const StrataAim aim = {.mean_square = 1e-12, .samples = INFINITY};
     Strata strata = {.pixels = 10};
     for (int i = 0; i < 10; i++)
-        strata_enter(&strata, strata_of_deviation(LADDER_RUNGS - 1, 0.4, true), 1, 1e-4);
+        strata_enter(&strata, strata_of_deviation(LADDER_RUNGS - 1, 0.4, BENT_SOME), 1, 1e-4);
     assert_int_equal(strata_raise(&strata, &aim), STRATA_EXHAUSTED);
 }
 
@@ -146,7 +147,7 @@ static double estimate_on(uint32_t rung)
     Strata strata = {.pixels = PIXELS};
     for (int i = 0; i < PIXELS; i++) {
         const double deviation = i == 0 ? 0.4 : 0;
-        strata_enter(&strata, strata_of_deviation(rung, deviation, false), 1,
+        strata_enter(&strata, strata_of_deviation(rung, deviation, BENT_LITTLE), 1,
                      deviation * deviation / ladder_samples[rung]);
     }
     return strata_estimate(&strata).mean;
@@ -158,7 +159,7 @@ TEST(no_bound_of_pixels_without_contrast_is_0)
     for (uint32_t rung = 0; rung <= last; rung++) {
         Strata strata = {.pixels = PIXELS};
         const uint32_t stratum =
-            rung == 0 ? strata_of_bend(0, 0, false) : strata_of_deviation(rung, 0, false);
+            rung == 0 ? strata_of_bend(0, 0, false) : strata_of_deviation(rung, 0, BENT_LITTLE);
         strata_enter(&strata, stratum, PIXELS, 0);
         for (int i = 0; i < PIXELS / 2 && rung < last; i++)
             strata_advance(&strata, stratum, 0, 0);
@@ -172,7 +173,41 @@ TEST(thin_parts_form_a_stratum_unless_there_is_contrast)
     assert_int_not_equal(thin, strata_of_bend(0, 0, false));
     assert_int_equal(thin, strata_of_bend(0, 1, true));
     assert_int_equal(strata_of_bend(0.7f, 1, true), strata_of_bend(0.7f, 1, false));
-    assert_true(strata_is_bent(thin, 0) && !strata_is_bent(strata_of_bend(0, 0, false), 0));
+    assert_int_equal(strata_bent_class(thin, 0), BENT_SOME);
+}
+
+TEST(pixels_keep_the_class_of_their_bend)
+{
+    static const double bends[BENT_CLASSES] = {0, 0.25, 0.75};
+    for (BentClass bent = 0; bent < BENT_CLASSES; bent++) {
+        const uint32_t stratum = strata_of_bend((float)bends[bent], 1, false);
+        assert_int_equal(strata_bent_class(stratum, bends[bent]), bent);
+        for (uint32_t rung = 1; rung < LADDER_RUNGS; rung++) {
+            const uint32_t higher = strata_of_deviation(rung, 0.1, bent);
+            assert_int_equal(strata_rung(higher), rung);
+            assert_int_equal(strata_bent_class(higher, 0), bent);
+        }
+    }
+}
+
+// Returns the outcome for pixels of one stratum without controls.
+static StrataOutcome raise_unknown(double mean_square, StrataEstimate *estimate)
+{
+    Strata strata = {.pixels = PIXELS};
+    const StrataAim aim = {mean_square, INFINITY};
+    strata_enter(&strata, strata_of_deviation(1, 0.4, BENT_LITTLE), PIXELS, 0.04 * PIXELS);
+    *estimate = strata_estimate(&strata);
+    return strata_raise(&strata, &aim);
+}
+
+TEST(strata_need_no_controls_if_twice_their_error_meets_the_aim)
+{
+    StrataEstimate estimate;
+    raise_unknown(1, &estimate);
+    const double once = estimate.bound, twice = estimate.bound + estimate.mean;
+    assert_int_equal(raise_unknown(1.01 * twice, &estimate), STRATA_REACHED);
+    assert_int_equal(raise_unknown(0.99 * twice, &estimate), STRATA_RAISED);
+    assert_int_equal(raise_unknown(1.01 * once, &estimate), STRATA_RAISED);
 }
 
 // More samples of a flat pixel leave less room for hidden detail.
