@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The table of channels and the functions that compute their values. Compositors expect the names
-// Z, N and P. Ids are integers, because float cannot represent all of them exactly. Counts are
-// floats, because some programs display integers as fractions of the largest integer.
+// The table of channels. A pass over the tiles traces the paths through the pixels' centers. If a
+// channel needs counts of tests, another pass counts them. Compositors expect the names Z, N and P.
+// Ids are integers, because float cannot represent all of them exactly. Counts are floats, because
+// some programs display integers as fractions of the largest integer.
 #include "render/aov.h"
 
 #include "base/word.h"
+#include "render/tile_pass.h"
 
 #include <string.h>
 
@@ -15,6 +17,12 @@ static uint32_t float_bits(double value)
     memcpy(&bits, &rounded, sizeof bits);
     return bits;
 }
+
+// kernels/aov.cl, embedded at build time.
+extern const char aov_source[];
+
+const KernelEntry paths_entry = {"trace_paths", aov_source, NULL, "b", .dimensions = 2};
+const KernelEntry tests_entry = {"count_tests", aov_source, NULL, "b", .dimensions = 2};
 
 #define AOV_VALUES 16 // components of all channels in the table
 
@@ -144,44 +152,104 @@ static void take_vector(uint32_t **values, Vec3 v)
 
 // Stores the values of all channels, in the table's order. Stores 0 for the counts of tests and for
 // the error, because their values come later.
-static void take_all(uint32_t values[AOV_VALUES], const AovPixel *pixel, const AovScene *scene)
+static void take_all(uint32_t values[AOV_VALUES], const AovPass *pass, size_t pixel,
+                     const PathData *path)
 {
-    const PathData *path = pixel->path;
-    const Vec3 point = denormalize_point(scene->normalization, vec3_of_floats(path->point));
-    const double lights = scene->light_count > 0 ? scene->light_count : 1;
-    *values++ = float_bits((double)path->depth / scene->normalization->scale);
+    const RenderSettings *settings = &pass->paths.settings;
+    const Vec3 point = denormalize_point(pass->normalization, vec3_of_floats(path->point));
+    const double lights = pass->light_count > 0 ? pass->light_count : 1;
+    *values++ = float_bits((double)path->depth / pass->normalization->scale);
     take_vector(&values, vec3_of_floats(path->normal));
     take_vector(&values, path->primitive != NOTHING ? point : vec3(0, 0, 0));
     *values++ = path->primitive;
     *values++ = path->material;
     *values++ = float_bits(path->lights / lights);
     *values++ = float_bits(path->bounces);
-    *values++ = float_bits(pixel->samples);
+    *values++ = float_bits(pass->samples != NULL ? pass->samples[pixel]
+                                                 : settings->samples * settings->samples);
     *values++ = 0; // the counts of tests
     *values++ = 0;
-    *values++ = float_bits(0.5 * pixel->certainty);
+    *values++ = float_bits(pass->certainty != NULL ? 0.5 * pass->certainty->marks[pixel].certainty
+                                                   : 0.5 * CERTAINTY_OPEN);
     *values = 0;
 }
 
-void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene)
+static void take_path(const AovPass *pass, size_t pixel, const PathData *path)
 {
     uint32_t all[AOV_VALUES], *next = all;
-    take_all(all, pixel, scene);
+    uint32_t *values = pass->layers->values + pixel * pass->layers->count;
+    take_all(all, pass, pixel, path);
     for (size_t i = 0; i < aov_count; next += aov_channel_count(&aov_table[i++]))
-        for (uint32_t channel = 0; aov_has(set, i) && channel < aov_channel_count(&aov_table[i]);
-             channel++)
+        for (uint32_t channel = 0;
+             aov_has(pass->set, i) && channel < aov_channel_count(&aov_table[i]); channel++)
             *values++ = next[channel];
 }
 
-void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KINDS])
+// Replaces a pixel's counts of tests. `tests` holds the counts over all samples.
+static void take_counts(const AovPass *pass, size_t pixel, const uint32_t tests[TALLY_KINDS])
 {
+    uint32_t *values = pass->layers->values + pixel * pass->layers->count;
     TallyKind kind = TALLY_BOX_TESTS; // aov_table has boxtests before tritests
     for (size_t i = 0; i < aov_count; i++) {
-        if (aov_has(set, i) && aov_table[i].need == AOV_NEEDS_TESTS)
+        if (aov_has(pass->set, i) && aov_table[i].need == AOV_NEEDS_TESTS)
             *values = float_bits(tests[kind]);
         if (aov_table[i].need == AOV_NEEDS_TESTS)
             kind = TALLY_TRIANGLE_TESTS;
-        if (aov_has(set, i))
+        if (aov_has(pass->set, i))
             values += aov_channel_count(&aov_table[i]);
     }
+}
+
+// Returns the number of the first pixel in a row of the tile. Layers store all pixels row by row.
+static size_t first_pixel(const AovPass *pass, const Tile *tile, uint32_t row)
+{
+    return (size_t)(tile->top + row) * pass->layers->width + tile->left;
+}
+
+static void take_paths(void *context, const Tile *tile, void *const values[2])
+{
+    const PathData *path = values[0];
+    for (uint32_t row = 0; row < tile->height; row++)
+        for (uint32_t column = 0; column < tile->width; column++)
+            take_path(context, first_pixel(context, tile, row) + column, path++);
+}
+
+static void take_tests(void *context, const Tile *tile, void *const values[2])
+{
+    const uint32_t(*tests)[TALLY_KINDS] = values[0];
+    for (uint32_t row = 0; row < tile->height; row++)
+        for (uint32_t column = 0; column < tile->width; column++)
+            take_counts(context, first_pixel(context, tile, row) + column, *tests++);
+}
+
+static bool draw_paths(AovPass *pass, const RenderObserver *observer, RenderProgress *progress,
+                       Error *error)
+{
+    TilePass paths = {.frame = renderer_frame(&pass->paths, &pass->center),
+                      .sizes = {sizeof(PathData)},
+                      .take = take_paths,
+                      .context = pass};
+    paths.frame.samples = 1;
+    return tile_pass_run(&paths, &pass->paths, observer, progress, error);
+}
+
+static bool draw_tests(AovPass *pass, const RenderObserver *observer, RenderProgress *progress,
+                       Error *error)
+{
+    Renderer renderer = pass->paths;
+    renderer.kernel = pass->tests;
+    const TilePass tests = {.frame = renderer_frame(&renderer, &pass->camera),
+                            .sizes = {sizeof(uint32_t[TALLY_KINDS])},
+                            .take = take_tests,
+                            .context = pass};
+    return tile_pass_run(&tests, &renderer, observer, progress, error);
+}
+
+bool aov_draw(AovPass *pass, const RenderObserver *observer, Error *error)
+{
+    const uint64_t tiles = tile_count(&pass->paths.settings);
+    RenderProgress progress = {.tiles = pass->tests != NULL ? 2 * tiles : tiles};
+    return draw_paths(pass, observer, &progress, error) &&
+           (pass->tests == NULL || progress.tiles_done < tiles ||
+            draw_tests(pass, observer, &progress, error));
 }

@@ -1,23 +1,10 @@
 // SPDX-License-Identifier: MIT
-// --aov adds channels to a picture. Film renderers call them arbitrary output variables. The
-// functions below read lists of channels and compute a pixel's values.
+// --aov adds channels to a picture. Film renderers call them arbitrary output variables. Separate
+// kernels compute the channels, so pictures without channels take no extra time.
 #pragma once
 
-#include "image/framebuffer.h"
+#include "render/certifier.h"
 #include "scene/normalize.h"
-
-// The input for one pixel's channels.
-typedef struct {
-    const PathData *path; // path of the ray through the pixel's center
-    uint32_t samples;
-    uint32_t certainty; // the pixel's Certainty, over all samples
-} AovPixel;
-
-// The input shared by all pixels.
-typedef struct {
-    const Normalization *normalization;
-    uint32_t light_count;
-} AovScene;
 
 #define AOV_COMPONENTS 3
 
@@ -59,9 +46,23 @@ bool aov_needs(AovSet set, AovNeed need);
 // Appends the names and types of the channels in `set` to `layers`, in the table's order.
 void aov_name_layers(AovSet set, Layers *layers);
 
-// Stores one pixel's values for all channels in `set`, in the table's order. Floats are stored as
-// their bits. Counts of tests and the error are stored as 0.
-void aov_take(AovSet set, uint32_t *values, const AovPixel *pixel, const AovScene *scene);
+// The kernels trace_paths and count_tests can share a program. count_tests needs
+// SceneTraits::statistics.
+extern const KernelEntry paths_entry, tests_entry;
 
-// Replaces the counts of tests in `values`. `tests` holds the counts over all samples.
-void aov_take_tests(AovSet set, uint32_t *values, const uint32_t tests[TALLY_KINDS]);
+typedef struct {
+    AovSet set;
+    Layers *layers;          // has the names of set (aov_name_layers) and the picture's size
+    Renderer paths;          // with paths_entry and the picture's settings
+    const Kernel *tests;     // with tests_entry; NULL unless a channel needs it
+    CameraData camera;       // the picture's camera
+    CameraData center;       // the same camera with one sample per pixel
+    const uint32_t *samples; // sample counts of the pixels, row by row; NULL if all are equal
+    const Normalization *normalization;
+    uint32_t light_count;
+    const CertaintyMap *certainty; // the picture's map; NULL if no channel needs it
+} AovPass;
+
+// Computes the channels tile by tile. Stops when the observer returns false. Floats are stored as
+// their bits, and the error as 0.
+bool aov_draw(AovPass *pass, const RenderObserver *observer, Error *error);

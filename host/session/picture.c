@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "refine/adaptive.h"
 #include "refine/ladder.h"
-#include "render/aov_pass.h"
 #include "render/tile_pass.h"
 #include "scene/camera.h"
 #include "session/costs.h"
@@ -313,10 +312,12 @@ bool session_draw_channels(Session *session, const SessionPicture *request,
     const RendererUse tests = {.entry = &tests_entry, .counts = true, .is_general = true};
     const SessionScene *scene = &session->scene;
     AovPass pass = {.set = request->channels,
+                    .layers = layers,
                     .camera = session_camera(session, request, request->settings.samples),
                     .center = session_camera(session, request, 1),
                     .samples = result->pixel_samples,
-                    .scene = {&scene->normalization, (uint32_t)scene->scene->lights.count},
+                    .normalization = &scene->normalization,
+                    .light_count = (uint32_t)scene->scene->lights.count,
                     .certainty = result->certainty.marks != NULL ? &result->certainty : NULL};
     if (!session_renderer(session, &paths, &request->settings, &pass.paths, error))
         return false;
@@ -325,5 +326,5 @@ bool session_draw_channels(Session *session, const SessionPicture *request,
     traits = traits_general(traits);
     if (counts)
         pass.tests = session_kernel(session, &tests, &traits, error);
-    return (!counts || pass.tests != NULL) && aov_pass_draw(&pass, observer, layers, error);
+    return (!counts || pass.tests != NULL) && aov_draw(&pass, observer, error);
 }

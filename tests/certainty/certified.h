@@ -3,7 +3,7 @@
 #pragma once
 
 #include "extremes/support/picture.h"
-#include "render/aov_pass.h"
+#include "render/aov.h"
 
 typedef struct {
     uint32_t view; // from 1
