@@ -12,7 +12,7 @@
 // The counts of one mesh. Triangles are numbered as in the file. The faults that the file's reader
 // found are in the Mesh.
 typedef struct {
-    ClrtCheckedMesh facts; // size and path are unset; the counts of rays are 0 before leaks_count
+    ClrtCheckedMesh facts; // size and path are unset; the counts of rays are 0 before check_trace
     // Each MeshFault counts edges, points, triangles or rays. Its `first` is a triangle at a fault.
     MeshFault open;       // edges of one triangle
     MeshFault crowded;    // edges of more than two triangles

@@ -3,7 +3,10 @@
 #pragma once
 
 #include "check/census.h"
-#include "check/leaks.h"
+#include "session/session.h"
+
+// The check casts rays at no more than this number of aims per mesh.
+#define LEAKS_AIMS 1048576
 
 typedef struct {
     const char *scene_path;

@@ -8,7 +8,6 @@
 #include "base/array.h"
 #include "base/vec.h"
 #include "mesh/mesh.h"
-#include "scene/material_names.h"
 
 // These limits keep sample coordinates exact in float, and loops short.
 #define PICTURE_SIZE_MAX 131072
@@ -62,6 +61,17 @@ typedef struct {
     uint64_t number_before; // triangles in earlier objects of the file, including dropped ones
     bool two_sided;
 } MeshObject;
+
+typedef struct {
+    char name[64];
+    uint32_t material; // index in Scene::materials
+} MaterialName;
+
+// {0} has no names.
+typedef struct {
+    ARRAY(MaterialName *) list; // owned
+    void *tree;                 // by name; of tsearch
+} MaterialNames;
 
 // A camera. up and look_at - eye must be neither zero nor parallel. An orthographic camera has a
 // height above 0, and its angles are not used. Its parallel rays start on a plane through the eye.
@@ -139,6 +149,15 @@ extern const char *const shader_names[];
 Material material_of_shader(Shader shader);
 
 void material_set_shininess(Material *material, float shininess);
+
+// Appends a name. Returns false if memory runs out.
+bool material_names_add(MaterialNames *names, const MaterialName *name, Error *error);
+
+// Returns the first entry with this name, or NULL if there is none.
+const MaterialName *material_names_find(const MaterialNames *names, const char *name,
+                                        size_t length);
+
+void material_names_free(MaterialNames *names);
 
 typedef struct {
     const char *kind; // a name for programs; NULL if nothing is missing
