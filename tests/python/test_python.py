@@ -177,8 +177,22 @@ class Pictures(unittest.TestCase):
             clrt.load(REFLECTIONS).render(300, 300, progress=lambda done, all_: False)
 
     def test_exceptions_of_progress_functions_arrive(self):
-        with self.assertRaises(ZeroDivisionError):
-            clrt.load(REFLECTIONS).render(300, 300, progress=lambda done, all_: 1 / 0)
+        calls = []
+
+        def fail(done, all_):
+            calls.append((done, all_))
+            raise KeyboardInterrupt
+
+        scene, renderer = clrt.load(REFLECTIONS), clrt.Renderer()
+        for size in (30, 300):
+            calls.clear()
+            with self.assertRaises(KeyboardInterrupt):
+                renderer.render(scene, size, size, channels=["depth"], progress=fail)
+            self.assertEqual(len(calls), 1)
+        with self.assertRaises(KeyboardInterrupt):
+            renderer.trace(scene, [(0, 0, 5)], (0, 0, -1), progress=fail)
+        with self.assertRaises(TypeError):
+            renderer.render(scene, 30, 30, progress=3)
 
     def test_crops_and_references_are_settings(self):
         renderer, scene = clrt.Renderer(), clrt.load(REFLECTIONS)

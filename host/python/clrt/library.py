@@ -154,15 +154,19 @@ def choice(names, given, what):
 
 @contextlib.contextmanager
 def progress_of(progress):
-    """Yields a ClrtProgress that calls progress or, for True, shows a bar by tqdm; or NULL."""
+    """Yields a ClrtProgress that calls progress or, for True, shows a bar by tqdm; or NULL.
+
+    Raises the exception of progress, even if the call has already completed.
+    """
     faults, advance = [], _bar() if progress is True else progress
     callback = advance and ffi.callback(
-        "ClrtProgress", lambda _, *parts: advance(*parts) is not False, error=False,
+        "ClrtProgress", lambda _, *parts: not faults and advance(*parts) is not False, error=False,
         onerror=lambda _, fault, __: faults.append(fault))
     try:
         yield callback or ffi.NULL
-    except Stopped as stopped:
-        raise faults[0] if faults else stopped
+    finally:
+        if faults:
+            raise faults[0] from None
 
 
 def _bar():
