@@ -172,6 +172,25 @@ class Pictures(unittest.TestCase):
         self.assertEqual(found["pixels"], 1)
         self.assertAlmostEqual(found["largest"], 0.5, places=6)
 
+    def test_pictures_of_integers_compare_as_their_files(self):
+        bytes_ = np.arange(48, dtype=np.uint8).reshape(4, 4, 3) * 5
+        floats = (bytes_ / 255).astype(np.float32)
+        for picture in (bytes_, bytes_.astype(np.uint16) * 257):
+            self.assertEqual(clrt.compare(picture, floats)["largest"], 0)
+            self.assertEqual(clrt.hash(picture), clrt.hash(floats))
+
+    def test_pictures_that_the_program_rejects_do_not_compare(self):
+        one = np.zeros((4, 5, 3))
+        for value in (np.nan, np.inf):
+            other = one.copy()
+            other[2, 1, 0] = value
+            for pair in ((one, other), (other, one), (other, other)):
+                with self.assertRaisesRegex(clrt.ArgumentError, "R of pixel 1,2 is not finite"):
+                    clrt.compare(*pair)
+        for other in (one[..., 0], one[..., :2], one[0]):
+            with self.assertRaisesRegex(clrt.ArgumentError, r"not \(height, width, 3\)"):
+                clrt.compare(other, other)
+
     def test_progress_stops_a_picture(self):
         with self.assertRaises(clrt.Stopped):
             clrt.load(REFLECTIONS).render(300, 300, progress=lambda done, all_: False)

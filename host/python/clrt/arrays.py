@@ -10,7 +10,8 @@ from typing import Any, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .library import NOTHING, ArgumentError, ffi, lib, numbers, result_of, struct, threes
+from .library import (NOTHING, ArgumentError, ffi, fractions, lib, numbers, result_of, struct,
+                      threes)
 
 
 class Picture(np.ndarray):
@@ -56,21 +57,30 @@ def channel_array(name, shape):
     return np.zeros(shape if components == 1 else (*shape, components), dtype)
 
 
+def _pixels(picture, what="the picture"):
+    return threes(np.ascontiguousarray(fractions(picture)), what, "height", "width")
+
+
 def hash(picture: ArrayLike) -> str:  # pylint: disable=redefined-builtin
     """The 32 digits that `clrt SCENE --hash` prints for this picture."""
-    pixels = threes(np.ascontiguousarray(picture, np.float32), "the picture", "height", "width")
+    pixels = _pixels(picture).astype(np.float32, copy=False)
     text = ffi.new("char[33]")
     lib.clrt_hash(ffi.from_buffer("float[]", pixels), *pixels.shape[1::-1], text)
     return ffi.string(text).decode()
 
 
 def compare(picture: ArrayLike, other: ArrayLike) -> dict[str, float]:
-    """The differences of two pictures of one size, as a dict: rmse, psnr, largest, pixels."""
-    a, b = np.asarray(picture, np.float64), np.asarray(other, np.float64)
+    """The differences of two pictures of one size, as a dict: rmse, psnr, largest, pixels.
+
+    Pictures have the shape (height, width, 3). Values of uint8 or uint16 become numbers in [0, 1].
+    """
+    a, b = _pixels(picture), _pixels(other, "the other picture")
     if a.shape != b.shape:
         raise ArgumentError(f"the pictures have the shapes {a.shape} and {b.shape}")
-    apart = np.abs(a - b)
-    rmse = np.sqrt(np.mean(apart**2))
+    for y, x, color in np.argwhere(~(np.isfinite(a) & np.isfinite(b)))[:1]:
+        raise ArgumentError(f"{'RGB'[color]} of pixel {x},{y} is not finite")
+    apart = np.abs(a.astype(np.float64) - b)
+    rmse = np.sqrt(np.mean(apart**2)) if apart.size else 0.0
     psnr = -20 * np.log10(rmse) if rmse > 0 else np.inf
     return {"rmse": float(rmse), "psnr": float(psnr), "largest": float(apart.max(initial=0)),
             "pixels": int((apart > 0).any(-1).sum())}

@@ -133,6 +133,14 @@ def numbers(values, dtype, what):
     return made
 
 
+def fractions(values):
+    """An array. Integers of one or two bytes become numbers in [0, 1], as when clrt reads files."""
+    values = np.asarray(values)
+    if values.dtype in (np.uint8, np.uint16):
+        return (values / np.iinfo(values.dtype).max).astype(np.float32)
+    return values
+
+
 def threes(array, what, *axes):
     """Returns the array. Raises unless it has the named axes and a last axis of length 3."""
     if array.shape[len(axes):] != (3,):

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import Picture, rows
-from .library import ArgumentError, call, choice, ffi, lib, result_of, struct, vector
+from .library import ArgumentError, call, choice, ffi, fractions, lib, result_of, struct, vector
 
 _MATERIALS = ("silhouette", "matte", "blinn_phong", "mirror")
 
@@ -140,12 +140,13 @@ def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
 
 
 def _per_vertex(given, count, what):
-    """Three numbers per vertex or None. Integers of one or two bytes become numbers in [0, 1]."""
-    if getattr(given, "dtype", None) in (np.uint8, np.uint16):
-        given = given / np.iinfo(given.dtype).max
-    if given is not None and len(given) != count:
-        raise ArgumentError(f"{len(given)} {what} for {count} vertices")
-    return None if given is None else rows(given, np.float32, what, is_dense=True)
+    """Three numbers per vertex or None."""
+    if given is None:
+        return None
+    made = rows(fractions(given), np.float32, what, is_dense=True)
+    if len(made) != count:
+        raise ArgumentError(f"{len(made)} {what} for {count} vertices")
+    return made
 
 
 def _material(material):
