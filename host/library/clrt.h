@@ -65,7 +65,8 @@ typedef struct {
     size_t size;
     ClrtUp up;
     bool flat;             // ignores the file's normals; otherwise, missing normals are computed
-    double crease_degrees; // larger angles stay sharp; at most 180; 0 chooses 33 or 70 by the shape
+    double crease_degrees; // larger angles stay sharp; at most 180; 0 chooses 33 or 70 by the
+                           // shape; must be 0 with flat
     bool soft;             // lights the mesh by areas instead of points, so its shadows are soft
 } ClrtLoad;
 
@@ -136,7 +137,8 @@ typedef struct {
     bool two_sided;        // also visible from behind
     bool flat;             // ignores the normals
     bool smooth;           // computes missing normals, like `normals smooth` in scene files
-    double crease_degrees; // for smooth: larger angles stay sharp; in [0, 180]; 0 means 33
+    double crease_degrees; // larger angles stay sharp; in [0, 180]; 0 means 33; must be 0
+                           // without smooth
     const float *colors;   // R G B per vertex, in [0, 1], instead of diffuse; may be NULL
 } ClrtMesh;
 

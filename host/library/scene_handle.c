@@ -148,6 +148,10 @@ ClrtScene *clrt_scene_load(const char *path, const ClrtLoad *load, ClrtError *er
         !check_number(error, "the up axis", given.up, 0, CLRT_UP_MINUS_Z) ||
         !check_number(error, "the crease angle", given.crease_degrees, 0, CREASE_MOST))
         return NULL;
+    if (given.flat && given.crease_degrees > 0) {
+        check_fail(error, CLRT_ARGUMENT, "the mesh is flat and has a crease angle");
+        return NULL;
+    }
     const Normals computed = given.crease_degrees > 0 ? NORMALS_SMOOTH : NORMALS_AUTO;
     const SceneLoadOptions options = {.up = (UpAxis)given.up,
                                       .normals = given.flat ? NORMALS_FLAT : computed,

@@ -76,6 +76,8 @@ static bool check_mesh(const ClrtScene *scene, const ClrtMesh *mesh, ClrtError *
 {
     if (mesh->flat && mesh->smooth)
         return check_fail(error, CLRT_ARGUMENT, "the mesh is flat and smooth");
+    if (!mesh->smooth && mesh->crease_degrees != 0)
+        return check_fail(error, CLRT_ARGUMENT, "the mesh has a crease angle, but is not smooth");
     return check_number(error, "the crease angle", mesh->crease_degrees, 0, CREASE_MOST) &&
            check_array("positions", mesh->positions, mesh->vertex_count, error) &&
            check_array("triangles", mesh->triangles, mesh->triangle_count, error) &&

@@ -133,6 +133,9 @@ TEST(a_mesh_file_is_turned_and_smoothed_as_by_the_program)
     }
     ClrtLoad load = {.size = sizeof load, .crease_degrees = 181};
     REFUSES(clrt_scene_load(program_file(mesh), &load, &error) != NULL, "the crease angle is 181");
+    load.crease_degrees = 33;
+    load.flat = true;
+    REFUSES(clrt_scene_load(program_file(mesh), &load, &error) != NULL, "flat and has a crease");
     load.crease_degrees = 0;
     load.up = 7;
     REFUSES(clrt_scene_load(program_file(mesh), &load, &error) != NULL, "the up axis is 7");
@@ -153,6 +156,9 @@ TEST(missing_normals_are_computed_as_by_the_program)
     roof.flat = false;
     roof.crease_degrees = -1;
     REFUSES(clrt_scene_add_mesh(scene, &roof, &error), "the crease angle is -1");
+    roof.crease_degrees = 33;
+    roof.smooth = false;
+    REFUSES(clrt_scene_add_mesh(scene, &roof, &error), "crease angle, but is not smooth");
     expect_program(scene, "tests/library/smooth.scn", "");
 }
 

@@ -3,6 +3,7 @@
 
 import dataclasses
 import os
+import sys
 from typing import Any
 
 import numpy as np
@@ -65,7 +66,8 @@ class Scene:
         vertices: (n, 3) numbers, kept as float64. faces: (m, 3) vertex numbers, counter-clockwise
         seen from the front. normals, colors: (n, 3), one per vertex. Colors replace the material's
         diffuse color: uint8, uint16 or numbers in [0, 1]. smooth computes missing normals; angles
-        above `crease` degrees (33) stay sharp. two_sided meshes are also visible from behind.
+        above `crease` degrees stay sharp (33 by default). two_sided meshes are also visible from
+        behind.
         material: "silhouette", "matte", "blinn_phong", "mirror" or the result of `material`.
         """
         vertices = rows(vertices, np.float64, "vertices", is_dense=True)
@@ -75,7 +77,7 @@ class Scene:
         given = struct("ClrtMesh", positions=vertices, triangles=faces, normals=normals,
                        colors=colors, vertex_count=len(vertices), triangle_count=len(faces),
                        material=_material(material), two_sided=two_sided, smooth=smooth,
-                       flat=normals is None and not smooth, crease_degrees=crease)
+                       flat=normals is None and not smooth, crease_degrees=_crease(crease))
         call("scene_add_mesh", self._handle, given)
 
     def sphere(self, center: ArrayLike, radius: float, material: int | str = "matte") -> None:
@@ -91,12 +93,15 @@ class Scene:
         area: both sides of a parallelogram around the position, and a number n up to 16. The light
         then consists of n * n points, and casts soft shadows.
         """
-        if area is not None:
+        if area is None:
+            call("scene_add_sun" if is_sun else "scene_add_colored_light", self._handle,
+                 vector(position, "position"), intensity, vector(color, "color"))
+        elif is_sun:
+            raise ArgumentError("a sun has no area")
+        else:
             given = struct("ClrtAreaLight", position=position, side_u=area[0], side_v=area[1],
                            cells=area[2], intensity=intensity, color=color)
-            return call("scene_add_area_light", self._handle, given)
-        call("scene_add_sun" if is_sun else "scene_add_colored_light", self._handle,
-             vector(position, "position"), intensity, vector(color, "color"))
+            call("scene_add_area_light", self._handle, given)
 
     def camera(self, eye: ArrayLike, *settings: Any, **more: Any) -> None:
         """Appends a Camera of these arguments as a view. Its number is len(scene.cameras)."""
@@ -133,9 +138,10 @@ def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
     """Reads a scene file (man 5 clrt-scene) or a mesh file, which clrt places in a studio.
 
     up: the axis of a mesh file that points up, "x" to "-z". flat ignores its normals. Angles above
-    `crease` degrees stay sharp. soft gives the studio's lights areas, so shadows are soft.
+    `crease` degrees stay sharp (33 or 70 by default, by the shape). soft gives the studio's lights areas, so shadows are soft.
     """
-    settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=crease, soft=soft)
+    settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=_crease(crease),
+                      soft=soft)
     return Scene(call("scene_load", os.fsencode(path), settings))
 
 
@@ -147,6 +153,11 @@ def _per_vertex(given, count, what):
     if len(made) != count:
         raise ArgumentError(f"{len(made)} {what} for {count} vertices")
     return made
+
+
+def _crease(degrees):
+    """The degrees for the library, where 0 means the default. The least number replaces 0."""
+    return sys.float_info.min if degrees == 0 else degrees
 
 
 def _material(material):
