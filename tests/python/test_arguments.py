@@ -72,4 +72,34 @@ class Lights(unittest.TestCase):
         self.assertEqual(scene.info["light_count"], 6)
 
 
+class Forks(unittest.TestCase):
+    def test_forks_use_a_device_only_if_their_parent_has_not(self):
+        code = """if True:
+            import clrt, multiprocessing
+            def trace(name):
+                scene = clrt.Scene()
+                scene.sphere((0, 0, 0), 1)
+                return (renderer or clrt.Renderer()).trace(scene, [(0, 0, 5)], (0, 0, -1))
+            def use(name):
+                try:
+                    {"trace": trace, "Renderer": clrt.Renderer,
+                     "devices": lambda _: clrt.devices()}[name](None)
+                    print("works", flush=True)
+                except clrt.DeviceError as error:
+                    print(str(error)[:22], flush=True)
+            renderer = None
+            for i in range(2):
+                for name in ("trace", "devices", "Renderer"):
+                    process = multiprocessing.get_context("fork").Process(target=use, args=(name,))
+                    process.start()
+                    process.join(30)
+                    process.kill()
+                renderer = clrt.Renderer()
+                use("trace")"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                              check=False)
+        expected = ["works"] * 4 + ["this process is a fork"] * 3 + ["works"]
+        self.assertEqual(done.stdout.splitlines(), expected, done.stderr)
+
+
 unittest.main(argv=sys.argv[:1])

@@ -18,6 +18,7 @@ _ADVICE = (
 
 NOTHING = 0xFFFFFFFF
 ffi = cffi.FFI()
+_user: list[int] = []  # the id of the process that uses devices
 _kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 
@@ -66,6 +67,14 @@ def _open():
 
 ffi.cdef(_declarations())
 lib = _open()
+
+
+def use_device():
+    """Raises in a fork of a process that has used a device, because there the driver would hang."""
+    _user[:] = _user or [os.getpid()]
+    if _user[0] != os.getpid():
+        raise DeviceError("this process is a fork of a process that has used a device, so it can use"
+                          " none: fork earlier, or start processes by multiprocessing's 'spawn'")
 
 
 def call(name, *arguments):

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import RESULTS, Hits, Picture, channel_array, hit_arrays, rays, rows
-from .library import call, ffi, lib, progress_of, result_of, struct, value_of
+from .library import call, ffi, lib, progress_of, result_of, struct, use_device, value_of
 from .scene import Scene
 
 Progress = bool | Callable[[int, int], bool | None] | None
@@ -26,6 +26,7 @@ class Renderer:
     """
 
     def __init__(self, device: str | None = None, threads: int = 0, precision: str = "fp32"):
+        use_device()
         settings = struct("ClrtSettings", device=device, threads=threads, precision=precision)
         self._handle = ffi.gc(call("renderer_create", settings), lib.clrt_renderer_free)
         self._lock = threading.Lock()
@@ -115,8 +116,7 @@ class Renderer:
         "fine" says whether no finding is a fault. "meshes" and "findings" are lists of dicts, whose
         members are those of ClrtCheckedMesh and ClrtFinding in clrt.h.
         """
-        with self._lock:
-            check = ffi.gc(call("check", self._handle, scene._handle), lib.clrt_check_free)
+        check = ffi.gc(self._call("check", scene), lib.clrt_check_free)
         info = result_of("check_get_info", check)
         meshes = [result_of("check_get_mesh", check, i) for i in range(info["mesh_count"])]
         findings = [result_of("check_get_finding", check, i) for i in range(info["finding_count"])]
@@ -128,8 +128,13 @@ class Renderer:
         return flags
 
     def _run(self, kind, scene, given, target, progress):
-        with progress_of(progress) as given.progress, self._lock:
-            return call(kind, self._handle, scene._handle, given, target)
+        with progress_of(progress) as given.progress:
+            return self._call(kind, scene, given, target)
+
+    def _call(self, kind, scene, *arguments):
+        use_device()
+        with self._lock:
+            return call(kind, self._handle, scene._handle, *arguments)
 
 
 def _request(width, height, crop=None, camera=None, max_level=None, **settings):
@@ -152,6 +157,7 @@ def _explained(explanation, *place):
 
 def devices() -> list[dict[str, Any]]:
     """The OpenCL devices, as dicts. "device" is the name for Renderer(device=)."""
+    use_device()
     return [result_of("device_get", i) for i in range(result_of("device_count"))]
 
 
