@@ -478,9 +478,11 @@ CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const C
 CLRT_API bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                              const ClrtHits *hits, ClrtError *error);
 
-// Stores in inside[i] whether the ray's origin is inside the meshes, which must be closed. An
-// origin is inside if its ray crosses an odd number of triangles. The direction has no effect,
-// unless the origin is so close to a surface that rounding decides. NULL directions are fastest.
+// Stores in inside[i] whether the ray's origin is inside the meshes. Spheres are ignored. The
+// meshes must be closed. The call does not verify this, and its results are meaningless for open
+// meshes; clrt_check finds these. An origin is inside if its ray crosses an odd number of
+// triangles. The direction has no effect, unless the origin is so close to a surface that rounding
+// decides. NULL directions are fastest.
 CLRT_API bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                             uint8_t *inside, ClrtError *error);
 

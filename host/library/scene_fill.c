@@ -162,6 +162,9 @@ bool scene_handle_take_camera(Viewpoint *viewpoint, const ClrtCamera *camera, Cl
 bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *error)
 {
     const size_t count = scene->scene.viewpoints.count;
+    if (count == 0)
+        return check_fail(error, CLRT_ARGUMENT,
+                          "the scene has no camera: add one, or request the picture with one");
     return (view >= 1 && view <= count) ||
            check_fail(error, CLRT_ARGUMENT, "view %u does not exist: the scene has %zu", view,
                       count);

@@ -156,7 +156,7 @@ TEST(a_scene_without_cameras_is_drawn_with_the_pictures_camera)
     ClrtScene *scene = clrt_scene_create(NULL);
     ClrtPicture picture = {.size = sizeof picture, .width = WIDTH, .height = HEIGHT};
     REFUSES(clrt_render(stage.renderer, scene, &picture, stage.rgb, &error),
-            "view 1 does not exist: the scene has 0");
+            "the scene has no camera");
     picture.camera = &filled_cameras[0];
     assert_true(clrt_render(stage.renderer, scene, &picture, stage.rgb, NULL));
     for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
