@@ -98,8 +98,77 @@ class Forks(unittest.TestCase):
                 use("trace")"""
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
                               check=False)
-        expected = ["works"] * 4 + ["this process is a fork"] * 3 + ["works"]
+        expected = ["works"] * 4 + ["a fork of a process th"] * 3 + ["works"]
         self.assertEqual(done.stdout.splitlines(), expected, done.stderr)
+
+
+class Errors(unittest.TestCase):
+    def test_errors_name_the_argument(self):
+        scene, renderer, ray = roof(), clrt.Renderer(), ((0, 0, 5), [(0, 0, -1)])
+        cases = (
+            ("a result is 'near', not one of distance", lambda: renderer.trace(scene, *ray, results="near")),
+            ("a result is 'certain'", lambda: renderer.trace_all(scene, *ray, results=("certain",))),
+            ("a channel is 'dept', not one of depth", lambda: scene.render(8, 8, channels="dept")),
+            ("error is '0.5%', not a number", lambda: scene.render(8, 8, error="0.5%")),
+            ("max_level is 'auto', not an integer", lambda: scene.render(8, 8, max_level="auto")),
+            ("samples is -1, not an integer from 0", lambda: scene.render(8, 8, samples=-1)),
+            ("statistics is 'yes', not True or", lambda: scene.render(8, 8, statistics="yes")),
+            ("camera is of the type tuple, not Camera", lambda: scene.render(8, 8, camera=(0, -6, 3))),
+            (r"crop is \(2, 2, 4\), not \(left, top, width", lambda: scene.render(8, 8, crop=(2, 2, 4))),
+            ("scene is of the type ndarray, not Scene", lambda: renderer.trace(ROOF, *ray)),
+            ("scene is of the type str, not Scene", lambda: renderer.render("a.scn", 8, 8)),
+            ("material is -1, not an integer", lambda: scene.sphere((0, 0, 0), 1, -1)),
+            ("material is -1, not an integer", lambda: scene.mesh(ROOF, SLOPES, -1)),
+            ("radius is 'big', not a number", lambda: scene.sphere((0, 0, 0), "big")),
+            ("intensity is '1', not a number", lambda: scene.light((0, 0, 9), "1")),
+            ("area is 2, not", lambda: scene.light((0, 0, 9), area=2)),
+            ("checker is .*, not", lambda: scene.material(checker=(1, (1, 1, 1)))),
+            ("x is -1, not an integer", lambda: renderer.explain(scene, -1, 0, 8, 8)),
+            ("'weights' was not requested", lambda: renderer.trace(scene, *ray, results=["face"]).u),
+            ("device is of the type int, not str", lambda: clrt.Renderer(0)),
+            ("origins: .*abc", lambda: renderer.trace(scene, "abc", [(0, 0, 1)])),
+            ("directions: .*inhomogeneous", lambda: renderer.trace(scene, (0, 0, 5), [(0, 1), (2,)])),
+            ("near: .*broadcast", lambda: renderer.trace(scene, *ray, near=[1, 2])),
+            ("eye: .*'0'|eye: .*abc", lambda: clrt.Camera("abc")))
+        for words, action in cases:
+            with self.subTest(words), self.assertRaisesRegex(clrt.ArgumentError, words):
+                action()
+
+    def test_scenes_without_cameras_say_so(self):
+        with self.assertRaisesRegex(clrt.ArgumentError, "the scene has no camera"):
+            clrt.Scene().render(8, 8)
+
+
+class Arguments(unittest.TestCase):
+    def test_one_name_is_a_list_of_names(self):
+        scene = roof()
+        self.assertEqual(list(scene.render(8, 8, channels="depth").channels), ["depth"])
+        hits = clrt.Renderer().trace(scene, (0, 0, 5), [(0, 0, -1)], results="face")
+        self.assertEqual((hits.face.shape, hits.distance), ((1,), None))
+
+    def test_numbers_of_numpy_are_numbers(self):
+        scene = roof(two_sided=np.True_, smooth=np.True_, crease=np.float32(20))
+        picture = scene.render(np.int64(8), np.uint8(6), samples=np.int32(2), error=np.float64(0))
+        self.assertEqual(clrt.hash(picture), clrt.hash(scene.render(8, 6, samples=2)))
+
+    def test_cameras_of_arrays_are_equal(self):
+        self.assertEqual(clrt.Camera(np.zeros(3), up=[0, 1, 0]), clrt.Camera((0, 0, 0), up=(0, 1, 0)))
+        self.assertNotEqual(clrt.Camera(np.zeros(3)), clrt.Camera(np.ones(3)))
+
+    def test_no_rays_have_no_hits(self):
+        scene, renderer = roof(), clrt.Renderer()
+        for origins, directions in (([], []), ([], (0, 0, 1)), ((0, 0, 1), []), (np.zeros((0, 3)), [])):
+            self.assertEqual(renderer.trace(scene, origins, directions).normal.shape, (0, 3))
+            self.assertEqual(renderer.trace_all(scene, origins, directions).ray.shape, (0,))
+            self.assertEqual(renderer.occluded(scene, origins, directions, far=[]).shape, (0,))
+        self.assertEqual(renderer.contains(scene, []).shape, (0,))
+        with self.assertRaisesRegex(clrt.ArgumentError, "0 origins, but 2 directions"):
+            renderer.trace(scene, [], [(0, 0, 1)] * 2)
+
+    def test_spheres_contain_nothing(self):
+        scene = clrt.Scene()
+        scene.sphere((0, 0, 0), 1)
+        self.assertEqual(clrt.Renderer().contains(scene, [(0, 0, 0)]).tolist(), [False])
 
 
 unittest.main(argv=sys.argv[:1])

@@ -141,7 +141,7 @@ class Certain(unittest.TestCase):
     def test_all_crossings_have_no_certainty(self):
         scene = clrt.Scene()
         scene.mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-        with self.assertRaisesRegex(clrt.ArgumentError, "only clrt_trace"):
+        with self.assertRaisesRegex(clrt.ArgumentError, "a result is 'certain'"):
             clrt.Renderer().trace_all(scene, (0.1, 0.1, 1), [(0, 0, -1)], results=("certain",))
 
 

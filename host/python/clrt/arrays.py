@@ -10,8 +10,8 @@ from typing import Any, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .library import (NOTHING, ArgumentError, ffi, fractions, lib, numbers, result_of, struct,
-                      threes)
+from .library import (NOTHING, ArgumentError, choices, ffi, fractions, lib, numbers, result_of,
+                      struct, threes)
 
 
 class Picture(np.ndarray):
@@ -52,8 +52,8 @@ def channel_kinds() -> dict[str, tuple[int, type, str]]:
 
 
 def channel_array(name, shape):
-    """Zeros for a channel of a picture of this shape. The library rejects unknown names."""
-    components, dtype, _ = channel_kinds().get(name, (1, np.float32, ""))
+    """Zeros for a channel of a picture of this shape."""
+    components, dtype, _ = channel_kinds()[name]
     return np.zeros(shape if components == 1 else (*shape, components), dtype)
 
 
@@ -117,8 +117,13 @@ class Hits:
             raise ArgumentError("neither 'distance' nor 'primitive' was requested")
         return np.isfinite(self.distance) if self.primitive is None else self.primitive != NOTHING
 
-    u = property(lambda self: self.weights[:, 0])
-    v = property(lambda self: self.weights[:, 1])
+    def _weight(self, column):
+        if self.weights is None:
+            raise ArgumentError("'weights' was not requested")
+        return self.weights[:, column]
+
+    u = property(lambda self: self._weight(0))
+    v = property(lambda self: self._weight(1))
 
 
 _ARRAYS = {array.name: item for array in fields(Hits) for item in array.metadata.items()}
@@ -127,26 +132,27 @@ RESULTS = tuple(name for name in _ARRAYS if name != "certain")
 
 def rays(origins, directions, *, near=None, far=None, starts=None, **settings):
     """A ClrtRays. Renderer.trace describes the arguments. The settings are further members."""
-    origins, directions = np.asarray(origins), np.asarray(directions)
-    shape = max(origins.shape, directions.shape, key=len)
+    origins = numbers(origins, np.float64, "origins")
+    directions = numbers(directions, np.float64, "directions")
+    axis = next((array.shape[:1] for array in (origins, directions) if array.shape != (3,)), ())
     origins, directions = (
-        rows(np.broadcast_to(array, shape) if array.ndim == 1 else array, np.float64, what)
+        rows(np.broadcast_to(array, (*axis, 3)) if array.shape == (3,) else array, np.float64, what)
         for array, what in ((origins, "origins"), (directions, "directions")))
     count = len(origins)
     if len(directions) != count:
         raise ArgumentError(f"there are {count} origins, but {len(directions)} directions")
-    limits = {"nears": (near, np.float64), "fars": (far, np.float64), "starts": (starts, np.uint32)}
-    settings |= {name: np.ascontiguousarray(np.broadcast_to(numbers(values, dtype, name), count))
-                 for name, (values, dtype) in limits.items() if values is not None}
+    limits = (("nears", near, "near", np.float64), ("fars", far, "far", np.float64),
+              ("starts", starts, "starts", np.uint32))
+    settings |= {member: np.ascontiguousarray(numbers(values, dtype, what, count))
+                 for member, values, what, dtype in limits if values is not None}
     return struct("ClrtRays", count=count, origins=origins, origin_stride=origins.strides[0],
                   directions=directions, direction_stride=directions.strides[0], **settings)
 
 
 def hit_arrays(results, count, room=1):
     """A ClrtHits for `count` rays with `room` hits each, and a dict of its arrays."""
-    for unknown in set(results) - set(_ARRAYS):
-        raise ArgumentError(f"{unknown!r} is not one of {', '.join(_ARRAYS)}")
-    arrays = {name: np.empty(count * room, _ARRAYS[name][1]) for name in results}
+    arrays = {name: np.empty(count * room, _ARRAYS[name][1])
+              for name in choices([*_ARRAYS], results, "a result")}
     members = {_ARRAYS[name][0]: array for name, array in arrays.items()}
     return struct("ClrtHits", room=room, **members), arrays
 

@@ -17,6 +17,8 @@ _ADVICE = (
     " (Fedora), conda install pocl-cpu-minimal ocl-icd (conda-forge).")
 
 NOTHING = 0xFFFFFFFF
+_NUMBERS = {"double": "a number", "_Bool": "True or False",
+            "uint32_t": f"an integer from 0 to {NOTHING}"}
 ffi = cffi.FFI()
 _user: list[int] = []  # the id of the process that uses devices
 _kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
@@ -70,11 +72,11 @@ lib = _open()
 
 
 def use_device():
-    """Raises in a fork of a process that has used a device, because there the driver would hang."""
+    """Raises in forks of a process that has used a device, because the driver hangs there."""
     _user[:] = _user or [os.getpid()]
     if _user[0] != os.getpid():
-        raise DeviceError("this process is a fork of a process that has used a device, so it can use"
-                          " none: fork earlier, or start processes by multiprocessing's 'spawn'")
+        raise DeviceError("a fork of a process that has used a device cannot use one: fork earlier,"
+                          " or start processes by multiprocessing's 'spawn'")
 
 
 def call(name, *arguments):
@@ -104,9 +106,11 @@ def _c_value(value, kind, what):
         return vector(value, what)
     if kind.kind == "enum":
         return choice(_names(kind), value, what)
-    if isinstance(value, np.ndarray):
-        return ffi.cast("void *", value.ctypes.data)
-    return ffi.new("char[]", os.fsencode(value)) if isinstance(value, str) else value
+    if kind.kind == "primitive":
+        return number(value, what, kind.cname)
+    if kind.cname == "char *":
+        return ffi.new("char[]", instance(value, str, what).encode())
+    return ffi.cast("void *", value.ctypes.data) if isinstance(value, np.ndarray) else value
 
 
 def value_of(value, kind):
@@ -133,10 +137,30 @@ def result_of(name, *arguments):
     return value_of(made[0], kind.item)
 
 
-def numbers(values, dtype, what):
-    """An array of this dtype. Copies only if it must. Raises if uint32 cannot hold a value."""
-    values = np.asarray(values)
-    made = values.astype(dtype, copy=False)
+def instance(value, kind, what):
+    """The value, which must be of this class."""
+    if not isinstance(value, kind):
+        raise ArgumentError(f"{what} is of the type {type(value).__name__}, not {kind.__name__}")
+    return value
+
+
+def number(value, what, kind="double"):
+    """The value as a number of C. Raises unless this type of C can hold it."""
+    try:
+        return ffi.new(kind + " *", value)[0]
+    except (OverflowError, TypeError):
+        expected = _NUMBERS.get(kind, "an integer")
+        raise ArgumentError(f"{what} is {value!r}, not {expected}") from None
+
+
+def numbers(values, dtype, what, shape=None):
+    """An array of this dtype and shape. Copies only if it must. Raises if uint32 is too small."""
+    try:
+        values = np.asarray(values)
+        values = values if shape is None else np.broadcast_to(values, shape)
+        made = values.astype(dtype, copy=False)
+    except (OverflowError, TypeError, ValueError) as fault:
+        raise ArgumentError(f"{what}: {fault}") from None
     if dtype == np.uint32 and (made != values).any():
         raise ArgumentError(f"a number of the {what} is not an integer from 0 to {NOTHING}")
     return made
@@ -152,14 +176,32 @@ def fractions(values):
 
 def threes(array, what, *axes):
     """Returns the array. Raises unless it has the named axes and a last axis of length 3."""
+    if array.shape == (0,) and len(axes) == 1:
+        array = array.reshape(0, 3)
     if array.shape[len(axes):] != (3,):
         raise ArgumentError(f"{what}: the shape is {array.shape}, not ({', '.join((*axes, '3'))})")
     return array
 
 
 def vector(values, what):
-    """Three numbers for the library."""
-    return threes(np.asarray(values, np.float64), what).tolist()
+    """A tuple of three numbers for the library."""
+    return tuple(threes(numbers(values, np.float64, what), what).tolist())
+
+
+def parts(values, what, *names):
+    """The values as a tuple, which must have an element for each name."""
+    made = tuple(values) if np.iterable(values) else ()
+    if len(made) != len(names):
+        raise ArgumentError(f"{what} is {values!r}, not ({', '.join(names)})")
+    return made
+
+
+def choices(names, given, what):
+    """The given names as keys of a dict. One string is one name."""
+    given = dict.fromkeys([given] if isinstance(given, str) else given)
+    for name in given:
+        choice(names, name, what)
+    return given
 
 
 def choice(names, given, what):
@@ -171,10 +213,7 @@ def choice(names, given, what):
 
 @contextlib.contextmanager
 def progress_of(progress):
-    """Yields a ClrtProgress that calls progress or, for True, shows a bar by tqdm; or NULL.
-
-    Raises the exception of progress, even if the call has already completed.
-    """
+    """Yields a ClrtProgress that calls progress or, for True, shows a bar by tqdm; or NULL."""
     faults, advance = [], _bar() if progress is True else progress
     callback = advance and ffi.callback(
         "ClrtProgress", lambda _, *parts: not faults and advance(*parts) is not False, error=False,

@@ -8,9 +8,10 @@ from typing import Any, Callable, Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import RESULTS, Hits, Picture, channel_array, hit_arrays, rays, rows
-from .library import call, ffi, lib, progress_of, result_of, struct, use_device, value_of
-from .scene import Scene
+from .arrays import RESULTS, Hits, Picture, channel_array, channel_kinds, hit_arrays, rays, rows
+from .library import (call, choices, ffi, instance, lib, number, parts, progress_of, result_of,
+                      struct, use_device, value_of)
+from .scene import Camera, Scene
 
 Progress = bool | Callable[[int, int], bool | None] | None
 
@@ -43,9 +44,11 @@ class Renderer:
         reference_samples draws a reference in fp64.
         """
         picture = _request(width, height, result=struct("ClrtResult"), **settings)
-        shape = (picture.crop_height or height or scene.info["height"],
-                 picture.crop_width or width or scene.info["width"])
-        arrays = {name: channel_array(name, shape) for name in channels}
+        info = instance(scene, Scene, "scene").info
+        shape = (picture.crop_height or height or info["height"],
+                 picture.crop_width or width or info["width"])
+        arrays = {name: channel_array(name, shape)
+                  for name in choices([*channel_kinds()], channels, "a channel")}
         names = [ffi.new("char[]", name.encode()) for name in arrays]
         array = ffi.new("ClrtChannel[]", [*zip(names, map(ffi.from_buffer, arrays.values()))])
         picture.channels, picture.channel_count = array, len(arrays)
@@ -62,7 +65,8 @@ class Renderer:
 
         Its "samples" have "rays", and these have "lights"; clrt.h describes the members.
         """
-        explanation = self._run("explain", scene, _request(width, height, **settings), [x, y], None)
+        place = [number(x, "x", "uint32_t"), number(y, "y", "uint32_t")]
+        explanation = self._run("explain", scene, _request(width, height, **settings), place, None)
         return _explained(ffi.gc(explanation, lib.clrt_explanation_free))
 
     def trace(self, scene: Scene, origins: ArrayLike, directions: ArrayLike, *,
@@ -76,7 +80,7 @@ class Renderer:
         rays pass through the backs of faces that are not two_sided.
         """
         given = rays(origins, directions, **limits)
-        target, arrays = hit_arrays({*results}, given.count)
+        target, arrays = hit_arrays(results, given.count)
         self._run("trace", scene, given, target, progress)
         return Hits(**arrays)
 
@@ -88,7 +92,7 @@ class Renderer:
         A ray that enters or leaves a closed mesh through an edge or vertex crosses an odd number of
         faces there, usually one.
         """
-        given = rays(origins, directions, **limits)
+        given, results = rays(origins, directions, **limits), choices(RESULTS, results, "a result")
         counts = np.zeros(given.count, np.uint32)
         self._run("trace_all", scene, given, struct("ClrtHits", counts=counts), None)
         room = max(int(counts.max(initial=0)), 1)
@@ -104,7 +108,10 @@ class Renderer:
         return self._flags("occluded", scene, rays(origins, directions, **limits), progress)
 
     def contains(self, scene: Scene, points: ArrayLike, *, progress: Progress = None) -> np.ndarray:
-        """Whether each point is inside of the scene's meshes, which must be closed, as bools."""
+        """Whether each point is inside of the scene's meshes, as bools. Spheres do not count.
+
+        The meshes must be closed. Results for open meshes are meaningless; `check` finds these.
+        """
         points = rows(points, np.float64, "points")
         given = struct("ClrtRays", count=len(points), origins=points,
                        origin_stride=points.strides[0])
@@ -134,14 +141,16 @@ class Renderer:
     def _call(self, kind, scene, *arguments):
         use_device()
         with self._lock:
-            return call(kind, self._handle, scene._handle, *arguments)
+            return call(kind, self._handle, instance(scene, Scene, "scene")._handle, *arguments)
 
 
 def _request(width, height, crop=None, camera=None, max_level=None, **settings):
     """A ClrtPicture, whose members are the settings."""
-    rectangle = zip(("left", "top", "crop_width", "crop_height"), crop or (0, 0, 0, 0), strict=True)
-    return struct("ClrtPicture", width=width, height=height, camera=camera and camera._struct(),
-                  **dict(rectangle), max_level=-1 if max_level == 0 else max_level, **settings)
+    rectangle = zip(("left", "top", "crop_width", "crop_height"),
+                    parts(crop or (0, 0, 0, 0), "crop", "left", "top", "width", "height"))
+    camera = None if camera is None else instance(camera, Camera, "camera")._struct()
+    return struct("ClrtPicture", width=width, height=height, camera=camera, **dict(rectangle),
+                  max_level=-1 if max_level == 0 else max_level, **settings)
 
 
 def _explained(explanation, *place):

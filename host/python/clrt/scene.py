@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import Picture, rows
-from .library import ArgumentError, call, choice, ffi, fractions, lib, result_of, struct, vector
+from .library import (ArgumentError, call, choice, ffi, fractions, lib, number, parts, result_of,
+                      struct, vector)
 
 _MATERIALS = ("silhouette", "matte", "blinn_phong", "mirror")
 
@@ -30,6 +31,10 @@ class Camera:
     height: float = 0.0
     width: float = 0.0
     width_degrees: float = 0.0
+
+    def __post_init__(self):
+        for name in ("eye", "look_at", "up"):
+            setattr(self, name, vector(getattr(self, name), name))
 
     def _struct(self):
         members = dict(vars(self))
@@ -52,7 +57,7 @@ class Scene:
         color of refracted light, and ior. Colors are R G B in [0, 1]. checker: the size of cubes
         and their two colors, instead of diffuse. The cube from (0, 0, 0) has the first color.
         """
-        size, even, odd = checker or (0.0, None, None)
+        size, even, odd = parts(checker or (0, None, None), "checker", "size", "color", "color")
         given = struct("ClrtMaterial", shading=shading, diffuse=diffuse, specular=specular, kd=kd,
                        ks=ks, shininess=shininess, reflectivity=reflectivity, check_size=size,
                        even=even, odd=odd, ior=ior)
@@ -82,7 +87,7 @@ class Scene:
 
     def sphere(self, center: ArrayLike, radius: float, material: int | str = "matte") -> None:
         """Adds a sphere."""
-        call("scene_add_sphere", self._handle, vector(center, "center"), radius,
+        call("scene_add_sphere", self._handle, vector(center, "center"), number(radius, "radius"),
              _material(material))
 
     def light(self, position: ArrayLike, intensity: float = 1.0,
@@ -95,12 +100,14 @@ class Scene:
         """
         if area is None:
             call("scene_add_sun" if is_sun else "scene_add_colored_light", self._handle,
-                 vector(position, "position"), intensity, vector(color, "color"))
+                 vector(position, "position"), number(intensity, "intensity"),
+                 vector(color, "color"))
         elif is_sun:
             raise ArgumentError("a sun has no area")
         else:
-            given = struct("ClrtAreaLight", position=position, side_u=area[0], side_v=area[1],
-                           cells=area[2], intensity=intensity, color=color)
+            side_u, side_v, cells = parts(area, "area", "side", "side", "n")
+            given = struct("ClrtAreaLight", position=position, side_u=side_u, side_v=side_v,
+                           cells=cells, intensity=intensity, color=color)
             call("scene_add_area_light", self._handle, given)
 
     def camera(self, eye: ArrayLike, *settings: Any, **more: Any) -> None:
@@ -113,7 +120,7 @@ class Scene:
 
     def ambient(self, intensity: float) -> None:
         """Sets the ambient light, in [0, 1]."""
-        call("scene_set_ambient", self._handle, intensity)
+        call("scene_set_ambient", self._handle, number(intensity, "intensity"))
 
     @property
     def info(self) -> dict[str, Any]:
@@ -138,7 +145,8 @@ def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
     """Reads a scene file (man 5 clrt-scene) or a mesh file, which clrt places in a studio.
 
     up: the axis of a mesh file that points up, "x" to "-z". flat ignores its normals. Angles above
-    `crease` degrees stay sharp (33 or 70 by default, by the shape). soft gives the studio's lights areas, so shadows are soft.
+    `crease` degrees stay sharp (33 or 70 by default, by the shape). soft gives the studio's lights
+    areas, so shadows are soft.
     """
     settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=_crease(crease),
                       soft=soft)
@@ -161,4 +169,6 @@ def _crease(degrees):
 
 
 def _material(material):
-    return choice(_MATERIALS, material, "material") if isinstance(material, str) else material
+    if isinstance(material, str):
+        return choice(_MATERIALS, material, "material")
+    return number(material, "material", "uint32_t")
