@@ -154,7 +154,7 @@ def number(value, what, kind="double"):
 
 
 def numbers(values, dtype, what, shape=None):
-    """An array of this dtype and shape. Copies only if it must. Raises if uint32 is too small."""
+    """An array of this dtype and shape. Copies only if it must. Raises if uint32 cannot hold it."""
     try:
         values = np.asarray(values)
         values = values if shape is None else np.broadcast_to(values, shape)
@@ -169,9 +169,8 @@ def numbers(values, dtype, what, shape=None):
 def fractions(values):
     """An array. Integers of one or two bytes become numbers in [0, 1], as when clrt reads files."""
     values = np.asarray(values)
-    if values.dtype in (np.uint8, np.uint16):
-        return (values / np.iinfo(values.dtype).max).astype(np.float32)
-    return values
+    most = {"uint8": 255, "uint16": 65535}.get(values.dtype.name)
+    return (values / most).astype(np.float32) if most else values
 
 
 def threes(array, what, *axes):

@@ -72,8 +72,8 @@ class Scene:
         seen from the front. normals, colors: (n, 3), one per vertex. Colors replace the material's
         diffuse color: uint8, uint16 or numbers in [0, 1]. smooth computes missing normals; angles
         above `crease` degrees stay sharp (33 by default). two_sided meshes are also visible from
-        behind.
-        material: "silhouette", "matte", "blinn_phong", "mirror" or the result of `material`.
+        behind. material: "silhouette", "matte", "blinn_phong", "mirror" or the result of
+        `material`.
         """
         vertices = rows(vertices, np.float64, "vertices", is_dense=True)
         faces = rows(faces, np.uint32, "faces", is_dense=True)
@@ -148,8 +148,7 @@ def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
     `crease` degrees stay sharp (33 or 70 by default, by the shape). soft gives the studio's lights
     areas, so shadows are soft.
     """
-    settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=_crease(crease),
-                      soft=soft)
+    settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=_crease(crease), soft=soft)
     return Scene(call("scene_load", os.fsencode(path), settings))
 
 
