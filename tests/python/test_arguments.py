@@ -92,7 +92,7 @@ class Forks(unittest.TestCase):
                 for name in ("trace", "devices", "Renderer"):
                     process = multiprocessing.get_context("fork").Process(target=use, args=(name,))
                     process.start()
-                    process.join(30)
+                    process.join(120)
                     process.kill()
                 renderer = clrt.Renderer()
                 use("trace")"""
