@@ -368,7 +368,8 @@ typedef struct {
     int32_t max_level; // rays of this level see the background; CLRT_LEVEL_NONE, or at most 1000;
                        // 0: selected by truncation or error, or the scene's if both are 0
     double truncation; // above 0: selects the smallest max_level whose error is at most this; in
-                       // scenes with glass, a coarse picture of the whole frame measures the error
+                       // scenes with glass, a coarse picture of the whole frame measures the error,
+                       // and less than 2^-22 selects 16
     uint32_t reference_samples; // per pixel of clrt_reference; even, at most 65536; 0 means 256
 
     uint32_t tile_width, tile_height; // the unit of progress; changes no bit; 0 means 128

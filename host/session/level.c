@@ -18,6 +18,11 @@
 // picture can miss small pieces of glass.
 #define LEVEL_LEAST 3
 
+// A cut ray in one of COARSE_PIXELS pixels causes at least this error, because squared errors are
+// rounded up to multiples of 2^-32. If the bound is smaller, the picture has all levels, and clrt
+// draws no coarse picture.
+#define MEASURED_LEAST 0x1p-22
+
 static RenderSettings coarse_settings(const RenderSettings *settings)
 {
     const uint32_t width = render_whole_width(settings), height = render_whole_height(settings);
@@ -52,7 +57,7 @@ bool session_choose_level(Session *session, SessionPicture *request, Error *erro
     const bool is_ladder = picture_entry(&request->wanted) == &ladder_entry;
     const RendererUse use = {.entry = is_ladder ? &ladder_entry : &draw_entry,
                              .counts = request->wanted.statistics};
-    if (request->level_bound <= 0)
+    if (request->level_bound < MEASURED_LEAST)
         return true;
     if (!session_renderer(session, &use, &request->settings, &renderer, error))
         return false;

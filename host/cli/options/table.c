@@ -69,7 +69,8 @@ const Option option_table[] = {
     {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
      "rays of level N see the background (default: the scene's); N is 3 if the scene has no level; "
      "without glass, the error is at most R^N, where R is the highest reflectivity; auto: the "
-     "smallest N whose error is below half a step of the file's values, but at most 16 with glass"},
+     "smallest N whose error is below half a step of the file's values, but at most 16 with glass, "
+     "and always 16 with glass in float files"},
     {"error", "E", 0, ODD(set_error), GROUP_QUALITY, CLASS_STATISTICAL,
      FOR_DRAWING | FOR_GENERAL | FOR_WARM,
      "reach a root mean square error of E, such as 0.5%; clrt chooses samples, levels and "
