@@ -72,17 +72,19 @@ static ALWAYS_INLINE Corners corners_from(const BlockPlace *at, const BlockRows 
 }
 
 // Returns the bits of the triangles in `near` that are hit by the line of at least one ray in
-// `lanes`. All rays must have the same axes. The loop has no branches.
+// `lanes`, other than the ray's own triangle. All rays must have the same axes. The loop has no
+// branches.
 static ALWAYS_INLINE uint triangles_entered(const BlockPlace *start, const BlockRows *rows,
                                             const Packet *packet, Mask lanes, uint near)
 {
+    const UInt own = packet->rays.ray->own_index - start->index; // the own triangle's place
     uint entered = 0;
     for (; near != 0; near &= near - 1) {
         const BlockPlace at = {start->block, lowest_bit(near), 0};
         const Corners relative = corners_from(&at, rows, packet, true);
         const Corners sheared = corners_sheared(&relative, &packet->rays.shear);
         const Edges edges = edges_of(&sheared);
-        const uint inside = lane_bits(lanes && edges_contain(&edges));
+        const uint inside = lane_bits(lanes && edges_contain(&edges) && own != at.place);
         entered |= inside != 0 ? near & -near : 0;
     }
     return entered;
