@@ -14,6 +14,9 @@
 #if CLRT_WIDE_NODES
 
 #define BEAM_LANES (PACKETS * CLRT_LANES)
+#define NO_AXIS    3
+
+#define ALL_TRIANGLES ((1u << WIDE) - 1)
 
 // A subtree is searched ray by ray if at most this many lanes of a beam enter it. The limit is
 // higher for DENSE or more triangles, because rays then separate more. Exchanging the two limits
@@ -33,9 +36,11 @@ typedef struct {
     BeamBounds bounds;       // over all rays
     BeamBounds own[PACKETS]; // over each packet's rays, if its bit is set in bounded
     uint bounded;
-    bool sheared;         // the packets are prepared for tests against triangles
-    uint own_block;       // the block of the triangle that all rays start on, or NOTHING
-    uint others;          // bits of this block's triangles that the rays may hit
+    bool sheared;    // the packets are prepared for tests against triangles
+    uint own_block;  // the block of the triangle that all rays start on, or NOTHING
+    uint others;     // bits of this block's triangles that the rays may hit
+    uint level_axis; // find_level: the plane on which all rays start, or NO_AXIS
+    float level;
     uint live[PACKETS];   // bits of the lanes that search
     float reach[PACKETS]; // upper bound on search_reach in the live lanes
     Hit *hits;            // of the packets
@@ -134,15 +139,33 @@ static inline void update_packet(Beam *beam, uint number)
     beam->reach[number] = highest(lanes_of(beam->live[number]) ? reach : (Real)(0.0f));
 }
 
-// Tests a block against the given lanes of the given packets. At least one packet must be given.
-// Returns whether a hit changed.
-static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint packets,
+// Returns the triangles of the block whose corners all have the coordinate `level` on the axis.
+static inline int8 lie_level(global const TriangleBlock *block, uint axis, float level)
+{
+    return block_row(block, 0, axis) == level && block_row(block, 1, axis) == level &&
+           block_row(block, 2, axis) == level;
+}
+
+// Returns the bits of the block's triangles that the rays may hit.
+static inline uint triangles_beside(const Beam *beam, uint number)
+{
+    global const TriangleBlock *block = beam->tracer->triangles + number;
+    if (number == beam->own_block)
+        return beam->others;
+    if (beam->level_axis == NO_AXIS)
+        return ALL_TRIANGLES;
+    const int8 level = lie_level(block, beam->level_axis, beam->level);
+    return lane_bits(vload8(0, block->id) != NOTHING && !level);
+}
+
+// Tests the block's triangles in `others` against the given lanes of the given packets. At least
+// one packet must be given. Returns whether a hit changed.
+static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint others, uint packets,
                                             const uint bits[PACKETS])
 {
     const BlockPlace start = block_start(beam->tracer, block);
-    uint near = triangles_near(start.block, bounds_of(beam, packets), reach_of(beam, packets));
-    if (block == beam->own_block)
-        near &= beam->others;
+    const uint near =
+        others & triangles_near(start.block, bounds_of(beam, packets), reach_of(beam, packets));
     bool any = false;
     if (near == 0)
         return false;
@@ -203,14 +226,16 @@ static inline void walk_tree(Beam *beam)
     while (searching != 0 && pop_child(&beam->stack, reach, &slot)) {
         uint bits[PACKETS];
         const uint child = beam->tracer->nodes[slot / WIDE].child[slot % WIDE];
-        if (child == (beam->own_block | WIDE_LEAF) && beam->others == 0)
+        const bool is_leaf = (child & WIDE_LEAF) != 0;
+        const uint others = is_leaf ? triangles_beside(beam, child & ~WIDE_LEAF) : ALL_TRIANGLES;
+        if (others == 0)
             continue;
         const uint parents = beam->inside[beam->stack.count] & searching;
         const uint packets = packets_entering(beam, slot, parents, bits);
         if (packets == 0)
             continue;
-        if ((child & WIDE_LEAF) != 0) {
-            if (!intersect_beam_block(beam, child & ~WIDE_LEAF, packets, bits))
+        if (is_leaf) {
+            if (!intersect_beam_block(beam, child & ~WIDE_LEAF, others, packets, bits))
                 continue;
         } else if (lanes_in(packets, bits) > most_leaving) {
             expand_node(beam, child, packets);
@@ -228,7 +253,7 @@ static inline void test_all_blocks(Beam *beam)
     uint packets = packets_searching(beam);
     for (uint block = 0; packets != 0 && block * WIDE < beam->tracer->frame->triangle_count;
          block++)
-        if (intersect_beam_block(beam, block, packets, beam->live))
+        if (intersect_beam_block(beam, block, triangles_beside(beam, block), packets, beam->live))
             packets = packets_searching(beam);
 }
 
@@ -240,13 +265,6 @@ static inline uint shared_own(const Beam *beam, const Ray *rays)
     for (uint number = 0; number < beam->count; number++)
         other = other || rays[number].own_index != own;
     return any_lane(other) ? NOTHING : own;
-}
-
-// Returns the triangles of the block whose corners all have the coordinate `level` on the axis.
-static inline int8 lie_level(global const TriangleBlock *block, uint axis, float level)
-{
-    return block_row(block, 0, axis) == level && block_row(block, 1, axis) == level &&
-           block_row(block, 2, axis) == level;
 }
 
 // Returns whether all rays start within rounding of the plane whose points have the coordinate
@@ -264,7 +282,7 @@ static inline bool start_level(const Ray *rays, uint count, uint axis, float lev
 // Returns the bits of the triangles that the rays may hit in the block of their own triangle. Rays
 // do not hit their own triangle. If this triangle is perpendicular to an axis and start_level
 // returns true, the rays do not hit the block's coplanar triangles either.
-static inline uint triangles_beside(const Beam *beam, const Ray *rays, uint own)
+static inline uint triangles_beside_own(const Beam *beam, const Ray *rays, uint own)
 {
     global const TriangleBlock *block = beam->tracer->triangles + own / WIDE;
     uint others = lane_bits(vload8(0, block->id) != NOTHING) & ~(1u << own % WIDE);
@@ -277,6 +295,47 @@ static inline uint triangles_beside(const Beam *beam, const Ray *rays, uint own)
     return others;
 }
 
+// Returns the lanes whose own triangle has the coordinate `level` on the axis at all corners.
+static inline Mask own_is_level(const Tracer *tracer, UInt own, uint axis, float level)
+{
+    const Mask known = own != NOTHING;
+    const UInt index = known ? own : (UInt)(0);
+    const UInt place = (index / WIDE) * WORDS(TriangleBlock) + index % WIDE;
+    const Record record = record_at(tracer->triangles, place + axis * WIDE);
+    const Real a = record_real(&record, 0), b = record_real(&record, 3 * WIDE);
+    return known && a == level && b == level && record_real(&record, 6 * WIDE) == level;
+}
+
+// Returns whether all rays start on the plane whose points have the coordinate `level` on the axis,
+// from triangles in this plane.
+static inline bool leave_level(const Beam *beam, const Ray *rays, uint axis, float level)
+{
+    Mask apart = 0;
+    if (!start_level(rays, beam->count, axis, level))
+        return false;
+    for (uint number = 0; number < beam->count; number++)
+        apart = apart || !own_is_level(beam->tracer, rays[number].own_index, axis, level);
+    return !any_lane(apart);
+}
+
+// If all rays start on triangles that lie in one plane perpendicular to an axis, stores the axis
+// and the plane's coordinate. Such rays hit no triangle of the plane (docs/numerics.md, B16).
+static NOT_INLINE void find_level(Beam *beam, const Ray *rays)
+{
+    const uint first = lane_uint(&rays->own_index, 0);
+    if (first == NOTHING || plain_kind(beam->kind) == RAY_CAMERA)
+        return;
+    global const TriangleBlock *block = beam->tracer->triangles + first / WIDE;
+    for (uint axis = 0; axis < 3; axis++) {
+        const float level = block->corners[0][axis][first % WIDE];
+        if (block->corners[1][axis][first % WIDE] == level &&
+            leave_level(beam, rays, axis, level)) {
+            beam->level_axis = axis;
+            beam->level = level;
+        }
+    }
+}
+
 // Stores which triangles the rays skip. Returns false only if the rays skip all triangles of the
 // scene, for example when they leave a floor under spheres.
 static inline bool beam_start(Beam *beam, const Tracer *tracer, const Ray *rays)
@@ -285,9 +344,12 @@ static inline bool beam_start(Beam *beam, const Tracer *tracer, const Ray *rays)
     beam->kind = rays->kind;
     const uint own = shared_own(beam, rays);
     beam->own_block = own == NOTHING ? NOTHING : own / WIDE;
-    if (own == NOTHING)
+    beam->level_axis = NO_AXIS;
+    if (own == NOTHING) {
+        find_level(beam, rays);
         return true;
-    beam->others = triangles_beside(beam, rays, own);
+    }
+    beam->others = triangles_beside_own(beam, rays, own);
     const bool has_tree = CLRT_BVH && tracer->frame->uses_bvh;
     return beam->others != 0 || has_tree || tracer->frame->triangle_count > WIDE;
 }

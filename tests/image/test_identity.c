@@ -153,9 +153,8 @@ static void write_floor_and_fins(char path[TEMPORARY_PATH])
                                  .triangle_count = HALVES + FINS});
 }
 
-// A beam that starts on a triangle perpendicular to an axis skips the coplanar triangles of the
-// same block (docs/numerics.md, B16). Each of the three floors is perpendicular to a different
-// axis.
+// A beam whose rays start on triangles of a plane perpendicular to an axis skips all triangles of
+// the plane (docs/numerics.md, B16). Each of the three floors is perpendicular to a different axis.
 TEST(floors_of_many_triangles_reflect_all_that_stands_on_them)
 {
     char mesh[TEMPORARY_PATH], scene[TEMPORARY_PATH];
