@@ -21,7 +21,8 @@ typedef struct {
 
 // Returns the normalization that centers the triangles' bounding box and scales its longest side
 // into [1, 2). Spheres count only in scenes without triangles, because a ground sphere of radius
-// 1e9 would leave too few bits for a mesh.
+// 1e9 would leave too few bits for a mesh. If the box around the spheres is thousands of times as
+// large as the distances that the cameras see, the center is between the cameras' eyes.
 Normalization normalization_of(const Scene *scene);
 
 // Returns the longest side of the box that normalization_of scales, or a negative number if the box

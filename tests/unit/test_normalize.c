@@ -67,6 +67,38 @@ TEST(spheres_frame_a_scene_only_without_triangles)
     assert_true(normalization_of(&both).scale > 0.5);
 }
 
+#define BALL   "camera 3 -6 3 0 0 0.5 30\nsphere 0 0 0.5 0.5\n"
+#define GROUND "sphere 0 0 -1e7 1e7\n"
+
+static Vec3 center_of_spheres(const char *text)
+{
+    FREED_BY(scene_free) Scene scene = parsed(text);
+    return normalization_of(&scene).center;
+}
+
+TEST(huge_and_distant_spheres_leave_the_center_at_the_eyes)
+{
+    const Vec3 far = center_of_spheres(BALL "sphere 1e7 0 0 0.01\n");
+    assert_true(far.x == 3 && far.y == -6 && far.z == 3);
+    const Vec3 ground = center_of_spheres(BALL GROUND);
+    assert_true(ground.x == 3 && ground.y == -6 && ground.z == 3);
+    const Vec3 two = center_of_spheres(BALL GROUND "camera 5 -6 3 0 0 0.5 30\n");
+    assert_true(two.x == 4 && two.y == -6 && two.z == 3);
+    const Vec3 flat = center_of_spheres(GROUND "camera 3 -6 3e5 0 0 0.5 orthographic 2\n");
+    assert_true(flat.z == 3e5);
+}
+
+TEST(the_center_of_other_spheres_is_the_center_of_their_box)
+{
+    assert_true(center_of_spheres(BALL "sphere 0 0 -1e4 1e4\n").z == -9999.5);
+    // The camera looks along an axis, and the point that it looks at is only near its eye.
+    assert_true(center_of_spheres("sphere 0 0 0 50\ncamera 99 0 0 98.999 0 0 30").x == 0);
+    // One center cannot be near two cameras that are far apart.
+    assert_true(center_of_spheres(BALL GROUND "camera 1e7 0 0 0 0 0 30\n").x == 0);
+    // The scale is the box's, so spheres far from the eye stay within small numbers.
+    assert_true(center_of_spheres(BALL "sphere 3e7 0 0 1\ncamera 3 -8e7 0 3 -7.9e7 0 9\n").y == 0);
+}
+
 TEST(an_empty_scene_keeps_its_coordinates)
 {
     FREED_BY(scene_free) Scene scene = parsed("");
