@@ -224,6 +224,86 @@ static void print_light(const ExplainReport *report, const ExplainedRay *ray, si
     fputs("\n", stream);
 }
 
+// The points of an area light, by state, and their sums.
+typedef struct {
+    size_t counts[CLRT_LIGHT_BEHIND_FACE + 1]; // by ClrtLightState
+    size_t first_blocked;                      // index of the first blocked point
+    double diffuse, highlight;
+    bool is_tinted; // light passes through colored glass
+} AreaSum;
+
+static AreaSum sum_area(const json_t *lights, const ClrtExplainedLight *found, size_t first,
+                        size_t count)
+{
+    AreaSum sum = {0};
+    for (size_t i = first; i < first + count; i++) {
+        const json_t *light = json_array_get(lights, i);
+        const ClrtLightState state = found[i].state;
+        if (state == CLRT_LIGHT_BLOCKED && sum.counts[state] == 0)
+            sum.first_blocked = i;
+        sum.counts[state]++;
+        if (state != CLRT_LIGHT_REACHES)
+            continue;
+        sum.diffuse += json_real_value(json_object_get(light, "diffuse"));
+        sum.highlight += json_real_value(json_object_get(light, "highlight"));
+        sum.is_tinted = sum.is_tinted || !is_white(found[i].tint);
+    }
+    return sum;
+}
+
+// Prints one line for the lights `first` to `first` + `count` - 1, which are points of an area
+// light.
+static void print_area(const ExplainReport *report, const json_t *lights, const AreaSum *sum,
+                       size_t first, size_t count, FILE *stream)
+{
+    const size_t reaching = sum->counts[CLRT_LIGHT_REACHES];
+    const size_t blocked = sum->counts[CLRT_LIGHT_BLOCKED];
+    const size_t away = count - reaching - blocked;
+    const Vec3 color = report->scene->lights.data[first].color;
+    fprintf(stream, "    lights %zu to %zu, an area: %zu of %zu points reach it", first + 1,
+            first + count, reaching, count);
+    if (blocked > 0) {
+        fprintf(stream, "; %zu blocked%s by ", blocked, blocked > 1 ? ", the first" : "");
+        print_primitive(
+            report, json_object_get(json_array_get(lights, sum->first_blocked), "blocker"), stream);
+    }
+    if (away > 0)
+        fprintf(stream, "; from %zu it is turned away", away);
+    json_t *sums = JSON(FIELD("diffuse", sum->diffuse), FIELD("highlight", sum->highlight),
+                        FIELD("color", color_json(color)));
+    if (reaching > 0)
+        print(report, sums, "; diffuse {diffuse .6g}", "; diffuse {diffuse .3g}", stream);
+    if (sum->highlight > 0)
+        print(report, sums, "; highlight {highlight .6g}", "; highlight {highlight .3g}", stream);
+    if (reaching > 0 && (color.x < 1 || color.y < 1 || color.z < 1))
+        print(report, sums, "; light color {color .6v}", "; light color {color .3v}", stream);
+    json_decref(sums);
+    fputs("\n", stream);
+}
+
+// Prints a line for each light. All points of an area light share one line, except if glass colors
+// their light.
+static void print_lights(const ExplainReport *report, const ExplainedRay *ray, const json_t *lights,
+                         FILE *stream)
+{
+    const Scene *scene = report->scene;
+    size_t area = 0;
+    for (size_t i = 0; i < ray->found.light_count;) {
+        while (area < scene->area_lights.count && scene->area_lights.data[area].first < i)
+            area++;
+        const AreaLight *source =
+            area < scene->area_lights.count ? &scene->area_lights.data[area] : NULL;
+        const bool is_area = source != NULL && source->first == i;
+        const size_t count = is_area ? (size_t)source->area.cells * source->area.cells : 1;
+        const AreaSum sum = sum_area(lights, ray->lights, i, count);
+        if (is_area && !sum.is_tinted)
+            print_area(report, lights, &sum, i, count, stream);
+        for (size_t point = i; point < i + count && (!is_area || sum.is_tinted); point++)
+            print_light(report, ray, point, json_array_get(lights, point), stream);
+        i += count;
+    }
+}
+
 // Prints all factors of the surface's color except the lights.
 static void print_factors(const json_t *factors, Shader shader, FILE *stream)
 {
@@ -254,8 +334,7 @@ static void print_hit(const ExplainReport *report, const ExplainedRay *ray, cons
           "    distance   {distance .3g}\n"
           "    point      {point .3v}, normal {normal .3v}\n",
           stream);
-    for (size_t i = 0; i < ray->found.light_count; i++)
-        print_light(report, ray, i, json_array_get(json_object_get(hit, "lights"), i), stream);
+    print_lights(report, ray, json_object_get(hit, "lights"), stream);
     if (!report->is_brief)
         print_factors(json_object_get(hit, "factors"), material->shader, stream);
     if (material->shader == SHADER_GLASS)

@@ -14,6 +14,10 @@ HEAD = ("size 5 5\nambient 0.1\nbackground 0 0 1\ndefine plain matte diffuse 0.8
 MIRRORS = (f"{HEAD}light 0 0 2 1\nmaterial mirror\nsphere 0 3 0 1\nsphere 0 -3 0 1\n"
            "camera 0 0 0 0 1 0 90\n")
 BALL = "light 0 -5 0 0.5\nmaterial plain\nsphere 0 0 0 1\ncamera 0 -5 0 0 0 0 90\n"
+# The first light is a point. Some points of the area lights are behind the ball.
+AREAS = "size 8 8\nlight 4 -9 3 0.2\nlight 2 0 4 0.5 area 1.5 0 0 0 1.5 0 5\n" \
+        "light -2 0 3 0.4 1 0.5 0.25 area 1 0 0 0 1 0 3\ndefine shiny blinn_phong diffuse 0.6 0.7 0.8 ks 0.5\n" \
+        "material shiny\nsphere 0 0 0 0.7\nsphere 0 0 -100.7 100\ncamera 0 -5 2 0 0 -0.3 40\n"
 LAMP = "light 0 0 4 1\nmaterial plain\nply_file floor.ply\nsphere 0 0 1 0.5\n"
 # The face is turned away from both lights. The vertex normals are turned away only from the second light.
 LEANING = "size 5 5\nlight 11 -2 -5 1\nlight -9 -2 -5 1\nmaterial 1\nply_file leaning.ply\nup 0 1 0\n" \
@@ -147,18 +151,21 @@ def color_of_text(text):
     for line in text.splitlines():
         part = None
         if line.startswith("    meets"):
-            lights = []
+            lights, areas = [], []
         if line.startswith("    light") and "reaches it" in line:
             lights.append({name: numbers_after(name, line, default) for name, default in
                            (("cosine", [0]), ("intensity", [0]), ("shine", [0]))})
             lights[-1]["color"] = numbers_after("light color", line, [1, 1, 1])
+        if line.startswith("    lights"):
+            areas.append({name: numbers_after(name, line, [0]) for name in ("diffuse", "highlight")})
+            areas[-1]["color"] = numbers_after("light color", line, [1, 1, 1])
         if line.startswith("    factors"):
             factors = {name.replace(" ", "_"): numbers_after(name, line, default) for name, default in
                        (("diffuse color", None), ("kd", [0]), ("ambient", [0]), ("specular color", [0, 0, 0]),
                         ("ks", [0]))}
             factors["shader"] = "silhouette" if "ambient" not in line else "shaded"
         if line.startswith("    color"):
-            part = shaded(factors, [received(factors, light) for light in lights])
+            part = shaded(factors, [received(factors, light) for light in lights] + areas)
         if line.startswith("  the background"):
             part = numbers_after("background", line, None)
         if part:
@@ -172,7 +179,7 @@ class Explain(SharedWork):
         self.write(mirrors_scn=MIRRORS, leaning_scn=LEANING, floor_ply=ply(corners, [(0, 1, 2), (0, 2, 3)]),
                    dropped_ply=ply(corners, [(0, 0, 1), (0, 1, 2), (0, 2, 3)]),
                    leaning_ply=ply(corners[:3], [(0, 1, 2)], [(0.6, 0, 0.8)] * 3),
-                   ball_scn="size 8 8\nlight 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
+                   areas_scn=AREAS, ball_scn="size 8 8\nlight 0 0 9 1\nmaterial 1\nsphere 0 0 0 1\n",
                    flat_scn=f"size 8 8\nmaterial 0\nply_file {ROOT}/scenes/cube.ply\n")
 
 
@@ -189,7 +196,8 @@ class Pixels(Explain):
         shaders = set()
         for scene, pixels in (EVERY_FEATURE, ("70,60", "90,70", "64,90")), \
                 (PAINTED, ("40,50", "60,45", "70,68", "104,68")), ("mirrors.scn", ("2,2",)), \
-                ("flat.scn", ("4,4",)), ("lamps.scn", ("150,190",)):
+                ("flat.scn", ("4,4",)), ("lamps.scn", ("150,190",)), \
+                ("areas.scn", ("4,3", "4,6", "2,5")):
             for pixel in pixels:
                 words = ["explain", str(ROOT / "scenes" / scene) if scene == "lamps.scn" else scene, pixel, "--aa=2"]
                 found = self.report(*words, "--json")
@@ -201,6 +209,17 @@ class Pixels(Explain):
                     self.assertAlmostEqual(mine, color, delta=1e-5, msg=words)
                 self.assertEqual(found["bytes"], [round(255 * value) for value in found["color"]])
         self.assertEqual(shaders, {"silhouette", "matte", "blinn_phong"})
+
+    def test_an_area_light_has_one_line(self):
+        found = self.report("explain", "areas.scn", "4,6", "--json")["samples"][0]["rays"][0]["hit"]["lights"]
+        lines = [line for line in self.clrt("explain", "areas.scn", "4,6").splitlines() if "light" in line]
+        self.assertEqual(len(lines), 3)
+        for line, points, name in (lines[1], found[1:26], "2 to 26"), (lines[2], found[26:], "27 to 35"):
+            counts = {state: [light["state"] for light in points].count(state) for state in ("reaches", "blocked")}
+            self.assertIn(f"lights {name}, an area: {counts['reaches']} of {len(points)} points reach it", line)
+            self.assertEqual(f"; {counts['blocked']} blocked, the first by sphere 1" in line, counts["blocked"] > 1)
+            self.assertAlmostEqual(numbers_after("diffuse", line, [0]),
+                                   sum(light["diffuse"] for light in points if light["state"] == "reaches"), delta=1e-6)
 
     def test_a_corner_meets_nothing(self):
         self.assertIn("meets      nothing", self.clrt("explain", "mirrors.scn", "0,4"))
