@@ -175,6 +175,7 @@ static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *
     const bool opened =
         exr_file_open(&file, path, merging->is_checked ? error : &merging->unopened);
     bool ok = opened ? read_settings(&tiles, &file, path, error) : !merging->is_checked;
+    merging->is_damaged |= !ok;
     if (ok && opened) {
         ok = (merging->is_checked ? is_checked_part(merging, &tiles, &file, path, error)
                                   : check_part(merging, &tiles, &file, path, error)) &&
@@ -189,8 +190,8 @@ static bool visit_part(Merging *merging, const char *path, FILE *stream, Error *
     return ok;
 }
 
-// Fails if parts are missing. The message lists the missing parts in the syntax of a job array,
-// such as 1,3.
+// Fails if parts are missing or a file could not be opened. The message lists the missing parts in
+// the syntax of a job array, such as 1,3.
 static bool check_missing(const Merging *merging, Error *error)
 {
     char list[1024] = "";
@@ -203,11 +204,11 @@ static bool check_missing(const Merging *merging, Error *error)
             snprintf(list + length, sizeof list - length, "%s%u", missing++ > 0 ? "," : "",
                      part + 1);
     }
-    if (parts > 0 && missing == 0)
+    if (missing == 0 && cause[0] == '\0')
         return true;
-    return parts == 0 ? error_set(error, "%s", cause)
-                      : error_set(error, "part%s %s of %u %s missing%s%s", missing > 1 ? "s" : "",
-                                  list, parts, missing > 1 ? "are" : "is", colon, cause);
+    return missing == 0 ? error_set(error, "%s", cause)
+                        : error_set(error, "part%s %s of %u %s missing%s%s", missing > 1 ? "s" : "",
+                                    list, parts, missing > 1 ? "are" : "is", colon, cause);
 }
 
 static bool visit_parts(Merging *merging, FILE *stream, Error *error)

@@ -198,6 +198,13 @@ class Parts(SharedWork):
                            "no.exr", self.thirds[1])
         self.refuses_parts(f"{one}: is part 1 of 3, as is {one}", one, one)
 
+    def test_a_file_beside_all_parts_must_be_readable(self):
+        self.write(empty_exr="")
+        for name, cause in ("empty.exr", "it is not a tiled EXR file written by clrt"), ("no.exr", "No such file"), \
+                (str(ROOT / "scenes/cube.ply"), "it is not a tiled EXR file written by clrt"):
+            self.refuses_parts(f"{name}: cannot be read: {cause}", name, *self.thirds)
+            self.refuses_parts(f"{name}: cannot be read: {cause}", *self.thirds, name)
+
     def test_files_that_are_no_parts_are_refused(self):
         self.clrt(*SMALL, "-o", "bare.exr", "--no-metadata")
         self.write(text_exr="no picture")
