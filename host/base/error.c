@@ -2,8 +2,16 @@
 // Formats the first failure and ignores the others.
 #include "base/error.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
+
+void text_hide_controls(char *text)
+{
+    for (char *c = text; *c != '\0'; c++)
+        if (iscntrl((unsigned char)*c) && *c != '\n' && *c != '\t')
+            *c = '?';
+}
 
 bool error_set(Error *error, const char *format, ...)
 {
@@ -12,6 +20,7 @@ bool error_set(Error *error, const char *format, ...)
         va_start(arguments, format);
         vsnprintf(error->text, sizeof error->text, format, arguments);
         va_end(arguments);
+        text_hide_controls(error->text);
     }
     return false;
 }

@@ -10,7 +10,12 @@ typedef struct {
     char text[4096]; // empty without a failure; long enough for most build logs
 } Error;
 
-// Records the failure and returns false, so that a caller can `return error_set(...)`. Does not
+// Replaces control characters by '?', because terminals interpret them and names of files may
+// contain them. Keeps line feeds and tabs.
+void text_hide_controls(char *text);
+
+// Records the failure without control characters, and returns false, so that a caller can `return
+// error_set(...)`. Does not
 // replace a recorded error, because the first cause is the most informative.
 __attribute__((format(printf, 2, 3))) bool error_set(Error *error, const char *format, ...);
 

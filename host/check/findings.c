@@ -187,6 +187,7 @@ __attribute__((format(printf, 4, 5))) static void add(Check *check, const char *
     va_start(arguments, format);
     vsnprintf(finding.text, sizeof finding.text, format, arguments);
     va_end(arguments);
+    text_hide_controls(finding.text);
     check->is_cut |= !array_push(&check->findings, finding, &error);
 }
 

@@ -71,6 +71,16 @@ static const json_t *find_value(const json_t *value, char *path)
     return value;
 }
 
+static void print_string(const char *string, FILE *stream)
+{
+    char *copy = strdup(string);
+    if (copy == NULL)
+        return;
+    text_hide_controls(copy);
+    fputs(copy, stream);
+    free(copy);
+}
+
 // Prints a value in a format such as ".3f", "5.3f", ".3g", ".3g%" or, for arrays of reals, ".3v".
 static void print_value(const json_t *value, const char *format, FILE *stream)
 {
@@ -78,13 +88,13 @@ static void print_value(const json_t *value, const char *format, FILE *stream)
     if (json_is_integer(value))
         fprintf(stream, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
     if (json_is_string(value))
-        fputs(json_string_value(value), stream);
+        print_string(json_string_value(value), stream);
     if (json_is_integer(value) || json_is_string(value))
         return;
     const int width = (int)strtol(format, &point, 10), digits = (int)strtol(point + 1, &kind, 10);
     for (size_t i = 0; i < json_array_size(value); i++)
         fprintf(stream, "%s%.*g", i == 0 ? "(" : ", ", digits,
-                json_real_value(json_array_get(value, i)));
+                json_real_value(json_array_get(value, i)) + 0.0); // -0 becomes 0
     const bool is_percent = kind[1] == '%';
     const double number = json_is_real(value) ? json_real_value(value) : INFINITY;
     if (json_is_array(value))

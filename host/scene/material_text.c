@@ -42,7 +42,8 @@ static bool unknown_property(Tokens *tokens, Token property, const Material *mat
                : tokens_fail(tokens, property, "unknown property (did you mean '%s'?)", nearest);
 }
 
-static bool read_property(Tokens *tokens, Token property, Material *material)
+// Reads a property and its values, and sets its bit in `given`. Fails if the bit is set already.
+static bool read_property(Tokens *tokens, Token property, Material *material, uint32_t *given)
 {
     size_t i = 0;
     while (i < MATERIAL_PROPERTIES && !(token_is(property, material_properties[i].name) &&
@@ -50,6 +51,9 @@ static bool read_property(Tokens *tokens, Token property, Material *material)
         i++;
     if (i == MATERIAL_PROPERTIES)
         return unknown_property(tokens, property, material);
+    if ((*given >> i & 1) != 0)
+        return tokens_fail(tokens, property, "the property is given twice");
+    *given |= (uint32_t)1 << i;
     float *values = (float *)(void *)((char *)material + material_properties[i].offset);
     for (int place = 0; place < material_properties[i].count; place++) {
         const double least = place == 0 ? material_properties[i].least : 0;
@@ -79,6 +83,7 @@ static bool read_shader(Tokens *tokens, Shader *shader)
 bool material_read(Material *material, Tokens *tokens)
 {
     Shader shader = SHADER_MATTE;
+    uint32_t given = 0;
     if (!read_shader(tokens, &shader))
         return false;
     *material = material_of_shader(shader);
@@ -86,7 +91,7 @@ bool material_read(Material *material, Tokens *tokens)
         const Token property = tokens_next(tokens);
         if (property.text == NULL)
             return true;
-        if (!read_property(tokens, property, material))
+        if (!read_property(tokens, property, material, &given))
             return false;
     }
 }

@@ -159,6 +159,7 @@ bool scene_add_note(Scene *scene, const char *path, const char *text, Error *err
         return false;
     }
     snprintf(note, size, "%s: %s", path, text);
+    text_hide_controls(note);
     return true;
 }
 

@@ -357,7 +357,7 @@ bool scn_take(Scene *scene, const File *file, const char *name, const SceneLoadO
     Parser parser = {.scene = scene,
                      .mesh.parse = options->is_tolerant ? ply_parse_tolerantly : ply_parse,
                      .error = error};
-    if (mesh_scene_is_mesh(file->bytes, file->size))
+    if (file_has_ending(name, ".ply") || mesh_scene_is_mesh(file->bytes, file->size))
         return load_mesh(scene, file, name, options, error);
     return check_for_text(options, name, error) && load_text(&parser, file, name);
 }

@@ -144,7 +144,7 @@ bool tokens_number_within(Tokens *tokens, double *value, double low, double high
     if (token.text == NULL || number_parse(token.text, end, value) != end)
         return tokens_fail(tokens, token, "expected a number");
     if (!(*value >= low && *value <= high))
-        return tokens_fail(tokens, token, "expected a number between %g and %g", low, high);
+        return tokens_fail(tokens, token, "expected a number between %.10g and %.10g", low, high);
     return true;
 }
 

@@ -62,11 +62,21 @@ REFUSALS = [
     (2, "unknown option '--stats=a.json', perhaps --json=FILE", [*FILE, "--stats=a.json"]),
     (2, "unknown option '--expect-hash', perhaps --hash=EXPECTED", [*FILE, "--expect-hash", 32 * "0"]),
     (2, "unknown option '--nodes', perhaps --tune kernel=FORM", [*FILE, "--nodes", "wide"]),
+    (2, "unknown option '-aa'; clrt --help lists them", ["none.scn", "-aa", "-o", "a.pfm"]),
+    (2, "unknown option '-aa'; clrt --help lists them", ["-aa", "none.scn"]),
+    (2, "unknown option '-qx'; clrt --help lists them", ["none.scn", "-q", "-qx"]),
+    (2, "unknown option '-x'; clrt --help lists them", ["none.scn", "-x", "-aa"]),
+    (2, "unknown option '-1,5'; clrt --help lists them", ["explain", "none.scn", "-1,5"]),
+    (2, "there is no command 'render'; clrt --help lists the commands", ["render", "none.scn"]),
     (2, "unknown option '--work-group=8x8', perhaps --tune group=WxH", [*FILE, "--work-group=8x8"]),
     (4, "work-groups of 100 x 100 are too large", [*FILE, "--tune", "group=100x100"]),
     (3, f"none.scn: {NO_FILE}", ["none.scn", "-o", "a.pfm"]),
     (3, f"none.scn: {NO_FILE}", ["warm", "none.scn"]),
     (3, f"{ROOT}: cannot be read: it is not a file", [str(ROOT), "-o", "a.pfm"]),
+    (3, "empty.ply:1: the file does not begin with 'ply'", ["empty.ply", "-o", "a.pfm"]),
+    (3, "empty.ply:1: the file does not begin with 'ply'", ["check", "empty.ply"]),
+    (3, "short.ply:1: the file ends before 'end_header'", ["short.ply", "--hash"]),
+    (3, "evil?[31mred.scn: cannot be opened", ["evil\33[31mred.scn", "--hash"]),
     (3, "bad.scn:1:1: unknown statement (did you mean 'sphere'?): found 'spheer'", ["bad.scn", "-o", "a.pfm"]),
     (3, f"{SCENE} has 6 viewpoints, so there is no view 7", [*FILE, "--view", "7"]),
     # clrt checks outputs before any work, such as reading the scene.
@@ -84,7 +94,7 @@ SAME = {"-q": None, "-j 1": None, "-j 2": None, "--tune bvh=sah": None, "--tune 
 
 class Usage(Work):
     def test_refusals(self):
-        self.write(bad_scn="spheer 0 0 0 1\n")
+        self.write(bad_scn="spheer 0 0 0 1\n", empty_ply="", short_ply="ply")
         for code, sentence, words in REFUSALS:
             self.refuses(code, sentence, *words)
 

@@ -255,6 +255,7 @@ TEST(faults_name_line_column_and_the_statement)
          "1:24: expected a number between 1e-30 and 1e+30: found '0'" DEFINE},
         {"define a matte checker 1 1 1 1 0 0 1.1",
          "1:36: expected a number between 0 and 1: found '1.1'" DEFINE},
+        {"define red matte kd 0.5 kd 0.6", "1:25: the property is given twice: found 'kd'" DEFINE},
         {"define a matte difuse 1 1 1",
          "1:16: unknown property (did you mean 'diffuse'?): found 'difuse'" DEFINE},
         {"size 0 5", "1:6: expected an integer between 1 and 131072: found '0'" STATEMENT
@@ -381,7 +382,7 @@ TEST(a_camera_may_have_a_width)
     assert_true(scene.viewpoints.data[0].width_degrees == 0);
     assert_true(scene.viewpoints.data[1].width_degrees == 60);
     expect_error("camera 1 2 3 4 5 6 30 180",
-                 "1:23: expected a number between 1e-06 and 180: found '180'" CAMERA);
+                 "1:23: expected a number between 1e-06 and 179.9999: found '180'" CAMERA);
 }
 
 TEST(an_orthographic_camera_has_a_height_and_may_have_a_width)

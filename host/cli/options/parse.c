@@ -166,6 +166,15 @@ static bool is_command(const char *word)
     return i < command_count;
 }
 
+// Fails if the first of several names is probably meant as a command.
+static bool check_command(char **words, int count, Error *error)
+{
+    const char *word = words[0];
+    if (count < 2 || strpbrk(word, "./") != NULL || access(word, F_OK) == 0)
+        return true;
+    return error_set(error, "there is no command '%s'; clrt --help lists the commands", word);
+}
+
 // An option with a fallback takes no value after a space. The function rejects a valid value there,
 // as in "--aa 4", unless a file has this name.
 static bool check_loose_value(const Option *option, const char *word, Error *error)
@@ -178,6 +187,17 @@ static bool check_loose_value(const Option *option, const char *word, Error *err
                      option->name, word);
 }
 
+// Returns the argument that getopt_long has rejected. After an unknown letter, optind is the index
+// of this argument if more letters follow, or else the next index.
+static const char *rejected_word(char **arguments)
+{
+    const char *before = arguments[optind - 1];
+    const size_t length = strlen(before);
+    const bool is_letter = optopt > 0 && optopt < FIRST_LONG;
+    const bool is_last = before[0] == '-' && length > 1 && before[length - 1] == optopt;
+    return is_letter && (optind == 1 || !is_last) ? arguments[optind] : before;
+}
+
 // Reads all options. Afterwards optind is the index of the first operand.
 static bool read_options(Options *options, int count, char **arguments, Error *error)
 {
@@ -187,14 +207,13 @@ static bool read_options(Options *options, int count, char **arguments, Error *e
     opterr = 0;
     optind = 0;
     for (;;) {
-        const char *word = arguments[optind > 0 ? optind : 1];
         const int found = getopt_long(count, arguments, shorts, longs, NULL);
         if (found == -1)
             return true;
         if (found == ':')
             return error_set(error, "%s wants a value", arguments[optind - 1]);
         if (found == '?')
-            return unknown_option(word != NULL && optind > 1 ? arguments[optind - 1] : word, error);
+            return unknown_option(rejected_word(arguments), error);
         const size_t row = option_of(found);
         if (!mark_given(options, row, error) ||
             !option_store(&option_table[row], options, optarg, error) ||
@@ -214,6 +233,8 @@ bool options_parse(Options *options, int count, char **arguments, Error *error)
     const char *name = is_named ? arguments[optind++] : "";
     char **operands = arguments + optind;
     count -= optind;
+    if (!is_named && !check_command(operands, count, error))
+        return false;
     const Command *command = find_command(options, name, count);
     options->action = command->action;
     return check_count(command, operands, count, error) &&
