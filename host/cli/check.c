@@ -119,10 +119,28 @@ static void write_findings(const Check *check, uint32_t mesh, size_t *next, FILE
     }
 }
 
+// Returns whether the object's file has other objects. A file has one object for each material.
+static bool shares_file(const Scene *scene, size_t object)
+{
+    const MeshObject *all = scene->objects.data;
+    return (object > 0 && all[object - 1].input == all[object].input) ||
+           (object + 1 < scene->objects.count && all[object + 1].input == all[object].input);
+}
+
+static void write_material(const Scene *scene, uint32_t material, FILE *stream)
+{
+    for (size_t i = 0; i < scene->material_names.list.count; i++)
+        if (scene->material_names.list.data[i]->material == material)
+            fprintf(stream, ", material %s", scene->material_names.list.data[i]->name);
+}
+
 static void write_mesh(const Check *check, const json_t *mesh, size_t object, FILE *stream)
 {
     const ClrtCheckedMesh *facts = &check->census.meshes[object].facts;
-    json_print(mesh, "{path}: {triangles} triangles, {vertices} vertices, ", stream);
+    json_print(mesh, "{path}", stream);
+    if (shares_file(check->scene, object))
+        write_material(check->scene, check->scene->objects.data[object].material, stream);
+    json_print(mesh, ": {triangles} triangles, {vertices} vertices, ", stream);
     fputs(facts->closed ? "closed\n" : "not closed\n", stream);
     if (facts->triangle_count == 0)
         return;
@@ -146,6 +164,28 @@ static void write_mesh(const Check *check, const json_t *mesh, size_t object, FI
     fputs(facts->leaks > 0 && !facts->closed ? ", because it is not closed\n" : "\n", stream);
 }
 
+static void write_count(size_t count, const char *one, const char *many, FILE *stream)
+{
+    fprintf(stream, "%zu %s", count, count == 1 ? one : many);
+}
+
+// Writes the numbers of objects. If the file is a lone mesh, clrt has added its spheres and lights.
+static void write_counts(const Check *check, FILE *stream)
+{
+    const Scene *scene = check->scene;
+    json_t *path = JSON(FIELD("path", check->scene_path));
+    json_print(path, "{path}: ", stream);
+    json_decref(path);
+    write_count(scene->objects.count, "mesh, ", "meshes, ", stream);
+    write_count(scene_triangle_count(scene), "triangle", "triangles", stream);
+    if (scene->mesh_up == UP_AUTO) {
+        fputs(", ", stream);
+        write_count(scene->spheres.count, "sphere, ", "spheres, ", stream);
+        write_count(scene->lights.count, "light", "lights", stream);
+    }
+    fputs("\n", stream);
+}
+
 static void write_text(const Check *check, FILE *stream)
 {
     const Scene *scene = check->scene;
@@ -155,9 +195,7 @@ static void write_text(const Check *check, FILE *stream)
         write_mesh(check, json_array_get(json_object_get(json, "meshes"), object), object, stream);
         write_findings(check, (uint32_t)object, &next, stream);
     }
-    fprintf(stream, "%s: %zu meshes, %zu triangles, %zu spheres, %zu lights\n", check->scene_path,
-            scene->objects.count, scene_triangle_count(scene), scene->spheres.count,
-            scene->lights.count);
+    write_counts(check, stream);
     write_findings(check, NOTHING, &next, stream);
     json_decref(json);
     if (check->device != NULL)

@@ -46,7 +46,8 @@ SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine 
           "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n"}
 # Each row has a file, the exit status of clrt check, and words of the report.
 FINDINGS = [
-    ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed", "10 edges and points: 0 hidden", "\nfine\n"]),
+    ("closed.ply", 0, ["closed.ply: 4 triangles, 4 vertices, closed", "10 edges and points: 0 hidden",
+                       "\nclosed.ply: 1 mesh, 4 triangles\n", "\nfine\n"]),
     ("open.ply", 0, ["note: 3 edges of a single triangle", "triangle 0", "not closed\n", "\nno faults, 1 note\n"]),
     ("glass.scn", 0, ["open.ply: 3 triangles", "note: it is glass but not closed", "\nno faults, 2 notes\n"]),
     ("eyes.scn", 0, ["note: 2 cameras are inside", "view 2 in sphere 1\nno faults, 1 note\n"]),
@@ -68,7 +69,8 @@ FINDINGS = [
     ("mixed.scn", 0, ["note: the scale is too mixed", "1e+08 times"]),
     ("apart.scn", 1, ["FAULT: the scene cannot be drawn: sphere 1", "5e11 times"]),
     ("scene.scn", 1, ["FAULT: 1 spheres that are the same as another", "note: its fronts face inwards",
-                      "note: 1 materials that are defined and not used"]),
+                      "note: 1 materials that are defined and not used",
+                       "scene.scn: 1 mesh, 4 triangles, 2 spheres, 0 lights\n"]),
 ]
 
 

@@ -148,8 +148,11 @@ class Formats(Work):
         self.fails("a.obj:1: the file does not begin with 'ply'", "a.scn")
 
     def test_check_reads_models(self):
-        self.write(a_stl=models.stl(POINTS, TRIANGLES))
+        self.write(a_stl=models.stl(POINTS, TRIANGLES), colors_obj=COLORED, colors_mtl=LIBRARY)
         self.assertRegex(self.clrt("check", "a.stl"), rf"a\.stl: {len(TRIANGLES)} triangles, .*, closed\n")
+        told = self.clrt("check", "colors.obj")
+        for name, count in ("red", HALF), ("shiny", len(TRIANGLES) - HALF):
+            self.assertIn(f"colors.obj, material colors.obj:{name}: {count} triangles, ", told)
 
     def test_warm_and_statistics_read_models(self):
         self.write(a_stl=models.stl(POINTS, TRIANGLES))
