@@ -19,6 +19,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -91,6 +92,18 @@ static _Noreturn void end(const char *message)
     _exit(EXIT_DEVICE);
 }
 
+// Returns what to do after a crash in a driver. Two causes are known: PoCL aborts if it cannot
+// store a kernel, or if it finds no linker.
+static const char *advice(void)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        return "): the limit on file sizes (ulimit -f) may be too small for the driver's files\n";
+    if (getenv("PATH") == NULL)
+        return "): PATH is not set, so the driver may not find a linker\n";
+    return "): run clrt again; if it crashes again, try another --device, and report it\n";
+}
+
 // Handles a crash signal. Forked processes print no message.
 static void handle(int number, siginfo_t *info, void *context)
 {
@@ -103,9 +116,7 @@ static void handle(int number, siginfo_t *info, void *context)
     if (library != NULL)
         next = stpcpy(stpcpy(next, " in "), library);
     next = stpcpy(stpcpy(next, " (SIG"), sigabbrev_np(number));
-    stpcpy(next, is_own ? "): please report it\n"
-                        : "): run clrt again; if it crashes again, try another --device, and "
-                          "report it\n");
+    stpcpy(next, is_own ? "): please report it\n" : advice());
     if (getpid() == watcher && !is_sent && !is_own)
         end(message);
     if (getpid() == watcher && !is_sent)

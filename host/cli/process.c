@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Handles SIGINT and SIGTERM, and makes stacks large enough for compilers. The handler of each
-// signal runs only once. After the first tile has begun, the handler only sets a flag, so the first
-// signal never interrupts the writing of traced tiles. The second signal ends the process. Before
-// the first tile, the first signal ends the process too, because compilation cannot be interrupted.
+// Handles SIGINT, SIGTERM and SIGHUP, and makes stacks large enough for compilers. The handler of
+// each signal runs only once. After the first tile has begun, the handler only sets a flag, so the
+// first signal never interrupts the writing of traced tiles. The second signal ends the process.
+// Before the first tile, the first signal ends the process too, because compilation cannot be
+// interrupted.
 #include "cli/process.h"
 
 #include <pthread.h>
@@ -48,6 +49,7 @@ void stop_watch(void)
     watcher = getpid();
     take_signal(SIGINT);
     take_signal(SIGTERM);
+    take_signal(SIGHUP);
 }
 
 void stop_wait_for_tiles(void)
