@@ -50,8 +50,8 @@ const Option option_table[] = {
      "axis that points up in a lone mesh (default: auto); auto chooses by format and shape"},
     {"normals", "flat|smooth", 0, ODD(set_normals), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN | FOR_CONVERT,
-     "ignore a lone mesh's normals, or compute those that it lacks (default); with smooth=DEGREES, "
-     "larger angles stay sharp (default: 33 or 70, by shape)"},
+     "ignore a lone mesh's normals, or compute missing ones (default, or smooth=DEGREES); larger "
+     "angles than DEGREES stay sharp (default: 33 or 70, by shape)"},
     {"studio", "hard|soft", 0, WORD(load.studio), GROUP_PICTURE, CLASS_NONE,
      FOR_SCENE | FOR_CONVERT,
      "shadows of a lone mesh (default: hard); soft ones take several times as long"},
@@ -67,7 +67,8 @@ const Option option_table[] = {
      CLASS_STATISTICAL, FOR_DRAWING | FOR_GENERAL | FOR_WARM,
      "add samples to a contrast of at most T (default: 0.02); they go where neighbors differ"},
     {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
-     "rays of level N see the background (default: the scene's); N is 3 if the scene has no level; "
+     "rays of level N, or auto, see the background (default: the scene's); N is 3 if the scene has "
+     "no level; "
      "without glass, the error is at most R^N, where R is the highest reflectivity; auto: the "
      "smallest N whose error is below half a step of the file's values, but at most 16 with glass, "
      "and always 16 with glass in float files"},
@@ -92,8 +93,9 @@ const Option option_table[] = {
      FOR_DRAWING, "size of the picture's tiles (default: 128x128, in parts 64x64)"},
     {"tune group", "WxH", 0, AREA(renderer.group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_GENERAL | FOR_WARM,
-     "size of work-groups (default: 8x8, on CPUs with wide nodes 2x2; on GPUs the kernel may need "
-     "another)"},
+     "size of work-groups (default: 8x8, on CPUs with wide nodes 2x2); on GPUs, the kernel may "
+     "need "
+     "another"},
     {"tune specialize", "auto|always|never", 0, WORD(renderer.specialize), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
      "compile kernels for the scene if it pays (auto), always or never; auto is the default"},
@@ -107,11 +109,12 @@ const Option option_table[] = {
      "look-at point; numbers replace #### in the file's name or precede its ending; FILE.gif holds "
      "all"},
     {"frames", "A-B[:S][,I/N]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw views A to B, or pictures A to B of the turntable; S: every S-th of them; I/N: the "
-     "I-th of N equal runs of them; auto/N: as for --part"},
+     "draw views A to B, or pictures A to B of the turntable, or the I-th of N equal runs of them; "
+     "S: every S-th of them; auto/N: as for --part"},
     {"part", "I/N", 0, ODD(set_part), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw only the I-th of N parts, an N-th of the tiles; clrt merge joins the N parts; auto/N "
-     "takes I from the task number of Slurm, AWS Batch, Kubernetes or MPI"},
+     "draw only the I-th of N parts, or part auto/N in a job array; each has an N-th of the tiles, "
+     "and clrt merge joins the N parts; auto takes I from the task number of Slurm, AWS Batch, "
+     "Kubernetes or MPI"},
     {"resume", NULL, 0, FLAG(resume), GROUP_JOB, CLASS_EXACT, FOR_FILE,
      "keep finished tiles in FILE.part, and resume from them; for many pictures, skip those whose "
      "files exist"},
