@@ -97,8 +97,8 @@ class Notes(Work):
             self.assertEqual((done.stderr, done.returncode), (expected, 0), words)
 
     def test_a_blank_picture_is_noted(self):
-        self.write(a_scn="", b_scn="light 1 1 1 1\n", a_ply="", b_ply=NO_MESH, c_scn="mesh b.ply\n")
-        for name in "a.scn", "b.scn", "a.ply", "b.ply", "c.scn":
+        self.write(a_scn="", b_scn="light 1 1 1 1\n", b_ply=NO_MESH, c_scn="mesh b.ply\n")
+        for name in "a.scn", "b.scn", "b.ply", "c.scn":
             self.draws(f"{name}: {BLANK}", name)
 
     def test_parts_that_are_not_read_are_no_blank_picture(self):
@@ -146,9 +146,8 @@ class Notes(Work):
             self.draws(note, "a.scn")
 
     def test_check_notes_both(self):
-        self.write(a_ply="", b_ply=NO_MESH, a_scn="material 1\nsphere 0 0 0 1\n")
-        for name, kind, note in (("a.ply", "nothing_to_draw", BLANK), ("b.ply", "nothing_to_draw", BLANK),
-                                 ("a.scn", "no_lights", DARK)):
+        self.write(b_ply=NO_MESH, a_scn="material 1\nsphere 0 0 0 1\n")
+        for name, kind, note in ("b.ply", "nothing_to_draw", BLANK), ("a.scn", "no_lights", DARK):
             done = self.run_clrt("check", name, "--json=a.json")
             self.assertIn(f"  note: {note}\n", done.stdout)
             self.assertEqual((done.stderr, done.returncode), ("", 0))
