@@ -17,7 +17,7 @@ from benchmark import generated  # noqa: E402
 from benchmark.embree import MODES, share_of_differing_pixels  # noqa: E402
 
 SCENE = ROOT / "tests" / "bench" / "agree.scn"
-GENERATED = ["sky", "gear-6k"]
+GENERATED = ["sky", "gear-6k", "balls-10"]
 WORDS = [["-c", "csr"], ["-c", "", "-j", "2"], ["-r", "-q", "high"]]
 PIXELS_APART = 0.0005
 RAYS_APART = 0.0005

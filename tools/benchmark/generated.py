@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Writes scenes that resemble most pictures: a small mesh on a large mirror floor under much sky,
-the floor alone, and the sky alone. These scenes show the fixed cost of a ray."""
+"""Writes scenes that resemble most pictures: a small mesh or a heap of balls on a large mirror floor
+under much sky, the floor alone, and the sky alone. These scenes show the fixed cost of a ray."""
 
 import pathlib
+import random
 
 from benchmark import shapes
 
@@ -37,7 +38,18 @@ ply_file floor.ply
 """
 ON_FLOOR = "3.6 -3.0 2.0  0 0 0.3  36"
 TO_SKY = "3.6 -3.0 2.0  7.2 -6.0 5.0  36"
-NAMES = ["floor", "sky", *(f"{shape}-{size}" for size in SIZES for shape in shapes.SHAPES)]
+BALLS = {"balls-10": 10, "balls-100": 100, "balls-1k": 1000, "balls-10k": 10_000}
+NAMES = ["floor", "sky", *BALLS, *(f"{shape}-{size}" for size in SIZES for shape in shapes.SHAPES)]
+
+
+def balls(count):
+    """Yields the statements of random balls in a box on the floor. The more balls, the smaller."""
+    chance = random.Random(count)
+    largest = 0.6 * count ** (-1 / 3)
+    for _ in range(count):
+        radius = largest * chance.uniform(0.3, 1)
+        x, y = chance.uniform(-0.8, 0.8), chance.uniform(-0.8, 0.8)
+        yield f"sphere {x:.6f} {y:.6f} {chance.uniform(radius, 1.2):.6f} {radius:.6f}\n"
 
 
 def write(folder, names):
@@ -48,7 +60,9 @@ def write(folder, names):
     for name in names or NAMES:
         text = SCENE % (TO_SKY if name == "sky" else ON_FLOOR)
         shape, _, size = name.partition("-")
-        if size:
+        if name in BALLS:
+            text += "material body\n" + "".join(balls(BALLS[name]))
+        elif size:
             shapes.write(folder / f"{name}.ply", shape, SIZES[size])
             text += f"material body\nply_file {name}.ply\n"
         paths.append(folder / f"{name}.scn")

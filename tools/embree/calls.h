@@ -19,8 +19,9 @@ typedef struct {
     Rays rays;
     Points normal; // of any length
     Floats u, v;
-    Mask triangle; // RTC_INVALID_GEOMETRY_ID: no hit
-    Mask geometry, instance;
+    Mask primitive;
+    Mask geometry; // RTC_INVALID_GEOMETRY_ID: no hit
+    Mask instance;
 } RayHits;
 
 #if LANES == 16

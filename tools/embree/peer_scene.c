@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Takes the arrays that clrt uploads to its device, so that both renderers use the same floats.
-// Embree gets the triangles as an indexed mesh in its own buffers.
+// Embree gets the spheres as points with radii, and the triangles as an indexed mesh, in its own
+// buffers.
 #include "peer_scene.h"
 
 #include "accel/flat.h"
@@ -11,9 +12,29 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Adds each triangle's corners in clrt's stored order, which is also the order of its normals.
-static bool add_triangles(RTCGeometry geometry, const Triangles *triangles)
+typedef struct {
+    const SphereData *spheres;
+    uint32_t sphere_count;
+    const Triangles *triangles;
+} Shapes;
+
+static bool fill_spheres(RTCGeometry geometry, const Shapes *shapes)
 {
+    float(*points)[4] =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                                sizeof *points, shapes->sphere_count);
+    for (uint32_t i = 0; points != NULL && i < shapes->sphere_count; i++) {
+        for (int axis = 0; axis < 3; axis++)
+            points[i][axis] = shapes->spheres[i].center[axis];
+        points[i][3] = shapes->spheres[i].radius;
+    }
+    return points != NULL;
+}
+
+// Each triangle has its corners in clrt's stored order, which is also the order of its normals.
+static bool fill_triangles(RTCGeometry geometry, const Shapes *shapes)
+{
+    const Triangles *triangles = shapes->triangles;
     float(*points)[3] =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 sizeof *points, triangles->point_count);
@@ -31,8 +52,19 @@ static bool add_triangles(RTCGeometry geometry, const Triangles *triangles)
     return true;
 }
 
-static bool build(PeerScene *peer, const Triangles *triangles, const PeerSettings *settings,
-                  Error *error)
+static void add_geometry(const PeerScene *peer, const Shapes *shapes, PeerGeometry kind,
+                         enum RTCBuildQuality quality)
+{
+    const bool is_round = kind == PEER_SPHERES;
+    RTCGeometry geometry = rtcNewGeometry(peer->device, is_round ? RTC_GEOMETRY_TYPE_SPHERE_POINT
+                                                                 : RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetGeometryBuildQuality(geometry, quality);
+    if (is_round ? fill_spheres(geometry, shapes) : fill_triangles(geometry, shapes))
+        rtcAttachGeometryByID(peer->scene, geometry, kind);
+    rtcReleaseGeometry(geometry);
+}
+
+static bool build(PeerScene *peer, const Shapes *shapes, const PeerSettings *settings, Error *error)
 {
     char config[64];
     snprintf(config, sizeof config, "threads=%u" DEVICE_CONFIG, settings->threads);
@@ -40,17 +72,17 @@ static bool build(PeerScene *peer, const Triangles *triangles, const PeerSetting
     peer->scene = rtcNewScene(peer->device);
     rtcSetSceneBuildQuality(peer->scene, settings->quality);
     rtcSetSceneFlags(peer->scene, settings->robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    RTCGeometry geometry = rtcNewGeometry(peer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetGeometryBuildQuality(geometry, settings->quality);
-    const bool filled = add_triangles(geometry, triangles);
+    const bool is_present[] = {
+        [PEER_SPHERES] = shapes->sphere_count > 0, [PEER_TRIANGLES] = shapes->triangles->count > 0};
+    for (PeerGeometry kind = PEER_SPHERES; kind <= PEER_TRIANGLES; kind++)
+        if (is_present[kind])
+            add_geometry(peer, shapes, kind, settings->quality);
     const double start = clock_seconds();
-    if (filled) {
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(peer->scene, geometry);
-        rtcCommitScene(peer->scene);
-    }
+    for (PeerGeometry kind = PEER_SPHERES; kind <= PEER_TRIANGLES; kind++)
+        if (is_present[kind] && rtcGetGeometry(peer->scene, kind) != NULL)
+            rtcCommitGeometry(rtcGetGeometry(peer->scene, kind));
+    rtcCommitScene(peer->scene);
     peer->build_seconds = clock_seconds() - start;
-    rtcReleaseGeometry(geometry);
     const enum RTCError fault = rtcGetDeviceError(peer->device);
     return fault == RTC_ERROR_NONE || error_set(error, "Embree failed with error %d", fault);
 }
@@ -59,13 +91,16 @@ static bool take_looks(PeerScene *peer, const FlatScene *flat, Error *error)
 {
     if (flat->colors_count > 0)
         return error_set(error, "the peer does not draw colors of vertices");
-    peer->looks = memory_raw(flat->triangle_count, sizeof *peer->looks, error);
+    const size_t count = (size_t)flat->sphere_count + flat->triangle_count;
+    peer->looks = memory_raw(count, sizeof *peer->looks, error);
     if (peer->looks == NULL)
         return false;
+    for (uint32_t i = 0; i < flat->sphere_count; i++)
+        peer->looks[i] = (TriangleLook){.material = flat->spheres[i].material, .shading = NOTHING};
     for (uint32_t i = 0; i < flat->triangle_count; i++) {
         const TriangleData *triangle = &flat->triangles[i];
-        peer->looks[triangle->id - flat->sphere_count] = (TriangleLook){
-            .material = triangle->material & ~TRIANGLE_MARKS, .shading = triangle->shading};
+        peer->looks[triangle->id] = (TriangleLook){.material = triangle->material & ~TRIANGLE_MARKS,
+                                                   .shading = triangle->shading};
     }
     return true;
 }
@@ -73,6 +108,7 @@ static bool take_looks(PeerScene *peer, const FlatScene *flat, Error *error)
 // Moves the arrays for shading from flat to peer.
 static bool take_flat(PeerScene *peer, FlatScene *flat, Error *error)
 {
+    peer->sphere_count = flat->sphere_count;
     peer->triangle_count = flat->triangle_count;
     peer->light_count = flat->light_count;
     peer->material_count = flat->material_count;
@@ -113,9 +149,10 @@ static bool fill(PeerScene *peer, const Scene *scene, const PeerSettings *settin
                                .layout = NODES_PAIR};
     peer->camera =
         camera_make(&scene->viewpoints.data[0], &normalization, peer->width, peer->height, 1);
-    const bool ok = triangles_make(&triangles, scene, &normalization, NULL, error) &&
-                    flat_make(&flat, &source, error) && take_flat(peer, &flat, error) &&
-                    build(peer, &triangles, settings, error);
+    const bool ok =
+        triangles_make(&triangles, scene, &normalization, NULL, error) &&
+        flat_make(&flat, &source, error) && take_flat(peer, &flat, error) &&
+        build(peer, &(Shapes){flat.spheres, flat.sphere_count, &triangles}, settings, error);
     flat_free(&flat);
     triangles_free(&triangles);
     return ok;
@@ -126,8 +163,6 @@ bool peer_scene_open(PeerScene *peer, const char *path, const PeerSettings *sett
     Scene scene = {0};
     *peer = (PeerScene){0};
     bool ok = scn_load(&scene, path, &(SceneLoadOptions){0}, error);
-    if (ok && (scene.spheres.count > 0 || scene_triangle_count(&scene) == 0))
-        ok = error_set(error, "%s: embree_peer draws only triangles, at least one", path);
     if (ok && !knows_materials(&scene))
         ok = error_set(error, "%s: embree_peer accepts only integer shininess up to 1024", path);
     peer->width = settings->width > 0 ? settings->width : scene.width;

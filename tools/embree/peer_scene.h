@@ -13,15 +13,17 @@ typedef struct {
     uint32_t width, height; // of the picture; 0: the scene's
 } PeerSettings;
 
-// One geometry holds all triangles. A hit's primID is the triangle's index in file order.
+// The geometries of Embree's scene. A hit's primID is the index in file order.
+typedef enum { PEER_SPHERES, PEER_TRIANGLES } PeerGeometry;
+
 typedef struct {
     RTCDevice device;
     RTCScene scene;
-    TriangleLook *looks;    // one per triangle
+    TriangleLook *looks;    // one per primitive, all spheres first
     CornerNormals *normals; // of the smooth triangles
     Material *materials;
     PointLight *lights;
-    uint32_t light_count, triangle_count, material_count;
+    uint32_t light_count, sphere_count, triangle_count, material_count;
     float background[3], ambient;
     CameraData camera;
     uint32_t width, height, max_level;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Traces and shades a tile like kernels/trace.cl, with LANES rays per SIMD packet. Each call of
 // Embree traces PACKETS packets. CMakeLists.txt compiles this file once for each mode. Unlike in
-// clrt, all triangles are visible from both sides, and rays start or end at a fixed distance from
+// clrt, all surfaces are visible from both sides, and rays start or end at a fixed distance from
 // the surface. Most users of Embree trace in this way, because filter functions are slower.
 #include "calls.h"
 #include "peer_draw.h"
@@ -80,7 +80,8 @@ static inline void look_up(const PeerScene *scene, const RayHits *hits, Mask hit
     for (int lane = 0; lane < LANES; lane++) {
         if (!hit[lane])
             continue;
-        const TriangleLook *look = &scene->looks[hits->triangle[lane]];
+        const uint32_t first = hits->geometry[lane] == PEER_TRIANGLES ? scene->sphere_count : 0;
+        const TriangleLook *look = &scene->looks[first + (uint32_t)hits->primitive[lane]];
         surfaces->material[lane] = (int32_t)look->material;
         if (look->shading == NOTHING)
             continue;
@@ -262,7 +263,7 @@ static bool meet(PeerTile *tile, RayKind kind, Paths paths[PACKETS], Met met[PAC
         active[packet] = paths[packet].active;
         set_rays(&hits[packet].rays, paths[packet].origin, paths[packet].direction,
                  paths[packet].nearest, all(INFINITY));
-        hits[packet].triangle = hits[packet].geometry = (Mask){0} - 1;
+        hits[packet].primitive = hits[packet].geometry = (Mask){0} - 1;
         rays += lanes_of(active[packet]);
     }
     if (rays == 0)
