@@ -184,6 +184,44 @@ static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint others,
     return any;
 }
 
+// Tests a block of spheres against the given lanes of the given packets. Returns whether a hit
+// changed.
+static NOT_INLINE bool intersect_beam_spheres(Beam *beam, uint child, uint packets,
+                                              const uint bits[PACKETS])
+{
+    global const SphereBlock *block = sphere_block(beam->tracer, child);
+    bool any = false;
+    for (; packets != 0; packets &= packets - 1) {
+        const uint number = lowest_bit(packets);
+        const UInt before = beam->hits[number].id;
+        Hit hit = read_hit(&beam->hits[number]);
+        Ray ray = *beam->packets[number].rays.ray;
+        ray.active = lanes_of(bits[number]);
+        for (uint slot = 0; slot < WIDE && block->id[slot] != NOTHING; slot++) {
+            const Sphere sphere = block_sphere(block, slot);
+            const uint id = block->id[slot];
+            accept_sphere(leaf_sphere_distance(&sphere, &ray, (UInt)(id)), id, &hit);
+            if (CLRT_STATISTICS)
+                beam->tracer->tally->sphere_tests += popcount(bits[number]);
+        }
+        if (!any_lane(hit.id != before))
+            continue;
+        beam->hits[number] = read_hit(&hit);
+        update_packet(beam, number);
+        any = true;
+    }
+    return any;
+}
+
+// Tests a block of spheres or, among its triangles, `others`.
+static inline bool intersect_leaf(Beam *beam, uint leaf, uint others, uint packets,
+                                  const uint bits[PACKETS])
+{
+    if (has_spheres(leaf))
+        return intersect_beam_spheres(beam, leaf, packets, bits);
+    return intersect_beam_block(beam, leaf & ~WIDE_LEAF, others, packets, bits);
+}
+
 // Returns the packets with lanes that still search.
 static inline uint packets_searching(const Beam *beam)
 {
@@ -202,10 +240,11 @@ static inline uint lanes_in(uint packets, const uint bits[PACKETS])
     return count;
 }
 
-// Searches below a child for the given lanes of the given packets, ray by ray.
+// Searches below a node for the given lanes of the given packets, ray by ray.
 static NOT_INLINE void search_apart(Beam *beam, uint child, uint packets, const uint bits[PACKETS])
 {
-    shear_packets(beam);
+    if (!has_sphere_tree(beam->tracer) || child < beam->tracer->frame->sphere_root)
+        shear_packets(beam);
     for (; packets != 0; packets &= packets - 1) {
         const uint number = lowest_bit(packets);
         intersect_lanes(&beam->packets[number].rays, bits[number], child, &beam->hits[number]);
@@ -213,7 +252,8 @@ static NOT_INLINE void search_apart(Beam *beam, uint child, uint packets, const 
     }
 }
 
-static inline void walk_tree(Beam *beam)
+// Searches below the root of a tree.
+static inline void walk_tree(Beam *beam, uint root)
 {
     const bool is_free = CLRT_RAYS && plain_kind(beam->kind) == RAY_CAMERA;
     const bool is_dense = !is_free && beam->tracer->frame->triangle_count >= DENSE;
@@ -222,12 +262,14 @@ static inline void walk_tree(Beam *beam)
     float reach = reach_of(beam, searching);
     uint slot;
     beam->stack.count = 0;
-    expand_node(beam, 0, searching);
+    expand_node(beam, root, searching);
     while (searching != 0 && pop_child(&beam->stack, reach, &slot)) {
         uint bits[PACKETS];
         const uint child = beam->tracer->nodes[slot / WIDE].child[slot % WIDE];
         const bool is_leaf = (child & WIDE_LEAF) != 0;
-        const uint others = is_leaf ? triangles_beside(beam, child & ~WIDE_LEAF) : ALL_TRIANGLES;
+        const uint others = is_leaf && !has_spheres(child)
+                                ? triangles_beside(beam, child & ~WIDE_LEAF)
+                                : ALL_TRIANGLES;
         if (others == 0)
             continue;
         const uint parents = beam->inside[beam->stack.count] & searching;
@@ -235,7 +277,7 @@ static inline void walk_tree(Beam *beam)
         if (packets == 0)
             continue;
         if (is_leaf) {
-            if (!intersect_beam_block(beam, child & ~WIDE_LEAF, others, packets, bits))
+            if (!intersect_leaf(beam, child, others, packets, bits))
                 continue;
         } else if (lanes_in(packets, bits) > most_leaving) {
             expand_node(beam, child, packets);
@@ -336,8 +378,8 @@ static NOT_INLINE void find_level(Beam *beam, const Ray *rays)
     }
 }
 
-// Stores which triangles the rays skip. Returns false only if the rays skip all triangles of the
-// scene, for example when they leave a floor under spheres.
+// Stores which triangles the rays skip. Returns false if the rays skip all triangles of the scene,
+// for example when they leave a floor under spheres.
 static inline bool beam_start(Beam *beam, const Tracer *tracer, const Ray *rays)
 {
     beam->tracer = tracer;
@@ -347,7 +389,7 @@ static inline bool beam_start(Beam *beam, const Tracer *tracer, const Ray *rays)
     beam->level_axis = NO_AXIS;
     if (own == NOTHING) {
         find_level(beam, rays);
-        return true;
+        return CLRT_TRIANGLES && tracer->frame->triangle_count != 0;
     }
     beam->others = triangles_beside_own(beam, rays, own);
     const bool has_tree = CLRT_BVH && tracer->frame->uses_bvh;
@@ -370,20 +412,39 @@ static inline void beam_prepare(Beam *beam, const Ray *rays)
     beam->sheared = false;
 }
 
+static inline void search_tree(Beam *beam, uint root, bool alone)
+{
+    if (alone)
+        search_apart(beam, root, packets_searching(beam), beam->live);
+    else
+        walk_tree(beam, root);
+}
+
+// Finds hits on spheres. No triangle beyond them is then a hit.
+static inline void search_spheres(Beam *beam, bool alone)
+{
+    search_tree(beam, beam->tracer->frame->sphere_root, alone);
+    for (uint number = 0; number < beam->count; number++)
+        beam->packets[number].rays.limit = beam->hits[number].t;
+}
+
 // Finds the hits of rays: any hits if ends_at_any_hit returns true, else the nearest hits. If the
 // scene has a tree and `alone` is set, each ray searches alone. Otherwise, the rays' directions
 // must share their signs. The beam's count and hits must be set, and at least one lane must search.
 static NOT_INLINE void search_beam(Beam *beam, const Tracer *tracer, const Ray *rays, bool alone)
 {
-    if (!beam_start(beam, tracer, rays))
+    const bool may_hit_triangles = beam_start(beam, tracer, rays);
+    if (!may_hit_triangles && !has_sphere_tree(tracer))
         return;
     beam_prepare(beam, rays);
+    if (has_sphere_tree(tracer))
+        search_spheres(beam, alone);
+    if (!may_hit_triangles)
+        return;
     if (!CLRT_BVH || !tracer->frame->uses_bvh)
         test_all_blocks(beam);
-    else if (alone)
-        search_apart(beam, 0, packets_searching(beam), beam->live);
-    else
-        walk_tree(beam);
+    else if (packets_searching(beam) != 0)
+        search_tree(beam, 0, alone);
 }
 
 #endif

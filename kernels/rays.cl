@@ -19,7 +19,8 @@ static inline Ray ray_at(global const RayData *rays, uint start, uint count, uin
                  place < count && limit->t >= 0.0f};
 }
 
-// Finds the nearest sphere before hit->t. Returns the lanes that then search for triangles.
+// Finds the nearest sphere before hit->t, unless the search finds it. Returns the lanes that then
+// search.
 static inline Mask begin_search(const Tracer *tracer, const Ray *ray, Hit *hit)
 {
     const Mask searching = meet_spheres(tracer, ray, hit);
@@ -31,8 +32,8 @@ static inline void search_rays(const Tracer *tracer, const Ray packets[PACKETS],
     Mask searching[PACKETS];
     for (uint i = 0; i < PACKETS; i++)
         searching[i] = begin_search(tracer, &packets[i], &hits[i]);
-    if (CLRT_TRIANGLES && tracer->frame->triangle_count != 0)
-        intersect_triangles(tracer, packets, searching, PACKETS, hits);
+    if (has_search(tracer))
+        intersect_search(tracer, packets, searching, PACKETS, hits);
 }
 
 static inline void store_hits(global HitData *hits, uint left, const Hit *found)

@@ -336,16 +336,28 @@ static inline bool are_coherent(const Ray *rays, uint count)
     return coherent;
 }
 
+// Finds the hits of the lanes selected by `wanted`, ray by ray. Each tree of the scene is searched.
+static inline void search_lanes(const Tracer *tracer, const Ray *ray, uint wanted, Hit *hit)
+{
+    Search search = search_along(tracer, ray, hit->t);
+    if (has_sphere_tree(tracer)) {
+        intersect_lanes(&search, wanted, tracer->frame->sphere_root, hit);
+        search.limit = hit->t;
+        if (ends_at_any_hit(ray->kind))
+            wanted &= lane_bits(hit->id == NOTHING);
+    }
+    if (CLRT_TRIANGLES && tracer->frame->uses_bvh)
+        intersect_lanes(&search, wanted, 0, hit);
+}
+
 // Finds the hits of the lanes selected by `wanted`, in `count` packets.
 static NOT_INLINE void search_beams(const Tracer *tracer, const Ray *rays, const uint *wanted,
                                     uint count, Hit *hits)
 {
-    const bool has_tree = CLRT_BVH && tracer->frame->uses_bvh;
+    const bool has_tree = CLRT_BVH && (tracer->frame->uses_bvh || has_sphere_tree(tracer));
     if (has_tree && (!CLRT_PACKET || !are_coherent(rays, count))) {
-        for (uint i = 0; i < count; i++) {
-            const Search search = search_along(tracer, &rays[i], hits[i].t);
-            intersect_lanes(&search, wanted[i], 0, &hits[i]);
-        }
+        for (uint i = 0; i < count; i++)
+            search_lanes(tracer, &rays[i], wanted[i], &hits[i]);
         return;
     }
     if (are_one_beam(rays, wanted, count)) {

@@ -83,7 +83,8 @@ typedef struct {
 CLRT_SAME_SIZE(PointLight, 32)
 
 // Center and radius as unevaluated sums high + low, with 48 bits each. In the array, the scene's
-// spheres come first. A tree over them (host/accel/sphere_tree.c) follows.
+// spheres come first. Many spheres have a tree. With pair nodes, its entries follow
+// (host/accel/sphere_tree.c). With wide nodes, its leaves follow, each as a SphereBlock.
 typedef struct {
     float center[3];
     float radius;
@@ -168,6 +169,20 @@ typedef struct {
 CLRT_SAME_SIZE(BvhWide, 256)
 #define WIDE_LEAF 0x80000000u
 
+// A leaf of the wide tree over spheres has these bits and the number of a SphereBlock.
+#define WIDE_SPHERES 0xc0000000u
+
+// Up to WIDE spheres, component by component, as in SphereData. An empty slot has the id NOTHING.
+typedef struct {
+    float center[3][WIDE], radius[WIDE];
+    float center_low[3][WIDE], radius_low[WIDE];
+    uint id[WIDE];
+} SphereBlock;
+CLRT_SAME_SIZE(SphereBlock, 288)
+
+// Entries of the array of spheres that a SphereBlock takes.
+#define SPHERE_BLOCK_ENTRIES 6
+
 // A leaf of the wide tree: up to WIDE triangles, component by component. An empty slot holds the id
 // NOTHING and three corners at the origin. No ray hits such a triangle.
 typedef struct {
@@ -207,10 +222,11 @@ typedef struct {
     uint tile_x, tile_y, tile_width, tile_height;
     uint light_count, sphere_count, triangle_count;
     uint sphere_entries;   // of the array of spheres; more than sphere_count with a tree
+    uint sphere_root;      // the wide node of the tree over spheres; NOTHING if there is none
     uint uses_bvh;         // 0: every triangle is tested
     float low[3], high[3]; // a box around all primitives, with a margin (SKY_SLACK)
 } FrameData;
-CLRT_SAME_SIZE(FrameData, 156)
+CLRT_SAME_SIZE(FrameData, 160)
 
 // The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
 // that the ray and its reflected and refracted rays hit. The hash includes the lights that reach

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Traces single rays through the tree of wide nodes. Vector operations test all children of a node,
-// or all triangles of a block, at once (Wald, Benthin and Boulos, "Getting rid of packets", 2008).
-// The rays of a packet's lanes take turns, one step each: while one ray waits for memory, the
-// others advance.
+// Traces single rays through trees of wide nodes. Vector operations test all children of a node, or
+// all triangles or spheres of a block, at once (Wald, Benthin and Boulos, "Getting rid of packets",
+// 2008). The rays of a packet's lanes take turns, one step each: while one ray waits for memory,
+// the others advance.
 //
 // Invariant: boxes are culled as in pair.cl, and accept.cl accepts hits, so both searches find the
 // same hits.
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
 #include "accept.cl"
+#include "spheres.cl"
 #include "wide_stack.cl"
 
 #if CLRT_WIDE_NODES
@@ -195,6 +196,45 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     return changed;
 }
 
+// Returns a lane's ray in all lanes.
+static inline Ray ray_of_lane(const Ray *ray, uint lane)
+{
+    const Real3 o = ray->origin, d = ray->direction;
+    return (Ray){{lane_real(&o.x, lane), lane_real(&o.y, lane), lane_real(&o.z, lane)},
+                 {lane_real(&d.x, lane), lane_real(&d.y, lane), lane_real(&d.z, lane)},
+                 (UInt)(lane_uint(&ray->own, lane)),
+                 (UInt)(lane_uint(&ray->own_index, lane)),
+                 ray->kind,
+                 0};
+}
+
+// Tests a block's spheres against the lane's ray. Returns whether the ray's hit changed.
+static NOT_INLINE bool intersect_sphere_block(const Search *search, uint lane, uint child,
+                                              Hit *hits)
+{
+    global const SphereBlock *block = sphere_block(search->tracer, child);
+    Ray ray = ray_of_lane(search->ray, lane);
+    bool changed = false;
+    for (uint first = 0; first < WIDE; first += CLRT_LANES) {
+        const UInt ids = ROW_LANES(UInt, block->id + first);
+        const Sphere spheres = block_spheres(block, first);
+        ray.active = lanes_of((1u << WIDE) - 1) && ids != NOTHING;
+        const Real t = leaf_sphere_distance(&spheres, &ray, ids);
+        uint candidates = lane_bits(t <= lane_real(&hits->t, lane) && t < INFINITY);
+        for (; candidates != 0; candidates &= candidates - 1) {
+            const uint place = lowest_bit(candidates);
+            const Real distance = (Real)(lane_real(&t, place));
+            const UInt id = (UInt)(lane_uint(&ids, place));
+            const Mask precedes = lanes_of(1u << lane) && hit_precedes(distance, id, hits);
+            hits->t = precedes ? distance : hits->t;
+            hits->id = precedes ? id : hits->id;
+            hits->index = precedes ? id : hits->index;
+            changed |= any_lane(precedes);
+        }
+    }
+    return changed;
+}
+
 // Returns whether nodes and blocks probably exceed a cache of 1 MB. Only then do single rays
 // prefetch, because prefetching makes smaller scenes 7 % slower.
 static inline bool exceeds_cache(const Tracer *tracer)
@@ -265,20 +305,37 @@ static inline void visit_nodes(LaneSearches *searches)
     }
 }
 
+static inline bool has_spheres(uint leaf)
+{
+    return CLRT_SPHERES && leaf >= WIDE_SPHERES;
+}
+
+// Tests a block against the lane's ray. Returns whether the ray's hit changed.
+static inline bool visit_leaf(const Search *search, uint lane, uint child, Hit *hits)
+{
+    Tally *tally = search->tracer->tally;
+    if (has_spheres(child)) {
+        if (CLRT_STATISTICS)
+            tally->sphere_tests += WIDE;
+        return intersect_sphere_block(search, lane, child, hits);
+    }
+    const BlockPlace start = block_start(search->tracer, child & ~WIDE_LEAF);
+    if (CLRT_STATISTICS)
+        tally->triangle_tests += WIDE;
+    return intersect_block(&start, search, lane, hits);
+}
+
 // Tests the block of each lane that is at a block. The lane then advances, unless a new hit ends
 // its search.
 static inline void visit_leaves(LaneSearches *searches)
 {
-    const Tracer *tracer = searches->search->tracer;
     const bool any_hit = ends_at_any_hit(searches->search->ray->kind);
     uint bits = searches->leaves;
     searches->leaves = 0;
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
-        const BlockPlace start = block_start(tracer, searches->child[lane] & ~WIDE_LEAF);
-        const bool changed = intersect_block(&start, searches->search, lane, searches->hits);
-        if (CLRT_STATISTICS)
-            tracer->tally->triangle_tests += WIDE;
+        const bool changed =
+            visit_leaf(searches->search, lane, searches->child[lane], searches->hits);
         if (!any_hit || !changed)
             advance_lane(searches, lane);
         else
@@ -286,7 +343,7 @@ static inline void visit_leaves(LaneSearches *searches)
     }
 }
 
-// Searches below a child for the rays of the lanes whose bits are set. This is a fifth faster than
+// Searches below a node for the rays of the lanes whose bits are set. This is a fifth faster than
 // tracing one ray after another.
 static NOT_INLINE void intersect_lanes(const Search *search, uint bits, uint child, Hit *best)
 {

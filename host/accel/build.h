@@ -108,6 +108,14 @@ static inline BuildBox build_box_of_triangle(const Triangles *triangles, uint32_
                       float4_minimum(float4_minimum(-a, -b), -c) + zero};
 }
 
+static inline BuildBox build_box_of(const Box *box)
+{
+    const Float4 zero = {0};
+    const Float4 low = {box->low[0], box->low[1], box->low[2]};
+    const Float4 high = {box->high[0], box->high[1], box->high[2]};
+    return (BuildBox){low + zero, zero - high};
+}
+
 // Returns a box of size zero at the point low + high, which is twice the center of the given box.
 static inline BuildBox build_box_of_center(const BuildBox *box)
 {

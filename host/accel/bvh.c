@@ -17,6 +17,7 @@
 typedef struct {
     Build build;
     const Triangles *triangles;
+    const Box *boxes; // instead of triangles, if not NULL
     ThreadPool *pool;
     ARRAY(BuildTask) subtrees;
     ARRAY(BuildTask) large; // nodes above the subtrees, level by level
@@ -28,7 +29,8 @@ static void make_items(void *context, uint32_t first, uint32_t end)
     const Whole *whole = context;
     for (uint32_t number = first; number < end; number++) {
         BuildItem *item = &whole->build.items[1][number];
-        item->box = build_box_of_triangle(whole->triangles, number);
+        item->box = whole->boxes != NULL ? build_box_of(&whole->boxes[number])
+                                         : build_box_of_triangle(whole->triangles, number);
         item->number = number;
         item->unused = 0;
     }
@@ -122,27 +124,40 @@ static bool build_all(Whole *whole, Error *error)
     return true;
 }
 
+// Builds the tree over whole->build.total triangles or boxes.
+static bool build_whole(Whole *whole, const BvhSettings *settings, Error *error)
+{
+    Build *build = &whole->build;
+    *build->bvh = (Bvh){0};
+    if (build->total == 0)
+        return true;
+    build->split = settings->builder == BVH_MIDPOINT ? split_midpoint : split_sah;
+    build->leaves = settings->leaves;
+    const bool ok = build_all(whole, error);
+    free(build->items[0]);
+    free(build->items[1]);
+    free(whole->large.memory);
+    free(whole->subtrees.memory);
+    if (!ok)
+        bvh_free(build->bvh);
+    return ok;
+}
+
 bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, ThreadPool *pool,
                Error *error)
 {
-    *bvh = (Bvh){0};
-    if (triangles->count == 0)
-        return true;
+    Whole whole = {.build = {.bvh = bvh, .total = (uint32_t)triangles->count},
+                   .triangles = triangles,
+                   .pool = pool};
+    return build_whole(&whole, settings, error);
+}
+
+bool bvh_build_boxes(Bvh *bvh, const BoxArray *boxes, const BvhSettings *settings, ThreadPool *pool,
+                     Error *error)
+{
     Whole whole = {
-        .build = {.bvh = bvh,
-                  .total = (uint32_t)triangles->count,
-                  .split = settings->builder == BVH_MIDPOINT ? split_midpoint : split_sah,
-                  .leaves = settings->leaves},
-        .triangles = triangles,
-        .pool = pool};
-    const bool ok = build_all(&whole, error);
-    free(whole.build.items[0]);
-    free(whole.build.items[1]);
-    free(whole.large.memory);
-    free(whole.subtrees.memory);
-    if (!ok)
-        bvh_free(bvh);
-    return ok;
+        .build = {.bvh = bvh, .total = boxes->count}, .boxes = boxes->boxes, .pool = pool};
+    return build_whole(&whole, settings, error);
 }
 
 void bvh_free(Bvh *bvh)

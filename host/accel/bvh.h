@@ -11,3 +11,12 @@
 bool bvh_build(Bvh *bvh, const Triangles *triangles, const BvhSettings *settings, ThreadPool *pool,
                Error *error);
 void bvh_free(Bvh *bvh);
+
+typedef struct {
+    const Box *boxes; // no coordinate is NaN
+    uint32_t count;
+} BoxArray;
+
+// Builds a tree over boxes instead of triangles.
+bool bvh_build_boxes(Bvh *bvh, const BoxArray *boxes, const BvhSettings *settings, ThreadPool *pool,
+                     Error *error);

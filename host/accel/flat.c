@@ -211,7 +211,9 @@ static bool make_all(FlatScene *flat, const FlatSource *source, Error *error)
     for (uint32_t i = 0; i < flat->sphere_count; i++)
         flatten_sphere(&flat->spheres[i], &scene->spheres.data[i], normalization);
     flat->bounds = flat_bounds(flat, source);
-    if (source->has_tree && flat->sphere_count > TREELESS_SPHERES && !sphere_tree_make(flat, error))
+    flat->sphere_root = NOTHING;
+    if (source->layout == NODES_PAIR && flat_has_sphere_tree(flat, source) &&
+        !sphere_tree_make(flat, error))
         return false;
     return flat_looks_make(flat, source, error) &&
            (source->layout == NODES_WIDE ? flat_wide_make(flat, source, error)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The tree is an array in depth-first order, which rays walk without a stack: the entry of a
-// bounding sphere names the entry after the spheres in it. The other entries are copies of the
-// spheres with their ids. A median split gives equal halves along the axis on which the centers
-// extend farthest. Links for walking near nodes first (by octant of the direction) gained nothing.
+// The tree for nodes of two is an array in depth-first order, which rays walk without a stack: the
+// entry of a bounding sphere names the entry after the spheres in it. The other entries are copies
+// of the spheres with their ids. A median split gives equal halves along the axis on which the
+// centers extend farthest. Links for walking near nodes first (by octant of the direction) gained
+// nothing.
 //
 // Invariant: a bounding sphere contains the spheres below it, as stored. docs/numerics.md (B21)
 // proves that skipping it changes no hit.

@@ -10,5 +10,10 @@
 // trace with bvh=sah.
 #define TREELESS_SPHERES 12
 
-// Appends the tree to flat->spheres, and sets flat->sphere_entries.
+static inline bool flat_has_sphere_tree(const FlatScene *flat, const FlatSource *source)
+{
+    return source->has_tree && flat->sphere_count > TREELESS_SPHERES;
+}
+
+// Appends the tree for pair nodes to flat->spheres, and sets flat->sphere_entries.
 bool sphere_tree_make(FlatScene *flat, Error *error);

@@ -15,7 +15,8 @@ static FrameData frame_of(const FlatScene *flat)
                        .sphere_count = flat->sphere_count,
                        .sphere_entries = flat->sphere_entries,
                        .triangle_count = flat->triangle_count,
-                       .uses_bvh = flat->node_count > 0};
+                       .sphere_root = flat->sphere_root,
+                       .uses_bvh = flat->triangle_count > 0 && flat->node_count > 0};
     memcpy(frame.background, flat->background, sizeof frame.background);
     memcpy(frame.low, flat->bounds.low, sizeof frame.low);
     memcpy(frame.high, flat->bounds.high, sizeof frame.high);

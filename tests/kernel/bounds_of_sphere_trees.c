@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Measures B21 of docs/numerics.md. A case is a bounding sphere, a sphere inside it, and a ray that
-// often almost touches the bounding sphere.
+// Measures B21 and B22 of docs/numerics.md. A case is a bounding sphere, a sphere inside it, and a
+// ray that often almost touches the bounding sphere.
 #include "kernel/surface_bounds.h"
 
 #include "unit/cmocka_all.h"
@@ -23,13 +23,14 @@ typedef struct {
     bool is_hit;
 } ExactChord;
 
-enum { PASSED, AWAY, BEHIND, DISTANCE, BOUNDS };
+enum { PASSED, AWAY, BEHIND, DISTANCE, OUTSIDE, BOUNDS };
 
 static Share shares[BOUNDS] = {
     [PASSED] = {"B21: passed, 27 u sqrt(q), of the gap", 0},
     [AWAY] = {"B21: leading away, 27 u sqrt(q), of the gap", 0},
     [BEHIND] = {"B21: beyond t, 4000 u (sqrt(q) + t |d|) / |d|", 0},
     [DISTANCE] = {"B21: distance, 64 u (sqrt(q) + t |d|) / |d|", 0},
+    [OUTSIDE] = {"B22: hit outside of the sphere, 76 u (B + o)", 0},
 };
 
 static SurfaceCase cases[CASES];
@@ -154,6 +155,19 @@ static Quad squares_of(const SurfaceCase *ray, const ExactSphere *bound)
     return dot3(o, o) + dot3(bound->center, bound->center) + bound->radius * bound->radius;
 }
 
+// Notes how far the hit at t is outside of the sphere.
+static void note_outside(const SurfaceCase *ray, const ExactSphere *sphere, Quad t)
+{
+    Quad place[3], box = 0, start = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        place[axis] = ray->origin[axis] + t * ray->direction[axis] - sphere->center[axis];
+        box = larger(box, magnitude(sphere->center[axis]) + sphere->radius);
+        start = larger(start, magnitude((Quad)ray->origin[axis]));
+    }
+    const Quad outside = larger(length3(place) - sphere->radius, 0);
+    share_note(&shares[OUTSIDE], outside, 76 * U * (box + start));
+}
+
 static void check_case(int i)
 {
     const TreeAnswer *answer = &answers[i];
@@ -179,6 +193,7 @@ static void check_case(int i)
     const Quad found = answer->t;
     const Quad error = smaller(magnitude(found - chord.near), magnitude(found - chord.far));
     share_note(&shares[DISTANCE], error, 64 * U * (root / chord.length + found));
+    note_outside(&cases[i], &inside, found);
 }
 
 TEST(bounding_spheres_that_are_skipped_contain_no_hit)

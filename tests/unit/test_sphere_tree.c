@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Tests the tree over spheres: its order, and that bounding spheres contain what is below them.
+// Tests the trees over spheres: they contain each sphere once, and the bounding spheres and boxes
+// contain what is below them.
 #include "unit/cmocka_all.h"
 
 #include "accel/flat.h"
+#include "accel/sphere_blocks.h"
 #include "accel/sphere_tree.h"
 #include "unit/random.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -92,5 +95,78 @@ TEST(bounding_spheres_contain_each_sphere_once)
         }
         assert_int_equal(copies, count);
         flat_free(&flat);
+    }
+}
+
+static const FlatScene *wide_flat;
+static const WideTree *wide_tree;
+
+// Tests that the sphere in a slot is the scene's, and that the boxes contain it.
+static void expect_slot(const SphereBlock *block, uint32_t slot, const Box *box)
+{
+    const uint32_t id = block->id[slot];
+    assert_in_range(id, 0, wide_flat->sphere_count - 1);
+    const SphereData *sphere = &wide_flat->spheres[id];
+    const double radius = value_of(sphere->radius, sphere->radius_low);
+    assert_false(was_seen[id]);
+    was_seen[id] = true;
+    assert_true(block->radius[slot] == sphere->radius &&
+                block->radius_low[slot] == sphere->radius_low);
+    for (int axis = 0; axis < 3; axis++) {
+        const double center = value_of(sphere->center[axis], sphere->center_low[axis]);
+        assert_true(block->center[axis][slot] == sphere->center[axis] &&
+                    block->center_low[axis][slot] == sphere->center_low[axis]);
+        assert_true((double)box->low[axis] <= center - radius &&
+                    center + radius <= (double)box->high[axis]);
+    }
+}
+
+// Tests the spheres below a child. `box` is the intersection of the boxes above them.
+static void expect_below(uint32_t child, const Box *box)
+{
+    const SphereData *end = wide_flat->spheres + wide_flat->sphere_count;
+    if (child >= WIDE_SPHERES) {
+        const SphereBlock *block = (const SphereBlock *)end + (child & ~WIDE_SPHERES);
+        uint32_t slot = 0;
+        for (; slot < WIDE && block->id[slot] != NOTHING; slot++)
+            expect_slot(block, slot, box);
+        assert_true(slot > 0);
+        for (; slot < WIDE; slot++)
+            assert_int_equal(block->id[slot], NOTHING);
+        return;
+    }
+    const BvhWide *node = &wide_tree->nodes[child - wide_tree->root];
+    for (uint32_t i = 0; i < node->child_count; i++) {
+        Box inside;
+        for (int axis = 0; axis < 3; axis++) {
+            inside.low[axis] = fmaxf(box->low[axis], node->planes[axis][0][i]);
+            inside.high[axis] = fminf(box->high[axis], node->planes[axis][1][i]);
+        }
+        expect_below(node->child[i], &inside);
+    }
+}
+
+TEST(boxes_contain_each_sphere_once)
+{
+    const Box everywhere = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    random_state = (uint64_t)time(NULL);
+    printf("seed %llu\n", (unsigned long long)random_state);
+    for (uint32_t count = TREELESS_SPHERES + 1; count < SPHERES_MOST; count += 1 + count / 4) {
+        Error error = {0};
+        FlatScene flat = random_spheres(count);
+        WideTree tree = {.root = 7};
+        const FlatSource source = {.layout = NODES_WIDE,
+                                   .has_tree = true,
+                                   .builder = count % 2 == 0 ? BVH_SAH : BVH_MIDPOINT};
+        assert_true(sphere_blocks_make(&flat, &source, &tree, &error));
+        assert_int_equal(flat.sphere_root, 7);
+        memset(was_seen, 0, sizeof was_seen);
+        wide_flat = &flat;
+        wide_tree = &tree;
+        expect_below(7, &everywhere);
+        for (uint32_t i = 0; i < count; i++)
+            assert_true(was_seen[i]);
+        wide_tree_free(&tree);
+        free(flat.spheres);
     }
 }

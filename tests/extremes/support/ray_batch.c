@@ -149,7 +149,8 @@ void ray_batch_upload(RayBatch *batch, const FlatScene *flat)
     batch->frame = (FrameData){.sphere_count = flat->sphere_count,
                                .sphere_entries = flat->sphere_entries,
                                .triangle_count = flat->triangle_count,
-                               .uses_bvh = flat->node_count > 0};
+                               .sphere_root = flat->sphere_root,
+                               .uses_bvh = flat->triangle_count > 0 && flat->node_count > 0};
 }
 
 void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere)
@@ -158,7 +159,8 @@ void ray_batch_upload_sphere(RayBatch *batch, const SphereData *sphere)
     ray_batch_upload(batch, &(FlatScene){.layout = batch->choice.nodes,
                                          .spheres = &data,
                                          .sphere_count = 1,
-                                         .sphere_entries = 1});
+                                         .sphere_entries = 1,
+                                         .sphere_root = NOTHING});
 }
 
 static void write_buffer(const RayBatch *batch, cl_mem buffer, const void *data, size_t size)

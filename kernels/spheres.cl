@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Finds the nearest sphere of a ray. Many spheres have a tree. Pair nodes use a tree of bounding
+// spheres (host/accel/sphere_tree.c), wide nodes a tree of boxes like that over triangles
+// (beam.cl).
+//
+// Invariant: trees only cull, and each sphere is tested by the same operations. The hit is
+// therefore the same for every tree and without a tree.
+#ifndef CLRT_SPHERES_CL
+#define CLRT_SPHERES_CL
+#include "ray.cl"
+#include "sphere.cl"
+
+// Returns the distance to the sphere on which the ray starts. A reflected or refracted ray can hit
+// this sphere again from inside. In scenes with glass, a shadow ray can hit it again, too. The
+// shadow ray's direction is first scaled to length 1, as sphere_chord requires.
+static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
+{
+    const bool is_path = plain_kind(ray->kind) == RAY_REFLECTED;
+    if (!(is_path || CLRT_GLASS) || !any_lane(is_own))
+        return INFINITY;
+    if (!any_lane(is_own && !leads_away(sphere, ray->origin, ray->direction)))
+        return INFINITY;
+    if (is_path)
+        return sphere_chord(sphere, ray->origin, ray->direction);
+    const Real scale = 1.0f / sqrt(dot_product(ray->direction, ray->direction));
+    return scale * sphere_chord(sphere, ray->origin, scaled3(scale, ray->direction));
+}
+
+// Returns the distances at which the active rays hit spheres, one sphere per lane. `id` names the
+// spheres.
+static ALWAYS_INLINE Real sphere_ray_distance(const Sphere *sphere, const Ray *ray, UInt id)
+{
+    const Mask is_own = ray->active && ray->own == id;
+    const Mask is_other = ray->active && ray->own != id;
+    const Real other = sphere_distance(sphere, ray->origin, ray->direction, is_other);
+    return is_own ? own_sphere_distance(sphere, ray, is_own) : other;
+}
+
+// Makes the sphere the best hit in each lane where it precedes the best hit so far.
+static inline void accept_sphere(Real t, uint id, Hit *best)
+{
+    const Mask precedes = hit_precedes(t, (UInt)(id), best);
+    best->t = precedes ? t : best->t;
+    best->id = precedes ? (UInt)(id) : best->id;
+    best->index = precedes ? (UInt)(id) : best->index;
+}
+
+// Tests a sphere against all lanes. `id` is the sphere's.
+static inline void intersect_sphere(const Tracer *tracer, const Ray *ray, const Sphere *sphere,
+                                    uint id, Hit *best)
+{
+    accept_sphere(sphere_ray_distance(sphere, ray, (UInt)(id)), id, best);
+    if (CLRT_STATISTICS)
+        tracer->tally->sphere_tests += lane_count(ray->active);
+}
+
+static inline void intersect_all_spheres(const Tracer *tracer, const Ray *ray, Hit *best)
+{
+    for (uint id = 0; id < tracer->frame->sphere_count; id++) {
+        const Sphere sphere = sphere_at(&tracer->spheres[id]);
+        intersect_sphere(tracer, ray, &sphere, id, best);
+    }
+}
+
+#if CLRT_WIDE_NODES
+
+// The searches share one copy of the test. Scenes of few spheres have another one in their loop,
+// where calling it would take 4 % of their time.
+static NOT_INLINE Real leaf_sphere_distance(const Sphere *sphere, const Ray *ray, UInt id)
+{
+    return sphere_ray_distance(sphere, ray, id);
+}
+
+static inline bool has_sphere_tree(const Tracer *tracer)
+{
+    return CLRT_SPHERES && CLRT_BVH && tracer->frame->sphere_root != NOTHING;
+}
+
+static inline global const SphereBlock *sphere_block(const Tracer *tracer, uint child)
+{
+    global const SphereBlock *blocks =
+        (global const SphereBlock *)(tracer->spheres + tracer->frame->sphere_count);
+    return blocks + (child & ~WIDE_SPHERES);
+}
+
+// Returns the same sphere of a block in all lanes.
+static inline Sphere block_sphere(global const SphereBlock *block, uint slot)
+{
+    return (Sphere){{two_stored(block->center[0][slot], block->center_low[0][slot]),
+                     two_stored(block->center[1][slot], block->center_low[1][slot]),
+                     two_stored(block->center[2][slot], block->center_low[2][slot])},
+                    two_stored(block->radius[slot], block->radius_low[slot])};
+}
+
+// Reads CLRT_LANES numbers of a row. 16 lanes get the row twice.
+#if CLRT_LANES == 16
+#define ROW_LANES(type, row) ((type)(vload8(0, row), vload8(0, row)))
+#elif CLRT_LANES == 8
+#define ROW_LANES(type, row) vload8(0, row)
+#else
+#define ROW_LANES(type, row) vload4(0, row)
+#endif
+
+static inline TwoFloat row_pair(global const float *high, global const float *low)
+{
+    return (TwoFloat){ROW_LANES(Real, high), ROW_LANES(Real, low)};
+}
+
+// Returns the spheres of a block from slot `first` on, one per lane.
+static inline Sphere block_spheres(global const SphereBlock *block, uint first)
+{
+    return (Sphere){{row_pair(block->center[0] + first, block->center_low[0] + first),
+                     row_pair(block->center[1] + first, block->center_low[1] + first),
+                     row_pair(block->center[2] + first, block->center_low[2] + first)},
+                    row_pair(block->radius + first, block->radius_low + first)};
+}
+
+#else
+
+// Walks the tree over the spheres (host/accel/sphere_tree.c) or, without a tree, tests all spheres.
+static NOT_INLINE void walk_spheres(const Tracer *tracer, const Ray *ray, Hit *best)
+{
+    const FrameData *frame = tracer->frame;
+    const bool has_tree = frame->sphere_entries > frame->sphere_count;
+    const uint end = has_tree ? frame->sphere_entries : frame->sphere_count;
+    for (uint entry = has_tree ? frame->sphere_count : 0; entry < end; entry++) {
+        global const SphereData *data = &tracer->spheres[entry];
+        const uint id = has_tree ? data->id : entry;
+        const Sphere sphere = sphere_at(data);
+        if (id != NOTHING) {
+            intersect_sphere(tracer, ray, &sphere, id, best);
+            continue;
+        }
+        const Mask enters =
+            may_meet_before(&sphere, ray->origin, ray->direction, best->t, ray->active);
+        entry = any_lane(enters) ? entry : data->next - 1;
+    }
+}
+
+// On GPUs, one loop for both cases needs 176 registers, and two loops 182.
+static inline void intersect_spheres(const Tracer *tracer, const Ray *ray, Hit *best)
+{
+    if (CLRT_GPU || tracer->frame->sphere_entries > tracer->frame->sphere_count)
+        walk_spheres(tracer, ray, best);
+    else
+        intersect_all_spheres(tracer, ray, best);
+}
+
+#endif
+#endif
