@@ -12,7 +12,7 @@
 // accepts triangles by the same operations. Grouping therefore changes no bit of the picture.
 #ifndef CLRT_REGROUP_CL
 #define CLRT_REGROUP_CL
-#include "beam.cl"
+#include "beam_walk.cl"
 
 #if CLRT_WIDE_NODES
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the nearest sphere of a ray. Many spheres have a tree. Pair nodes use a tree of bounding
 // spheres (host/accel/sphere_tree.c), wide nodes a tree of boxes like that over triangles
-// (beam.cl).
+// (beam_walk.cl).
 //
 // Invariant: trees only cull, and each sphere is tested by the same operations. The hit is
 // therefore the same for every tree and without a tree.
