@@ -7,7 +7,6 @@
 #include "image/json_file.h"
 
 #include <assert.h>
-#include <string.h>
 
 // Brief reports omit rays whose weight is below this, because they hardly change an 8-bit color.
 #define BRIEF_WEIGHT (1 / 255.0)
@@ -159,151 +158,6 @@ static json_t *sample_json(const ExplainReport *report, const ExplainedSample *s
                 FIELD("color", vector_json(sample->found.color)));
 }
 
-// Prints the text `full` or, in brief reports, the text `brief`.
-static void print(const ExplainReport *report, const json_t *json, const char *full,
-                  const char *brief, FILE *stream)
-{
-    json_print(json, report->is_brief ? brief : full, stream);
-}
-
-static void print_primitive(const ExplainReport *report, const json_t *primitive, FILE *stream)
-{
-    const char *path = json_string_value(json_object_get(primitive, "file"));
-    const char *slash = path == NULL ? NULL : strrchr(path, '/');
-    json_print(primitive, "{kind} {number}", stream);
-    if (path != NULL)
-        fprintf(stream, " of %s", report->is_brief && slash != NULL ? slash + 1 : path);
-}
-
-// Prints the diffuse and specular light that the surface receives from one light.
-static void print_received(const ExplainReport *report, const json_t *light, const Light *source,
-                           bool shines, FILE *stream)
-{
-    print(report, light, "; intensity {intensity .6g}; diffuse {diffuse .6g}",
-          "; diffuse {diffuse .3g}", stream);
-    if (shines)
-        print(report, light, "; shine {shine .6g}; highlight {highlight .6g}",
-              "; highlight {highlight .3g}", stream);
-    if (source->color.x < 1 || source->color.y < 1 || source->color.z < 1)
-        print(report, light, "; light color {color .6v}", "; light color {color .3v}", stream);
-    if (json_object_get(light, "tint") != NULL)
-        print(report, light, "; through glass of the color {tint .6v}",
-              "; through glass of the color {tint .3v}", stream);
-}
-
-static void print_light(const ExplainReport *report, const ExplainedRay *ray, size_t index,
-                        const json_t *light, FILE *stream)
-{
-    const ClrtLightState state = ray->lights[index].state;
-    const bool is_sun = report->scene->lights.data[index].is_sun;
-    const bool shines =
-        report->scene->materials.data[ray->found.material].shader == SHADER_BLINN_PHONG;
-    fprintf(stream, "    %s %-4zu ", is_sun ? "sun  " : "light", index + 1);
-    switch (state) {
-    case CLRT_LIGHT_BEHIND:
-        fputs("does not reach it: the normal is turned away", stream);
-        break;
-    case CLRT_LIGHT_BEHIND_FACE:
-        fputs("does not reach it: the face is turned away", stream);
-        break;
-    case CLRT_LIGHT_BLOCKED:
-        fputs("is blocked by ", stream);
-        print_primitive(report, json_object_get(light, "blocker"), stream);
-        print(report, light, ", {blocker_distance .6g} away", "", stream);
-        if (!is_sun)
-            print(report, light, "; the light is {distance .6g} away", "", stream);
-        break;
-    case CLRT_LIGHT_REACHES:
-        print(report, light, is_sun ? "reaches it" : "reaches it from {distance .6g} away",
-              "reaches it", stream);
-        break;
-    }
-    print(report, light, "; cosine {cosine .6g}", "", stream);
-    if (state == CLRT_LIGHT_REACHES)
-        print_received(report, light, &report->scene->lights.data[index], shines, stream);
-    fputs("\n", stream);
-}
-
-// The points of an area light, by state, and their sums.
-typedef struct {
-    size_t counts[CLRT_LIGHT_BEHIND_FACE + 1]; // by ClrtLightState
-    size_t first_blocked;                      // index of the first blocked point
-    double diffuse, highlight;
-    bool is_tinted; // light passes through colored glass
-} AreaSum;
-
-static AreaSum sum_area(const json_t *lights, const ClrtExplainedLight *found, size_t first,
-                        size_t count)
-{
-    AreaSum sum = {0};
-    for (size_t i = first; i < first + count; i++) {
-        const json_t *light = json_array_get(lights, i);
-        const ClrtLightState state = found[i].state;
-        if (state == CLRT_LIGHT_BLOCKED && sum.counts[state] == 0)
-            sum.first_blocked = i;
-        sum.counts[state]++;
-        if (state != CLRT_LIGHT_REACHES)
-            continue;
-        sum.diffuse += json_real_value(json_object_get(light, "diffuse"));
-        sum.highlight += json_real_value(json_object_get(light, "highlight"));
-        sum.is_tinted = sum.is_tinted || !is_white(found[i].tint);
-    }
-    return sum;
-}
-
-// Prints one line for the lights `first` to `first` + `count` - 1, which are points of an area
-// light.
-static void print_area(const ExplainReport *report, const json_t *lights, const AreaSum *sum,
-                       size_t first, size_t count, FILE *stream)
-{
-    const size_t reaching = sum->counts[CLRT_LIGHT_REACHES];
-    const size_t blocked = sum->counts[CLRT_LIGHT_BLOCKED];
-    const size_t away = count - reaching - blocked;
-    const Vec3 color = report->scene->lights.data[first].color;
-    fprintf(stream, "    lights %zu to %zu, an area: %zu of %zu points reach it", first + 1,
-            first + count, reaching, count);
-    if (blocked > 0) {
-        fprintf(stream, "; %zu blocked%s by ", blocked, blocked > 1 ? ", the first" : "");
-        print_primitive(
-            report, json_object_get(json_array_get(lights, sum->first_blocked), "blocker"), stream);
-    }
-    if (away > 0)
-        fprintf(stream, "; from %zu it is turned away", away);
-    json_t *sums = JSON(FIELD("diffuse", sum->diffuse), FIELD("highlight", sum->highlight),
-                        FIELD("color", color_json(color)));
-    if (reaching > 0)
-        print(report, sums, "; diffuse {diffuse .6g}", "; diffuse {diffuse .3g}", stream);
-    if (sum->highlight > 0)
-        print(report, sums, "; highlight {highlight .6g}", "; highlight {highlight .3g}", stream);
-    if (reaching > 0 && (color.x < 1 || color.y < 1 || color.z < 1))
-        print(report, sums, "; light color {color .6v}", "; light color {color .3v}", stream);
-    json_decref(sums);
-    fputs("\n", stream);
-}
-
-// Prints a line for each light. All points of an area light share one line, except if glass colors
-// their light.
-static void print_lights(const ExplainReport *report, const ExplainedRay *ray, const json_t *lights,
-                         FILE *stream)
-{
-    const Scene *scene = report->scene;
-    size_t area = 0;
-    for (size_t i = 0; i < ray->found.light_count;) {
-        while (area < scene->area_lights.count && scene->area_lights.data[area].first < i)
-            area++;
-        const AreaLight *source =
-            area < scene->area_lights.count ? &scene->area_lights.data[area] : NULL;
-        const bool is_area = source != NULL && source->first == i;
-        const size_t count = is_area ? (size_t)source->area.cells * source->area.cells : 1;
-        const AreaSum sum = sum_area(lights, ray->lights, i, count);
-        if (is_area && !sum.is_tinted)
-            print_area(report, lights, &sum, i, count, stream);
-        for (size_t point = i; point < i + count && (!is_area || sum.is_tinted); point++)
-            print_light(report, ray, point, json_array_get(lights, point), stream);
-        i += count;
-    }
-}
-
 // Prints all factors of the surface's color except the lights.
 static void print_factors(const json_t *factors, Shader shader, FILE *stream)
 {
@@ -325,21 +179,21 @@ static void print_hit(const ExplainReport *report, const ExplainedRay *ray, cons
                       FILE *stream)
 {
     const Material *material = &report->scene->materials.data[ray->found.material];
-    print_primitive(report, json_object_get(hit, "primitive"), stream);
-    print(report, hit,
-          ", material {material}\n"
-          "    distance   {distance .9g}, off by at most {distance_error .2g}\n"
-          "    point      {point .6v}, normal {normal .6v}\n",
-          ", material {material}\n"
-          "    distance   {distance .3g}\n"
-          "    point      {point .3v}, normal {normal .3v}\n",
-          stream);
-    print_lights(report, ray, json_object_get(hit, "lights"), stream);
+    explain_print_primitive(report, json_object_get(hit, "primitive"), stream);
+    explain_print(report, hit,
+                  ", material {material}\n"
+                  "    distance   {distance .9g}, off by at most {distance_error .2g}\n"
+                  "    point      {point .6v}, normal {normal .6v}\n",
+                  ", material {material}\n"
+                  "    distance   {distance .3g}\n"
+                  "    point      {point .3v}, normal {normal .3v}\n",
+                  stream);
+    explain_print_lights(report, ray, json_object_get(hit, "lights"), stream);
     if (!report->is_brief)
         print_factors(json_object_get(hit, "factors"), material->shader, stream);
     if (material->shader == SHADER_GLASS)
         return;
-    print(report, hit, "    color      {color .6v}", "    color      {color .3v}", stream);
+    explain_print(report, hit, "    color      {color .6v}", "    color      {color .3v}", stream);
     json_print(hit, ", weight {share .6g} in the sample", stream);
     if (material->reflectivity > 0)
         json_print(hit, "; reflectivity {reflectivity .6g}", stream);
@@ -349,7 +203,7 @@ static void print_hit(const ExplainReport *report, const ExplainedRay *ray, cons
 static void print_ray(const ExplainReport *report, const ExplainedRay *ray, const json_t *json,
                       FILE *stream)
 {
-    print(report, json, "    from       {origin .6v} along {direction .6v}\n", "", stream);
+    explain_print(report, json, "    from       {origin .6v} along {direction .6v}\n", "", stream);
     if (ray->found.primitive != NOTHING) {
         fputs("    meets      ", stream);
         print_hit(report, ray, json_object_get(json, "hit"), stream);
@@ -377,20 +231,20 @@ static void print_sample(const ExplainReport *report, const ExplainedSample *sam
             if (json_object_get(ray, "level") != NULL)
                 json_print(ray, ", level {level}", stream);
             if (json_object_get(ray, "tint") != NULL)
-                print(report, ray, ", through glass of the color {tint .6v}",
-                      ", through glass of the color {tint .3v}", stream);
+                explain_print(report, ray, ", through glass of the color {tint .6v}",
+                              ", through glass of the color {tint .3v}", stream);
             fputs("\n", stream);
         }
         print_ray(report, &sample->rays[level], ray, stream);
     }
     if (sample->found.background_weight > least) {
         json_t *background = JSON(FIELD("color", color_json(report->scene->background)));
-        print(report, background, "  the background {color .6v}", "  the background {color .3v}",
-              stream);
+        explain_print(report, background, "  the background {color .6v}",
+                      "  the background {color .3v}", stream);
         json_print(json, ", weight {background_weight .6g} in the sample\n", stream);
         json_decref(background);
     }
-    print(report, json, "  the sample's color {color .6v}\n", "", stream);
+    explain_print(report, json, "  the sample's color {color .6v}\n", "", stream);
 }
 
 // Traces the samples and adds their JSON to list. Prints all samples or, in brief reports, only the
@@ -453,9 +307,10 @@ bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE 
     fputs("\n", stream);
     json_t *json = report_json(report, explainer, stream, error);
     if (json != NULL)
-        print(report, json,
-              "the pixel's color {color .9v}, in 8 bits {bytes.0} {bytes.1} {bytes.2}\n",
-              "the pixel's color {color .3v}, in 8 bits {bytes.0} {bytes.1} {bytes.2}\n", stream);
+        explain_print(report, json,
+                      "the pixel's color {color .9v}, in 8 bits {bytes.0} {bytes.1} {bytes.2}\n",
+                      "the pixel's color {color .3v}, in 8 bits {bytes.0} {bytes.1} {bytes.2}\n",
+                      stream);
     json_decref(json);
     return json != NULL;
 }
