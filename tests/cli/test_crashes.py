@@ -41,6 +41,12 @@ class Crashes(CacheWork):
         told = "clrt: clrt itself crashed (SIGSEGV): please report it\n"
         self.assertEqual(self.crash("own"), (-signal.SIGSEGV, told, None))
 
+    def test_an_abort_names_a_limit_or_a_missing_path_that_may_be_its_cause(self):
+        abort = {"LD_PRELOAD": CRASH_DEVICE, "CLRT_CRASH": "abort"}
+        limit = ["sh", "-c", 'ulimit -f 100000 && exec "$@"', "sh"]
+        self.assert_told(self.run_picture(before=limit, **abort), r"crashed in libc.so.6 \(SIGABRT\): the limit on ")
+        self.assert_told(self.run_picture(**abort, PATH=None), r"crashed in libc.so.6 \(SIGABRT\): PATH is not set")
+
     def test_a_driver_that_ends_the_program_is_reported(self):
         for kind in ("exit", "exit-thread"):
             self.assert_told(self.crash(kind), "a driver ended the program")

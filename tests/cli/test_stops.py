@@ -69,7 +69,7 @@ class Stops(Work):
     def stop_often(self, moments, **more):
         pictures = 0
         for moment in moments:
-            number = self.chance.choice((signal.SIGINT, signal.SIGTERM))
+            number = self.chance.choice((signal.SIGINT, signal.SIGTERM, signal.SIGHUP))
             process = self.start_picture(*LONG, **more)
             time.sleep(moment)
             process.send_signal(number)
