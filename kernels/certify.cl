@@ -75,18 +75,46 @@ static inline bool decide_check(const Tracer *tracer, const UncertainSurface *su
 // A point's relation to a light: turned away, lit, in shadow, or undecided.
 typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightVisibility;
 
+// Sets the shadow ray that continues behind glass. Returns false if the glass shows a check that is
+// not certain.
+static inline bool cross_glass_surface(const Tracer *tracer, const UncertainSurface *surface,
+                                       RayCone *ray, Decisions *decisions)
+{
+    hash_decision(decisions, surface->id);
+    if (CLRT_CHECKERS && !decide_check(tracer, surface, ray->u, decisions))
+        return false;
+    *ray = shadow_cone(surface, ray->goal.point, ray->u);
+    return true;
+}
+
+// Follows a shadow ray to its light, as follow_light (glass.cl) does.
+static inline LightVisibility certify_path(const Tracer *tracer, RayCone ray, Decisions *decisions)
+{
+    for (uint crossing = 0; crossing <= GLASS_CROSSINGS && is_usable(&ray); crossing++) {
+        const ConeSearch search = search_blockers(tracer, &ray);
+        if (!search.may_meet_glass && search.blocked == ANSWER_UNKNOWN)
+            return SIGHT_OPEN;
+        if (!search.may_meet_glass)
+            return search.blocked == ANSWER_YES ? SIGHT_BLOCKED : SIGHT_CLEAR;
+        if (!nearest_is_certain(&search.nearest))
+            return SIGHT_OPEN;
+        const UncertainSurface surface = uncertain_surface(tracer, &ray, &search.nearest);
+        const MaterialLanes material = fetch_material(tracer, surface.material);
+        if (!is_glass(&material))
+            return SIGHT_BLOCKED;
+        if (!cross_glass_surface(tracer, &surface, &ray, decisions))
+            return SIGHT_OPEN;
+    }
+    return SIGHT_OPEN;
+}
+
 static inline LightVisibility certify_light(const Tracer *tracer, const UncertainSurface *surface,
-                                            const RayCone *to_light)
+                                            const RayCone *to_light, Decisions *decisions)
 {
     const Answer faces = certify_facing(surface, to_light);
     if (faces == ANSWER_NO)
         return SIGHT_BEHIND;
-    if (faces == ANSWER_UNKNOWN || !is_usable(to_light))
-        return SIGHT_OPEN;
-    const Answer blocked = certify_occlusion(tracer, to_light);
-    if (blocked == ANSWER_UNKNOWN)
-        return SIGHT_OPEN;
-    return blocked == ANSWER_YES ? SIGHT_BLOCKED : SIGHT_CLEAR;
+    return faces == ANSWER_YES ? certify_path(tracer, *to_light, decisions) : SIGHT_OPEN;
 }
 
 // Decides which lights reach the surface. Returns false if a decision is not certain.
@@ -97,7 +125,7 @@ static inline bool decide_lights(const Tracer *tracer, const UncertainSurface *s
     for (uint index = 0; index < tracer->frame->light_count; index++) {
         const Real3 light = load3(tracer->lights[index].position);
         const RayCone ray = shadow_cone(surface, light, u);
-        const LightVisibility visibility = certify_light(tracer, surface, &ray);
+        const LightVisibility visibility = certify_light(tracer, surface, &ray, decisions);
         if (visibility == SIGHT_OPEN)
             return false;
         hash_decision(decisions, visibility);

@@ -179,7 +179,7 @@ static inline void search_leaf(const Tracer *tracer, ConeSearch *search, uint2 r
         if (!(triangle_entry(search, triangle, cone_reach(search)) < INFINITY))
             continue;
         const Candidate candidate = leaf_candidate(tracer, search->ray, index);
-        if (search->ray->kind != RAY_SHADOW)
+        if (CLRT_GLASS || search->ray->kind != RAY_SHADOW)
             add_triangle(tracer, search, index, &candidate);
         add_blocker(tracer, search, candidate.met, triangle->material & ~TRIANGLE_MARKS);
     }
@@ -187,8 +187,7 @@ static inline void search_leaf(const Tracer *tracer, ConeSearch *search, uint2 r
 
 static inline bool search_is_over(const ConeSearch *search)
 {
-    const bool is_decided = CLRT_GLASS ? search->may_meet_glass : search->blocked == ANSWER_YES;
-    return search->ray->kind == RAY_SHADOW && is_decided;
+    return !CLRT_GLASS && search->ray->kind == RAY_SHADOW && search->blocked == ANSWER_YES;
 }
 
 static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
@@ -274,29 +273,30 @@ static inline Nearest certify_nearest_hit(const Tracer *tracer, const RayCone *r
     return search.nearest;
 }
 
+// In scenes with glass, a shadow ray can hit the sphere on which it starts.
 static inline void search_spheres(const Tracer *tracer, ConeSearch *search)
 {
     const RayCone *ray = search->ray;
-    const Real margin = ray->around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
     SphereVisit visit = first_sphere(tracer->frame);
     while (!search_is_over(search) && find_sphere(tracer, search, &visit)) {
-        if (visit.id == ray->own)
+        const bool is_own = visit.id == ray->own;
+        if (is_own && !CLRT_GLASS)
             continue;
-        const Chord chord = chord_of(ray, &visit.sphere);
-        const Answer met = sphere_blocks(&chord, ray->length - margin, ray->length + margin);
-        add_blocker(tracer, search, met, tracer->spheres[visit.id].material);
+        const Candidate candidate = sphere_blocker(ray, &visit.sphere, is_own);
+        nearest_add(&search->nearest, &candidate, visit.id, visit.id);
+        add_blocker(tracer, search, candidate.met, tracer->spheres[visit.id].material);
     }
 }
 
-// Returns whether anything blocks the shadow ray. If the ray may hit glass, the answer is unknown,
-// because a new shadow ray starts behind the glass.
-static inline Answer certify_occlusion(const Tracer *tracer, const RayCone *ray)
+// Returns what a shadow ray may hit before the light. If it may hit glass, search.nearest is its
+// nearest hit. Otherwise, search.blocked is whether anything blocks the ray.
+static inline ConeSearch search_blockers(const Tracer *tracer, const RayCone *ray)
 {
     ConeSearch search = search_in_cone(ray);
     search_spheres(tracer, &search);
     if (tracer->frame->triangle_count > 0 && !search_is_over(&search))
         search_triangles(tracer, &search);
-    return search.may_meet_glass ? ANSWER_UNKNOWN : search.blocked;
+    return search;
 }
 
 #endif

@@ -117,21 +117,6 @@ static inline Candidate sphere_candidate(const Chord *chord)
     return (Candidate){ANSWER_UNKNOWN, max(chord->enter.low, (Real)(0.0f)), chord->leave.high};
 }
 
-// Returns whether the sphere blocks a ray whose length lies within [least, most].
-static inline Answer sphere_blocks(const Chord *chord, Real least, Real most)
-{
-    if (chord->met == ANSWER_NO || chord->leave.high < 0.0f || chord->enter.low > most)
-        return ANSWER_NO;
-    if (chord->met == ANSWER_UNKNOWN)
-        return ANSWER_UNKNOWN;
-    if (chord->enter.high < 0.0f && chord->leave.low > most)
-        return ANSWER_NO;
-    const bool enters = chord->enter.low > 0.0f && chord->enter.high < least;
-    const bool leaves =
-        chord->enter.high < 0.0f && chord->leave.low > 0.0f && chord->leave.high < least;
-    return enters || leaves ? ANSWER_YES : ANSWER_UNKNOWN;
-}
-
 // A ray hits its own sphere again from inside if the chord is longer than sphere_chord requires.
 static inline Candidate own_sphere_candidate(const RayCone *ray, const PlainSphere *sphere)
 {
@@ -145,6 +130,19 @@ static inline Candidate own_sphere_candidate(const RayCone *ray, const PlainSphe
     const bool is_sure = middle - doubt > 1.1f * least;
     return (Candidate){is_sure ? ANSWER_YES : ANSWER_UNKNOWN,
                        is_sure ? 2.0f * (middle - doubt) : 0.0f, 2.0f * (middle + doubt)};
+}
+
+// Returns the sphere as a candidate that blocks a shadow ray.
+static inline Candidate sphere_blocker(const RayCone *ray, const PlainSphere *sphere, bool is_own)
+{
+    const Real margin = ray->around + 20.0f * (ray->u + OWN_ROUNDOFF) * ray->length;
+    const Chord chord = chord_of(ray, sphere);
+    Candidate candidate = is_own ? own_sphere_candidate(ray, sphere) : sphere_candidate(&chord);
+    if (candidate.low > ray->length + margin)
+        return candidate_none();
+    if (candidate.met == ANSWER_YES && !(candidate.high < ray->length - margin))
+        candidate.met = ANSWER_UNKNOWN;
+    return candidate;
 }
 
 #endif
