@@ -14,7 +14,7 @@
 #define CLRT_TRIANGLES 1 // the scene has triangles
 #endif
 #ifndef CLRT_BVH
-#define CLRT_BVH 1 // a tree finds triangles (0: every triangle is tested)
+#define CLRT_BVH 1 // trees find triangles and many spheres (0: all are tested)
 #endif
 #ifndef CLRT_MIRRORS
 #define CLRT_MIRRORS 1 // a used material reflects

@@ -22,6 +22,7 @@ static inline Mask is_searchable(const Ray *ray)
 }
 
 #if CLRT_WIDE_NODES
+// Returns whether the scene has primitives that meet_spheres leaves to the search.
 static inline bool has_search(const Tracer *tracer)
 {
     return (CLRT_TRIANGLES && tracer->frame->triangle_count != 0) || has_sphere_tree(tracer);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Prepares rays for the tests against boxes and triangles.
 //
-// Invariant: boxes never cull a triangle that the triangle test would accept. The hit is therefore
+// Invariant: boxes never cull a triangle or sphere that its test would accept. The hit is therefore
 // the same for every tree, for every traversal order and without a tree.
 //
 // To ensure this, the host grows each box by BVH_SLACK times its largest coordinate. slabs_of moves
@@ -72,7 +72,8 @@ static inline Slabs slabs_of(Real3 origin, Real3 direction)
                    {-far.x * inverse.x, -far.y * inverse.y, -far.z * inverse.z}};
 }
 
-// A search for triangles, with the prepared rays of all lanes.
+// A search in a tree or a list, with the prepared rays of all lanes. Tests of spheres do not use
+// the members from `limit` on.
 typedef struct {
     const Tracer *tracer;
     const Ray *ray;
@@ -84,8 +85,8 @@ typedef struct {
     Real3 backward; // minus the origin, in the order of the axes
 } Search;
 
-// Prepares the tests against boxes. The caller must have tested the spheres, because `limit` is the
-// distance of the nearest sphere (see Search).
+// Prepares the tests against boxes. If a tree over spheres is searched first, the caller updates
+// `limit` before the search for triangles (see Search).
 static inline void search_boxes(Search *search, const Tracer *tracer, const Ray *ray, Real limit)
 {
     search->tracer = tracer;

@@ -8,8 +8,8 @@
 // root is a leaf, it gets a BvhPair too. Moves flat->looks into the triangles.
 bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error);
 
-// Fills the wide layout: nodes of up to eight children, and blocks of triangles. Moves the
-// triangles' flags from flat->looks to the blocks. Without a tree, the triangles of both layouts
+// Fills the wide layout: nodes of up to eight children, and blocks of triangles. Also makes the
+// tree over many spheres. Moves the triangles' flags from flat->looks to the blocks. Without a tree, the triangles of both layouts
 // are in file order.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);
 

@@ -15,8 +15,8 @@ typedef struct {
 void text_hide_controls(char *text);
 
 // Records the failure without control characters, and returns false, so that a caller can `return
-// error_set(...)`. Does not
-// replace a recorded error, because the first cause is the most informative.
+// error_set(...)`. Does not replace a recorded error, because the first cause is the most
+// informative.
 __attribute__((format(printf, 2, 3))) bool error_set(Error *error, const char *format, ...);
 
 // Calls error_set with a message about a failed allocation of `bytes` bytes.

@@ -10,7 +10,11 @@
 
 static json_t *tree_reason(const Session *session, const SceneForm *form, bool is_needed)
 {
-    const uint32_t triangles = form->flat.triangle_count, stored = form->flat.node_count;
+    const FlatScene *flat = &form->flat;
+    const uint32_t triangles = flat->triangle_count;
+    const uint32_t stored = flat->sphere_root != NOTHING ? flat->sphere_root : flat->node_count;
+    if (is_needed && triangles == 0)
+        return json_string("the spheres have one");
     if (is_needed)
         return json_sprintf("%u node%s over the triangles, uploaded as %u %s node%s",
                             form->stages.bvh.node_count,
@@ -37,6 +41,10 @@ static json_t *part_reason(const Session *session, const SceneForm *form, const 
         return json_string(is_needed ? trait->present : trait->absent);
     switch (trait->offset) {
     case offsetof(SceneTraits, spheres):
+        if (flat->sphere_root != NOTHING)
+            return json_sprintf("%u of them, with a tree of %u wide node%s", flat->sphere_count,
+                                flat->node_count - flat->sphere_root,
+                                flat->node_count - flat->sphere_root == 1 ? "" : "s");
         return flat->sphere_entries > flat->sphere_count
                    ? json_sprintf("%u of them, with a tree over them", flat->sphere_count)
                    : count_reason(flat->sphere_count);

@@ -16,7 +16,8 @@ bool refine_tree_make(RefineTree *tree, uint32_t width, uint32_t height, Error *
     if ((uint64_t)width * height > REFINE_PIXELS_MOST)
         return error_set(error, "a picture of %u x %u pixels is too large to be refined", width,
                          height);
-    tree->pixels = memory_raw(refine_tree_places(tree), sizeof *tree->pixels, error);
+    // A stopped picture shows zeros where no sample was traced.
+    tree->pixels = memory_zeroed(refine_tree_places(tree), sizeof *tree->pixels, error);
     tree->pixel_groups = memory_zeroed((size_t)width * height, sizeof *tree->pixel_groups, error);
     if (tree->pixels != NULL && tree->pixel_groups != NULL &&
         array_push(&tree->groups, none, error) && array_push(&tree->seams, no_seam, error))

@@ -277,6 +277,9 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
         renderer->launch_samples = launch_first_items(&renderer->kernel->launch, 1);
     bool ok = open_buffers(&sampling, error) && run_launches(&sampling, observer, error) &&
               read_tallies(&sampling, error);
+    // Without a stop, finish_launch has read the results back.
+    if (ok && sampling.finished < sampling.items)
+        ok = read_back(&sampling, sampling.results, results_size(&sampling), error);
     close_buffers(&sampling);
     return ok;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A list of requests -> their samples. With sample_entry, a request is a sample's position, and the
-// result is its color and signature. With ladder_entry, a request is a set of a pixel's samples. It
-// is small or large (SMALL_SAMPLES, LARGE_SAMPLES).
-// The result has the sums of these samples' colors and of the squares of the colors. With
-// ladder_entry, a tile can also be rendered with one sample per pixel.
+// result is its color and signature. With ladder_entry, a request is a small or large set of a
+// pixel's samples (SMALL_SAMPLES, LARGE_SAMPLES). Its result has the sums of these samples' colors
+// and of the squares of the colors. With ladder_entry, a tile can also be rendered with one sample
+// per pixel.
 //
 // Two samples have different signatures if their rays hit different surfaces, or if different
 // lights reach their hit points. The only exceptions are rare collisions of hashes.

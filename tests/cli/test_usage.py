@@ -178,6 +178,13 @@ class Notes(Work):
             self.assertIn(f"  tree        {count} nodes over the triangles, uploaded as {stored}\n",
                           self.clrt("explain", *words))
 
+    def test_explain_names_the_tree_over_spheres(self):
+        spheres = "".join(f"sphere {i} 0 0 0.4\n" for i in range(20))
+        self.write(spheres_scn=f"light 0 0 9 1\n{spheres}")
+        told = self.clrt("explain", "spheres.scn", "--tune", "kernel=packet")
+        self.assertRegex(told, r"(?m)^  spheres +20 of them, with a tree of \d+ wide nodes?$")
+        self.assertRegex(told, r"(?m)^  tree +the spheres have one$")
+
 
 if __name__ == "__main__":
     main(3)
