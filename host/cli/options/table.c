@@ -66,9 +66,9 @@ const Option option_table[] = {
     {"aa-adaptive", "[=T]", 0, FIELD(PART, picture.contrast), 0, "0.02", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_DRAWING | FOR_GENERAL | FOR_WARM,
      "add samples to a contrast of at most T (default: 0.02); they go where neighbors differ"},
-    {"max-level", "N", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED, FOR_PICTURE | FOR_PIXEL,
-     "rays of level N, or auto, see the background (default: the scene's); N is 3 if the scene has "
-     "no level; "
+    {"max-level", "N|auto", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED,
+     FOR_PICTURE | FOR_PIXEL,
+     "rays of level N see the background (default: the scene's); N is 3 if the scene has no level; "
      "without glass, the error is at most R^N, where R is the highest reflectivity; auto: the "
      "smallest N whose error is below half a step of the file's values, but at most 16 with glass, "
      "and always 16 with glass in float files"},
@@ -94,8 +94,7 @@ const Option option_table[] = {
     {"tune group", "WxH", 0, AREA(renderer.group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_GENERAL | FOR_WARM,
      "size of work-groups (default: 8x8, on CPUs with wide nodes 2x2); on GPUs, the kernel may "
-     "need "
-     "another"},
+     "need another"},
     {"tune specialize", "auto|always|never", 0, WORD(renderer.specialize), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
      "compile kernels for the scene if it pays (auto), always or never; auto is the default"},
