@@ -9,8 +9,8 @@
 bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error);
 
 // Fills the wide layout: nodes of up to eight children, and blocks of triangles. Also makes the
-// tree over many spheres. Moves the triangles' flags from flat->looks to the blocks. Without a tree, the triangles of both layouts
-// are in file order.
+// tree over many spheres. Moves the triangles' flags from flat->looks to the blocks. Without a
+// tree, the triangles of both layouts are in file order.
 bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error);
 
 // Returns a box around all primitives, grown by SKY_SLACK. Without primitives, the box is
