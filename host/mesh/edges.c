@@ -5,6 +5,7 @@
 #include "mesh/edges.h"
 
 #include "base/array.h"
+#include "base/thread_pool.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +42,7 @@ static int compare_sides(const void *first, const void *second)
     return a->triangle < b->triangle ? -1 : a->triangle > b->triangle;
 }
 
-static void sort_sides(EdgeSide *sides, size_t count)
+static void sort_bucket(EdgeSide *sides, size_t count)
 {
     if (count > FEW_SIDES) {
         qsort(sides, count, sizeof *sides, compare_sides);
@@ -54,6 +55,14 @@ static void sort_sides(EdgeSide *sides, size_t count)
             sides[place] = sides[place - 1];
         sides[place] = side;
     }
+}
+
+static void sort_buckets(void *context, uint32_t first, uint32_t end)
+{
+    const Edges *edges = context;
+    for (uint32_t point = first; point < end; point++)
+        sort_bucket(&edges->sides[edges->first[point]],
+                    edges->first[point + 1] - edges->first[point]);
 }
 
 // Sets first[point] to the end of the point's bucket.
@@ -94,9 +103,9 @@ bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error)
     }
     count_sides(edges, mesh, weld);
     place_sides(edges, mesh, weld);
-    for (size_t point = 0; point < mesh->vertex_count; point++)
-        sort_sides(&edges->sides[edges->first[point]],
-                   edges->first[point + 1] - edges->first[point]);
+    ThreadPool *pool = thread_pool_open(0);
+    thread_pool_share(pool, (uint32_t)mesh->vertex_count, CHUNK_ELEMENTS, sort_buckets, edges);
+    thread_pool_close(pool);
     return true;
 }
 
