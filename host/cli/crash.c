@@ -11,7 +11,9 @@
 
 #include "cli/options/options.h"
 
-#include <fcntl.h>
+#include <dlfcn.h>
+#include <limits.h>
+#include <link.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -25,56 +27,22 @@
 
 static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
-// The linker defines the bounds of the executable's code.
-extern const char __executable_start[], etext[];
-
 static pid_t watcher;
 static atomic_flag has_ended = ATOMIC_FLAG_INIT;
 
-// Returns the program counter at the crash, or 0 on unknown processors.
-static uintptr_t program_counter(const ucontext_t *context)
+// Returns the program counter at the crash, or NULL on unknown processors.
+static void *program_counter(const ucontext_t *context)
 {
 #if defined __x86_64__
-    return (uintptr_t)context->uc_mcontext.gregs[REG_RIP];
+    return (void *)context->uc_mcontext.gregs[REG_RIP];
 #elif defined __aarch64__
-    return (uintptr_t)context->uc_mcontext.pc;
+    return (void *)context->uc_mcontext.pc;
 #elif defined __riscv
-    return (uintptr_t)context->uc_mcontext.__gregs[REG_PC];
+    return (void *)context->uc_mcontext.__gregs[REG_PC];
 #else
     (void)context;
-    return 0;
+    return NULL;
 #endif
-}
-
-#define LINE_SIZE 1024
-
-// Reads the next line, without its line feed. Drops all characters after the first LINE_SIZE - 1.
-// Returns false at the end of the file.
-static bool read_line(int file, char line[LINE_SIZE])
-{
-    size_t length = 0;
-    char next = '\0';
-    while (next != '\n' && read(file, &next, 1) == 1)
-        if (next != '\n' && length < LINE_SIZE - 1)
-            line[length++] = next;
-    line[length] = '\0';
-    return next == '\n';
-}
-
-// Returns the name, without folders, of the file that is mapped at address `place`, or NULL. Stores
-// the name in `line`. Reads /proc, because dladdr takes locks that the crashed thread may hold.
-static const char *file_at(uintptr_t place, char line[LINE_SIZE])
-{
-    const int maps = open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
-    bool is_found = false;
-    while (maps >= 0 && !is_found && read_line(maps, line)) { // "START-END ... /PATH"
-        char *end;
-        is_found = strtoull(line, &end, 16) <= place && strtoull(end + 1, NULL, 16) > place;
-    }
-    if (maps >= 0)
-        close(maps);
-    const char *slash = is_found ? strrchr(line, '/') : NULL;
-    return slash != NULL ? slash + 1 : NULL;
 }
 
 static void print_message(const char *message)
@@ -104,17 +72,20 @@ static const char *advice(void)
     return "): run clrt again; if it crashes again, try another --device, and report it\n";
 }
 
-// Handles a crash signal. Forked processes print no message.
+// Handles a crash signal. Forked processes print no message. _dl_find_object takes no lock, unlike
+// dladdr, whose lock the crashed thread may hold.
 static void handle(int number, siginfo_t *info, void *context)
 {
-    char line[LINE_SIZE], message[LINE_SIZE + 160];
+    char message[NAME_MAX + 160];
+    struct dl_find_object found;
     const bool is_sent = info->si_code <= 0 && info->si_pid != getpid();
-    const uintptr_t place = program_counter(context);
-    const bool is_own = place >= (uintptr_t)__executable_start && place < (uintptr_t)etext;
-    const char *library = is_own ? NULL : file_at(place, line);
+    const bool is_known = _dl_find_object(program_counter(context), &found) == 0;
+    const char *path = is_known ? found.dlfo_link_map->l_name : NULL; // "" for the executable
+    const bool is_own = is_known && path[0] == '\0';
     char *next = stpcpy(message, is_own ? "clrt: clrt itself crashed" : "clrt: crashed");
-    if (library != NULL)
-        next = stpcpy(stpcpy(next, " in "), library);
+    const char *slash = is_known ? strrchr(path, '/') : NULL;
+    if (slash != NULL)
+        next = stpncpy(stpcpy(next, " in "), slash + 1, NAME_MAX);
     next = stpcpy(stpcpy(next, " (SIG"), sigabbrev_np(number));
     stpcpy(next, is_own ? "): please report it\n" : advice());
     if (getpid() == watcher && !is_sent && !is_own)
