@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 
+#include <ctype.h>
 #include <string.h>
 
 bool pfm_write(const Framebuffer *framebuffer, FILE *stream)
@@ -15,37 +16,18 @@ bool pfm_write(const Framebuffer *framebuffer, FILE *stream)
     return fflush(stream) == 0 && !ferror(stream);
 }
 
-static bool is_space(int c)
-{
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
-// Reads a word of the header and the single whitespace character after it.
-static bool read_word(FILE *stream, char word[32])
-{
-    size_t length = 0;
-    int c = getc(stream);
-    while (is_space(c))
-        c = getc(stream);
-    while (c != EOF && !is_space(c) && length < 31) {
-        word[length++] = (char)c;
-        c = getc(stream);
-    }
-    word[length] = '\0';
-    return length > 0 && is_space(c);
-}
-
 static bool read_header(StoredImage *image, FILE *stream, double *scale, Error *cause)
 {
     char kind[32], words[3][32];
     int64_t sides[2];
-    bool ok = read_word(stream, kind) && (strcmp(kind, "PF") == 0 || strcmp(kind, "Pf") == 0);
+    // A single space follows the header.
+    bool ok = fscanf(stream, "%31s%31s%31s%31s", kind, words[0], words[1], words[2]) == 4 &&
+              isspace(getc(stream)) && (strcmp(kind, "PF") == 0 || strcmp(kind, "Pf") == 0);
     for (int i = 0; ok && i < 3; i++) {
-        ok = read_word(stream, words[i]);
         const char *end = words[i] + strlen(words[i]);
-        ok = ok && (i < 2 ? integer_parse(words[i], end, &sides[i]) == end && sides[i] > 0 &&
-                                sides[i] <= UINT32_MAX
-                          : number_parse(words[i], end, scale) == end && *scale != 0);
+        ok = i < 2 ? integer_parse(words[i], end, &sides[i]) == end && sides[i] > 0 &&
+                         sides[i] <= UINT32_MAX
+                   : number_parse(words[i], end, scale) == end && *scale != 0;
     }
     if (!ok)
         return error_set(cause, "it has no valid PFM header");
