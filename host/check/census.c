@@ -21,15 +21,15 @@ static void judge_edge(MeshCensus *census, const EdgeSide *sides, size_t count)
         // highest point.
         if (sides[side].opposite == sides[side - 1].opposite &&
             sides[side].opposite > sides[side].high)
-            mesh_fault_add(&census->duplicates, sides[side].triangle);
+            mesh_fault_add(&census->faults[FAULT_DUPLICATES], sides[side].triangle);
     }
     census->facts.edge_count++;
     if (count == 1)
-        mesh_fault_add(&census->open, lowest);
+        mesh_fault_add(&census->faults[FAULT_OPEN], lowest);
     else if (count > 2)
-        mesh_fault_add(&census->crowded, lowest);
+        mesh_fault_add(&census->faults[FAULT_CROWDED], lowest);
     else if (sides[0].falling == sides[1].falling)
-        mesh_fault_add(&census->turned, lowest);
+        mesh_fault_add(&census->faults[FAULT_TURNED], lowest);
 }
 
 static void visit_edges(MeshCensus *census, const Edges *edges, Fans *fans)
@@ -56,7 +56,7 @@ static bool count_pinched(MeshCensus *census, const Fans *fans, Error *error)
         if (fans->parents[corner] != corner)
             continue;
         if (has_fan[point] && !is_pinched[point]) {
-            mesh_fault_add(&census->pinched, corner / 3);
+            mesh_fault_add(&census->faults[FAULT_PINCHED], corner / 3);
             is_pinched[point] = true;
         }
         has_fan[point] = true;
@@ -98,9 +98,9 @@ bool mesh_faults_find(MeshCensus *census, const Mesh *mesh, const Weld *weld, co
         return false;
     visit_edges(census, edges, &fans);
     const bool ok = count_pinched(census, &fans, error);
-    census->facts.closed = mesh->triangle_count > 0 && census->open.count == 0 &&
-                           census->crowded.count == 0 && census->turned.count == 0 &&
-                           census->pinched.count == 0;
+    census->facts.closed = mesh->triangle_count > 0;
+    for (FaultKind kind = FAULT_OPEN; kind < FAULT_KINDS; kind++)
+        census->facts.closed = census->facts.closed && census->faults[kind].count == 0;
     census->facts.inside_out = census->facts.closed && signed_volume(mesh) < 0;
     free(fans.parents);
     return ok;
@@ -188,16 +188,24 @@ static bool find_unused_materials(Census *census, const Scene *scene, Error *err
     return true;
 }
 
-// Replaces indices of triangles by their numbers in the file.
-static void number_triangles(MeshCensus *census, const MeshObject *object)
+// Adds the faults that the file's reader found and the flat triangles. Replaces indices of
+// triangles by their numbers in the file.
+static void complete_faults(MeshCensus *census, const MeshObject *object)
 {
-    Features *features = &census->features;
-    size_t *const triangles[] = {
-        &census->open.first,      &census->crowded.first,     &census->turned.first,
-        &census->pinched.first,   &census->duplicates.first,  &features->flat.first,
-        &features->edge.triangle, &features->height.triangle, &features->written_edge.triangle};
-    for (size_t i = 0; i < sizeof triangles / sizeof *triangles; i++)
-        *triangles[i] = (size_t)number_in_file(object, *triangles[i]);
+    MeshFault *faults = census->faults;
+    Feature *const details[] = {&census->features.edge, &census->features.height,
+                                &census->features.written_edge};
+    faults[FAULT_FLAT] = census->features.flat;
+    for (FaultKind kind = FAULT_FLAT; kind < FAULT_KINDS; kind++)
+        faults[kind].first = (size_t)number_in_file(object, faults[kind].first);
+    for (size_t i = 0; i < sizeof details / sizeof *details; i++)
+        details[i]->triangle = (size_t)number_in_file(object, details[i]->triangle);
+    faults[FAULT_BAD_POSITIONS] = object->mesh.bad_positions;
+    faults[FAULT_BAD_NORMALS] = object->mesh.bad_normals;
+    faults[FAULT_LOST_CORNERS] = object->mesh.lost_corners;
+    faults[FAULT_EQUAL_CORNERS] = object->mesh.equal_corners;
+    faults[FAULT_LOST_CORNERS].first += object->number_before;
+    faults[FAULT_EQUAL_CORNERS].first += object->number_before;
 }
 
 static bool take_mesh(MeshCensus *census, const MeshObject *object,
@@ -218,7 +226,7 @@ static bool take_mesh(MeshCensus *census, const MeshObject *object,
     census->facts.shortest_steps = features.edge.steps;
     census->facts.lowest_height = features.height.size;
     census->facts.lowest_steps = features.height.steps;
-    number_triangles(census, object);
+    complete_faults(census, object);
     edges_free(&edges);
     weld_free(&weld);
     return ok;

@@ -9,21 +9,33 @@
 // A mesh is closed if every edge has two consistently oriented triangles, and the triangles around
 // each point form one fan.
 
-// The counts of one mesh. Triangles are numbered as in the file. The faults that the file's reader
-// found are in the Mesh.
+// The first four kinds are the faults that the file's reader found (Mesh).
+typedef enum {
+    FAULT_BAD_POSITIONS,
+    FAULT_BAD_NORMALS,
+    FAULT_LOST_CORNERS,
+    FAULT_EQUAL_CORNERS,
+    FAULT_FLAT,       // triangles without area
+    FAULT_DUPLICATES, // triangles with the corners of an earlier triangle, in any order
+    FAULT_LEAKS,      // rays that passed through a closed mesh
+    FAULT_OPEN,       // edges of one triangle
+    FAULT_CROWDED,    // edges of more than two triangles
+    FAULT_TURNED,     // edges that both triangles follow in the same direction
+    FAULT_PINCHED,    // points whose triangles form several fans
+    FAULT_KINDS
+} FaultKind;
+
+// The counts of one mesh. The `first` of a MeshFault is a triangle at the fault, numbered as in the
+// file, or a vertex with a bad position or normal.
 typedef struct {
     ClrtCheckedMesh facts; // size and path are unset; the counts of rays are 0 before check_trace
-    // Each MeshFault counts edges, points, triangles or rays. Its `first` is a triangle at a fault.
-    MeshFault open;       // edges of one triangle
-    MeshFault crowded;    // edges of more than two triangles
-    MeshFault turned;     // edges that both triangles follow in the same direction
-    MeshFault pinched;    // points whose triangles form several fans
-    MeshFault duplicates; // triangles with the corners of an earlier triangle, in any order
-    MeshFault leaks;      // rays that passed
+    MeshFault faults[FAULT_KINDS];
+    MeshFault leaks; // rays that passed, also through a mesh that is not closed
     Features features;
 } MeshCensus;
 
-// Finds the first five faults, counts the edges, and finds whether the mesh is closed.
+// Finds duplicate triangles and the faults after FAULT_LEAKS, counts the edges, and finds whether
+// the mesh is closed.
 bool mesh_faults_find(MeshCensus *census, const Mesh *mesh, const Weld *weld, const Edges *edges,
                       Error *error);
 

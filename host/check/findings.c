@@ -201,38 +201,17 @@ const char *fault_name(FaultKind kind)
     return faults[kind].kind;
 }
 
-void check_count_faults(const Check *check, size_t object, MeshFault counts[FAULT_KINDS])
-{
-    const MeshObject *given = &check->scene->objects.data[object];
-    const Mesh *mesh = &given->mesh;
-    const MeshCensus *census = &check->census.meshes[object];
-    counts[FAULT_BAD_POSITIONS] = mesh->bad_positions;
-    counts[FAULT_BAD_NORMALS] = mesh->bad_normals;
-    counts[FAULT_LOST_CORNERS] = mesh->lost_corners;
-    counts[FAULT_EQUAL_CORNERS] = mesh->equal_corners;
-    counts[FAULT_LOST_CORNERS].first += given->number_before;
-    counts[FAULT_EQUAL_CORNERS].first += given->number_before;
-    counts[FAULT_FLAT] = census->features.flat;
-    counts[FAULT_DUPLICATES] = census->duplicates;
-    counts[FAULT_LEAKS] =
-        check->device != NULL && census->facts.closed ? census->leaks : (MeshFault){0};
-    counts[FAULT_OPEN] = census->open;
-    counts[FAULT_CROWDED] = census->crowded;
-    counts[FAULT_TURNED] = census->turned;
-    counts[FAULT_PINCHED] = census->pinched;
-}
-
 static void add_mesh_faults(Check *check, size_t object)
 {
-    MeshFault counts[FAULT_KINDS];
-    check_count_faults(check, object, counts);
     for (FaultKind kind = 0; kind < FAULT_KINDS; kind++) {
+        const MeshFault *fault = &check->census.meshes[object].faults[kind];
+        const bool is_untested = kind == FAULT_LEAKS && check->device == NULL;
         const ClrtFinding finding = {.fails = faults[kind].fails,
                                      .mesh = (uint32_t)object,
-                                     .count = counts[kind].count,
-                                     .first = counts[kind].first};
-        add(check, faults[kind].kind, finding, "%zu %s, the first %s %zu", counts[kind].count,
-            faults[kind].text, faults[kind].place, counts[kind].first);
+                                     .count = is_untested ? 0 : fault->count,
+                                     .first = fault->first};
+        add(check, faults[kind].kind, finding, "%zu %s, the first %s %zu", fault->count,
+            faults[kind].text, faults[kind].place, fault->first);
     }
 }
 

@@ -29,23 +29,5 @@ size_t check_count_failing(const Check *check);
 // Returns the path of a mesh's file, or NULL if a program has made the mesh.
 const char *check_mesh_path(const Check *check, size_t object);
 
-typedef enum {
-    FAULT_BAD_POSITIONS,
-    FAULT_BAD_NORMALS,
-    FAULT_LOST_CORNERS,
-    FAULT_EQUAL_CORNERS,
-    FAULT_FLAT,
-    FAULT_DUPLICATES,
-    FAULT_LEAKS,
-    FAULT_OPEN,
-    FAULT_CROWDED,
-    FAULT_TURNED,
-    FAULT_PINCHED,
-    FAULT_KINDS
-} FaultKind;
-
 // Returns the fault's identifier in JSON.
 const char *fault_name(FaultKind kind);
-
-// Counts an object's faults. Leaks count only in closed meshes.
-void check_count_faults(const Check *check, size_t object, MeshFault counts[FAULT_KINDS]);

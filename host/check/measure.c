@@ -91,6 +91,8 @@ static void sum_up(const Aims *aims, const MeshObject *given, MeshCensus *census
             mesh_fault_add(&census->leaks, (size_t)number_in_file(given, aimed->triangle));
     }
     facts->leaks = census->leaks.count;
+    if (facts->closed)
+        census->faults[FAULT_LEAKS] = census->leaks;
 }
 
 // Fills the facts about aims, rays and leaks in census.

@@ -35,14 +35,12 @@ static json_t *leaks_json(const Check *check, const MeshCensus *census)
 }
 
 // Returns the counts of an object's faults. The leaks are in the member "leak_test" instead.
-static json_t *faults_json(const Check *check, size_t object)
+static json_t *faults_json(const MeshCensus *census)
 {
-    MeshFault counts[FAULT_KINDS];
     json_t *all = json_object();
-    check_count_faults(check, object, counts);
     for (FaultKind kind = 0; kind < FAULT_KINDS; kind++)
         if (kind != FAULT_LEAKS)
-            json_object_set_new(all, fault_name(kind), fault_json(counts[kind]));
+            json_object_set_new(all, fault_name(kind), fault_json(census->faults[kind]));
     return all;
 }
 
@@ -51,18 +49,17 @@ static json_t *mesh_json(const Check *check, size_t object)
     const MeshCensus *census = &check->census.meshes[object];
     const ClrtCheckedMesh *facts = &census->facts;
     const Features *features = &census->features;
-    return JSON(FIELD("path", check_mesh_path(check, object)),
-                FIELD("triangles", facts->triangle_count), FIELD("vertices", facts->vertex_count),
-                FIELD("edges", facts->edge_count), FIELD("closed", facts->closed),
-                FIELD("inside_out", facts->inside_out),
-                FIELD("unused_vertices", facts->unused_vertices),
-                FIELD("repeated_vertices", facts->repeated_vertices),
-                FIELD("faults", faults_json(check, object)),
-                FIELD("shortest_edge", feature_json(&features->edge)),
-                FIELD("lowest_height", feature_json(&features->height)),
-                FIELD("shortest_written_edge", feature_json(&features->written_edge)),
-                FIELD("leak_test", leaks_json(check, census)),
-                FIELD("holds_floats", features->holds_floats));
+    return JSON(
+        FIELD("path", check_mesh_path(check, object)), FIELD("triangles", facts->triangle_count),
+        FIELD("vertices", facts->vertex_count), FIELD("edges", facts->edge_count),
+        FIELD("closed", facts->closed), FIELD("inside_out", facts->inside_out),
+        FIELD("unused_vertices", facts->unused_vertices),
+        FIELD("repeated_vertices", facts->repeated_vertices), FIELD("faults", faults_json(census)),
+        FIELD("shortest_edge", feature_json(&features->edge)),
+        FIELD("lowest_height", feature_json(&features->height)),
+        FIELD("shortest_written_edge", feature_json(&features->written_edge)),
+        FIELD("leak_test", leaks_json(check, census)),
+        FIELD("holds_floats", features->holds_floats));
 }
 
 static json_t *meshes_json(const Check *check)

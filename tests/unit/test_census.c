@@ -131,11 +131,11 @@ TEST(edges_points_and_triangles_are_counted_by_fault)
     for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
         const MeshCensus found = mesh_census(meshes[i].points, meshes[i].faces);
         assert_int_equal(found.facts.edge_count, meshes[i].edge_count);
-        expect_fault(&found.open, meshes[i].open);
-        expect_fault(&found.crowded, meshes[i].crowded);
-        expect_fault(&found.turned, meshes[i].turned);
-        expect_fault(&found.pinched, meshes[i].pinched);
-        expect_fault(&found.duplicates, meshes[i].duplicates);
+        expect_fault(&found.faults[FAULT_OPEN], meshes[i].open);
+        expect_fault(&found.faults[FAULT_CROWDED], meshes[i].crowded);
+        expect_fault(&found.faults[FAULT_TURNED], meshes[i].turned);
+        expect_fault(&found.faults[FAULT_PINCHED], meshes[i].pinched);
+        expect_fault(&found.faults[FAULT_DUPLICATES], meshes[i].duplicates);
         assert_int_equal(found.facts.closed, meshes[i].is_closed);
         assert_int_equal(found.facts.inside_out, meshes[i].is_inside_out);
     }
@@ -168,8 +168,8 @@ TEST(an_edge_of_many_triangles_is_sorted_too)
         snprintf(faces + strlen(faces), sizeof faces - strlen(faces), "  0 1 %d", i + 2);
     }
     const MeshCensus found = mesh_census(points, faces);
-    expect_fault(&found.crowded, (Expected){1, 0});
-    expect_fault(&found.duplicates, (Expected){10, 50});
+    expect_fault(&found.faults[FAULT_CROWDED], (Expected){1, 0});
+    expect_fault(&found.faults[FAULT_DUPLICATES], (Expected){10, 50});
     assert_int_equal(found.facts.edge_count, 1 + 2 * 50);
 }
 
