@@ -4,6 +4,7 @@
 
 #include "base/array.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -127,27 +128,25 @@ char *file_path_beside(const char *beside, const char *path, Error *error)
     return joined;
 }
 
-// Stores the folder of the running program, with links resolved. Returns false if /proc is missing.
-static bool own_folder(char folder[PATH_MAX])
+// Puts the folder of `file` in front of name. Returns whether the new path can be read.
+static bool find_beside(char path[COMPANION_PATH_SIZE], const char *file, const char *name)
 {
-    const ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
-    if (length <= 0)
+    const char *slash = strrchr(file, '/');
+    if (file[0] != '/' || slash == NULL)
         return false;
-    folder[length] = '\0';
-    char *slash = strrchr(folder, '/');
-    if (slash == NULL)
-        return false;
-    slash[slash == folder] = '\0'; // keeps the slash of the root folder
-    return true;
+    snprintf(path, COMPANION_PATH_SIZE, "%.*s%s", (int)(slash - file) + 1, file, name);
+    return access(path, R_OK) == 0;
 }
 
-bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *folder)
+bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *installed)
 {
-    char own[PATH_MAX];
-    if (!own_folder(own))
-        return false;
-    snprintf(path, COMPANION_PATH_SIZE, "%s/%s", own, name);
-    if (access(path, R_OK) != 0)
-        snprintf(path, COMPANION_PATH_SIZE, "%s/%s/%s", own, folder, name);
-    return true;
+    static const char here[] = "";
+    char program[PATH_MAX] = "";
+    Dl_info own = {.dli_fname = ""};
+    if (readlink("/proc/self/exe", program, sizeof program - 1) < 0)
+        program[0] = '\0';
+    dladdr(here, &own);
+    path[0] = '\0';
+    return find_beside(path, program, name) || find_beside(path, program, installed) ||
+           find_beside(path, own.dli_fname, name);
 }

@@ -35,9 +35,10 @@ bool file_has_ending(const char *path, const char *ending);
 // which the caller frees, or NULL if memory runs out.
 char *file_path_beside(const char *beside, const char *path, Error *error);
 
-// Stores the path of a companion file of the running program. Looks first in the program's own
-// folder, as in a build tree, and then in `folder`, a path relative to the program's folder.
-// Returns false if the program's folder is unknown, for example without /proc. The current folder
-// would be an unsafe fallback, because it may contain anybody's files.
+// Finds a companion file of clrt and stores its path. Looks in the running program's folder, as in
+// a build tree, then for `installed`, a path relative to this folder, and then in the folder of
+// clrt's library, because programs such as Python use the library. Never looks in the current
+// folder, which may contain anybody's files. If there is no such file, stores "" or the last path
+// that was tried.
 #define COMPANION_PATH_SIZE (2 * PATH_MAX)
-bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *folder);
+bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *installed);

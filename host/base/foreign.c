@@ -10,7 +10,6 @@
 #include "base/array.h"
 #include "base/clock.h"
 
-#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -22,29 +21,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const char library_place[] = "";
-
-static bool name_beside_library(char path[COMPANION_PATH_SIZE])
+// Searches beside clrt, and then in the installation folder.
+static void find_program(char path[COMPANION_PATH_SIZE])
 {
-    Dl_info own;
-    // Rejects a relative path, because the current folder may contain anybody's files.
-    if (dladdr(library_place, &own) == 0 || own.dli_fname[0] != '/')
-        return false;
-    const int length = (int)(strrchr(own.dli_fname, '/') - own.dli_fname);
-    snprintf(path, COMPANION_PATH_SIZE, "%.*s/clrt-foreign", length, own.dli_fname);
-    return true;
-}
-
-// Searches near the running program, then beside clrt's library, then in the installation folder.
-// Programs that use the library, such as Python, need the last two places.
-static bool find_program(char path[COMPANION_PATH_SIZE], Error *cause)
-{
-    if ((file_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER) && access(path, X_OK) == 0) ||
-        (name_beside_library(path) && access(path, X_OK) == 0))
-        return true;
-    snprintf(path, COMPANION_PATH_SIZE, "%s/clrt-foreign", CLRT_FOREIGN_INSTALLED);
-    return access(path, X_OK) == 0 ||
-           error_set(cause, "%s, which reads it, cannot be started: %s", path, strerror(errno));
+    if (!file_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER "/clrt-foreign"))
+        snprintf(path, COMPANION_PATH_SIZE, "%s/clrt-foreign", CLRT_FOREIGN_INSTALLED);
 }
 
 #define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
@@ -197,8 +178,8 @@ bool foreign_run(File *stream, const ForeignReader *reader, const char *const wo
     char found[COMPANION_PATH_SIZE];
     Child child;
     *stream = (File){0};
-    if (reader->program == NULL && !find_program(found, cause))
-        return false;
+    if (reader->program == NULL)
+        find_program(found);
     const char *all[1 + FOREIGN_WORDS + 1] = {reader->program != NULL ? reader->program : found};
     memcpy(all + 1, words, FOREIGN_WORDS * sizeof *words);
     if (!start(&child, all, cause))

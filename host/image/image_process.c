@@ -11,9 +11,9 @@
 
 static bool find_module(char path[COMPANION_PATH_SIZE], Error *cause)
 {
-    return file_companion(path, CLRT_IMAGE_MODULE, CLRT_IMAGE_MODULE_FOLDER) ||
-           error_set(cause,
-                     "the picture module cannot be found: /proc does not show where clrt is");
+    return file_companion(path, CLRT_IMAGE_MODULE,
+                          CLRT_IMAGE_MODULE_FOLDER "/" CLRT_IMAGE_MODULE) ||
+           error_set(cause, "the picture module %s cannot be found", CLRT_IMAGE_MODULE);
 }
 
 ModuleFunction *open_module(const char *name, Error *cause)
