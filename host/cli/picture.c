@@ -232,8 +232,10 @@ static bool begin_picture(Picture *picture, Error *error)
 {
     Provenance own;
     uint32_t width, height;
+    Picture finished = *picture;
     RenderSettings *settings = &picture->request.settings;
-    report_fill_provenance(&own, picture);
+    finished.complete = true;
+    report_fill_provenance(&own, &finished);
     tile_frame_size(settings, &width, &height);
     return framebuffer_make(&picture->framebuffer, width, height, error) &&
            resume_open(&picture->resume, &own, settings, &picture->framebuffer, error);

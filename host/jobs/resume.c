@@ -50,13 +50,13 @@ static void make_key(const Provenance *own, const RenderSettings *settings, uint
 static bool is_same_picture(const StoredImage *stored, const Provenance *own,
                             const RenderSettings *settings)
 {
-    static const StoredText kinds[] = {STORED_VERSION, STORED_SCENE_HASH, STORED_MESH_HASH};
+    static const StoredText kinds[] = {STORED_VERSION, STORED_SCENE_HASH, STORED_MESH_HASH,
+                                       STORED_SETTINGS};
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (strcmp(stored->texts[kinds[i]], own->texts[kinds[i]]) != 0)
             return false;
     return stored->width == settings->width && stored->height == settings->height &&
-           stored_tiles_has_colors(stored) &&
-           stored_tiles_are_of(stored, own->texts[STORED_SETTINGS], settings->parts > 0);
+           stored_tiles_has_colors(stored);
 }
 
 static bool take_stored(const Resume *resume, const Provenance *own, RenderSettings *settings,

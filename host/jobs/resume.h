@@ -26,7 +26,8 @@ bool resume_prepare(Resume *resume, const char *path, bool is_exr, Error *error)
 
 // Opens the journal and copies the finished tiles into framebuffer. If the journal has no tiles, a
 // complete EXR file provides them. Stores the number of finished tiles in settings->ready_tiles.
-// Fails if the earlier run had another scene, other settings or another version of clrt.
+// `own` is the metadata of the finished picture. Fails if the earlier run had another scene, other
+// settings or another version of clrt.
 bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,
                  Framebuffer *framebuffer, Error *error);
 

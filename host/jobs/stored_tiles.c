@@ -71,19 +71,6 @@ bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image)
     return true;
 }
 
-bool stored_tiles_are_of(const StoredImage *image, const char *settings_text, bool is_part)
-{
-    json_t *stored = json_loads(image->texts[STORED_SETTINGS], 0, NULL);
-    json_t *own = json_loads(settings_text, 0, NULL);
-    json_object_del(own, "tiles_done");
-    if (!is_part)
-        json_object_del(own, "tile");
-    const bool are = stored != NULL && json_equal(stored, own) != 0;
-    json_decref(stored);
-    json_decref(own);
-    return are;
-}
-
 void stored_tiles_free(StoredTiles *tiles)
 {
     json_decref(tiles->whole);

@@ -21,10 +21,6 @@ typedef struct {
 bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image);
 void stored_tiles_free(StoredTiles *tiles);
 
-// Returns whether the image is complete and has these settings. The tile size is compared only for
-// parts.
-bool stored_tiles_are_of(const StoredImage *image, const char *settings_text, bool is_part);
-
 // Appends the image's channels, except its colors, to layers. Returns false if the image lacks
 // colors or has a channel unknown to --aov.
 bool stored_tiles_name_layers(const StoredImage *image, Layers *layers);
