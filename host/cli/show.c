@@ -6,11 +6,10 @@
 #ifdef CLRT_WITH_WINDOW
 #include "base/file.h"
 #include "cli/stages.h"
-#include "view/status_text.h"
+#include "view/controls.h"
 #include "view/viewer.h"
 
 #include <math.h>
-#include <string.h>
 
 // The number of seconds that the process waits for its worker thread after the window is closed.
 // The thread may be compiling, and PoCL's files must not be removed while it compiles.
@@ -18,11 +17,7 @@
 
 void show_write_keys(FILE *stream)
 {
-    for (const char *line = status_text_help(); line[0] != '\0';) {
-        const int length = (int)strcspn(line, "\n");
-        fprintf(stream, "%.*s\n", length, line);
-        line += length + (line[length] == '\n');
-    }
+    controls_write_help(stream);
 }
 
 ExitCode show_scene(const Options *options, Session *session, Scene *scene, Error *error)

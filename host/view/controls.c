@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Applies keys and mouse actions to the state. status_text_help lists these actions for users.
+// Applies keys and mouse actions to the state. A table lists the actions for users.
 #include "view/controls.h"
+
+#include <stddef.h>
 
 // All these constants except the last come from the viewer of the UvA course (scene/scene.c).
 
@@ -175,32 +177,62 @@ static void change_depth(State *state, const StateScene *scene, int step)
         state->box_depth = (uint32_t)limited((int)state->box_depth + step, 0, (int)scene->deepest);
 }
 
-// Returns the setting that a key toggles, or NULL.
-static bool *switch_of(State *state, int key)
+// The user's actions, in the order of the help. A row with keys toggles a setting or has a command.
+// apply_key, state_apply and the window handle the actions of the other rows.
+static const struct {
+    const char *name, *help;
+    int keys[2];    // 0 if unused
+    size_t toggled; // of a bool in State
+    unsigned command;
+} actions[] = {
+#define NO_KEY        {0}, 0, 0
+#define TOGGLE(field) offsetof(State, field), 0
+#define RUN(command)  0, command
+    {"left drag, arrows", "turn the camera", NO_KEY},
+    {"middle or Shift drag", "move the camera sideways", NO_KEY},
+    {"right drag, wheel", "move closer or away", NO_KEY},
+    {"click", "explain the pixel", NO_KEY},
+    {"1-9", "the scene's cameras", NO_KEY},
+    {"r", "rays or OpenGL, which draws glass as a grid", {'r'}, TOGGLE(traced)},
+    {"a", "anti-alias the resting picture or not", {'a'}, TOGGLE(smooth)},
+    {"+ -", "exposure", NO_KEY},
+    {"o", "turn continuously", {'o'}, TOGGLE(turning)},
+    {"p", "perspective or orthographic", NO_KEY},
+    {"u", "another up axis of a mesh without a scene", {'u'}, RUN(COMMAND_UP)},
+    {"n", "normals", {'n'}, TOGGLE(normals)},
+    {"] [", "boxes of the tree, a level deeper or back", NO_KEY},
+    {"B", "boxes of the tree's leaves", {'B'}, TOGGLE(boxes)},
+    {"b", "trace with or without the tree", {'b'}, TOGGLE(uses_bvh)},
+    {"c", "print the camera", {'c'}, RUN(COMMAND_CAMERA)},
+    {"s, F12, Ctrl-S", "save the picture", {'s'}, RUN(COMMAND_SAVE)},
+    {"R", "reload the scene and the kernels", {'R'}, RUN(COMMAND_RELOAD)},
+    {"drop a file", "show that scene", NO_KEY},
+    {"t", "show or hide the line at the top", {'t'}, TOGGLE(text)},
+    {"h, ?, F1", "show or hide this help", {'h', '?'}, TOGGLE(help)},
+    {"F11", "full screen", {KEY_FULL_SCREEN}, TOGGLE(full_screen)},
+    {"Esc", "leave full screen, or quit", NO_KEY},
+    {"q, Ctrl-Q", "quit", {'q'}, RUN(COMMAND_QUIT)},
+};
+#define ACTION_COUNT (sizeof actions / sizeof actions[0])
+
+void controls_write_help(FILE *stream)
 {
-    switch (key) {
-    case 'r':
-        return &state->traced;
-    case 'a':
-        return &state->smooth;
-    case 'b':
-        return &state->uses_bvh;
-    case 'B':
-        return &state->boxes;
-    case 'n':
-        return &state->normals;
-    case 'h':
-    case '?':
-        return &state->help;
-    case 't':
-        return &state->text;
-    case 'o':
-        return &state->turning;
-    case KEY_FULL_SCREEN:
-        return &state->full_screen;
-    default:
-        return NULL;
-    }
+    for (size_t i = 0; i < ACTION_COUNT; i++)
+        fprintf(stream, "%s  %s\n", actions[i].name, actions[i].help);
+}
+
+// Applies the key if a row of the table has it. Returns the row's command.
+static unsigned apply_action(State *state, int key)
+{
+    size_t i = 0;
+    while (i < ACTION_COUNT && actions[i].keys[0] != key && actions[i].keys[1] != key)
+        i++;
+    if (i == ACTION_COUNT || key == 0)
+        return 0;
+    bool *toggled = (bool *)(void *)((char *)state + actions[i].toggled);
+    if (actions[i].command == 0)
+        *toggled = !*toggled;
+    return actions[i].command;
 }
 
 static void change_exposure(State *state, int step)
@@ -216,11 +248,8 @@ static void apply_arrow(State *state, int key)
         turn(state, ARROW_PIXELS * right, ARROW_PIXELS * down);
 }
 
-static void apply_key(State *state, const StateScene *scene, int key)
+static unsigned apply_key(State *state, const StateScene *scene, int key)
 {
-    bool *turned = switch_of(state, key);
-    if (turned != NULL)
-        *turned = !*turned;
     if (key == 'B')
         state->box_depth = 0;
     if (key == ']' || key == '[')
@@ -234,24 +263,7 @@ static void apply_key(State *state, const StateScene *scene, int key)
     if (key >= '1' && key <= '9')
         choose_view(state, scene, (uint32_t)(key - '0'));
     apply_arrow(state, key);
-}
-
-static unsigned command_of(int key)
-{
-    switch (key) {
-    case 'c':
-        return COMMAND_CAMERA;
-    case 's':
-        return COMMAND_SAVE;
-    case 'u':
-        return COMMAND_UP;
-    case 'R':
-        return COMMAND_RELOAD;
-    case 'q':
-        return COMMAND_QUIT;
-    default:
-        return 0;
-    }
+    return apply_action(state, key);
 }
 
 unsigned state_apply(State *state, const Event *event, const StateScene *scene)
@@ -261,8 +273,7 @@ unsigned state_apply(State *state, const Event *event, const StateScene *scene)
         key = state->full_screen ? KEY_FULL_SCREEN : 'q';
     switch (event->kind) {
     case EVENT_KEY:
-        apply_key(state, scene, key);
-        return command_of(key);
+        return apply_key(state, scene, key);
     case EVENT_CLICK:
         return COMMAND_EXPLAIN;
     case EVENT_TURN:

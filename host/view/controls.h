@@ -5,6 +5,8 @@
 
 #include "scene/scene.h"
 
+#include <stdio.h>
+
 // An orbiting camera: two angles and a distance.
 typedef struct {
     Viewpoint camera; // its eye is not used
@@ -95,6 +97,10 @@ void state_adopt(State *state, const StateScene *scene);
 
 // Switches to another scene and its first viewpoint.
 void state_open(State *state, const StateScene *scene);
+
+// Writes the list of keys and mouse actions, one per line. Two blanks separate each key or action
+// from its meaning.
+void controls_write_help(FILE *stream);
 
 // Returns the factor by which the exposure multiplies colors.
 double state_gain(const State *state);

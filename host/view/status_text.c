@@ -108,7 +108,7 @@ void status_text_panel(const Figures *figures, FILE *stream)
         add_message(figures->failure, "\n", stream);
     add_message(figures->explanation, "", stream);
     if (state->help)
-        fputs(status_text_help(), stream);
+        controls_write_help(stream);
 }
 
 void status_text_title(const Figures *figures, FILE *stream)
@@ -137,32 +137,4 @@ void status_text_store(StatusText *write, const Figures *figures, char *text, si
     write(figures, stream);
     fclose(stream);
     text[size - 1] = '\0';
-}
-
-const char *status_text_help(void)
-{
-    return "left drag, arrows  turn the camera\n"
-           "middle or Shift drag  move the camera sideways\n"
-           "right drag, wheel  move closer or away\n"
-           "click  explain the pixel\n"
-           "1-9  the scene's cameras\n"
-           "r  rays or OpenGL, which draws glass as a grid\n"
-           "a  anti-alias the resting picture or not\n"
-           "+ -  exposure\n"
-           "o  turn continuously\n"
-           "p  perspective or orthographic\n"
-           "u  another up axis of a mesh without a scene\n"
-           "n  normals\n"
-           "] [  boxes of the tree, a level deeper or back\n"
-           "B  boxes of the tree's leaves\n"
-           "b  trace with or without the tree\n"
-           "c  print the camera\n"
-           "s, F12, Ctrl-S  save the picture\n"
-           "R  reload the scene and the kernels\n"
-           "drop a file  show that scene\n"
-           "t  show or hide the line at the top\n"
-           "h, ?, F1  show or hide this help\n"
-           "F11  full screen\n"
-           "Esc  leave full screen, or quit\n"
-           "q, Ctrl-Q  quit";
 }

@@ -44,7 +44,3 @@ void status_text_store(StatusText *write, const Figures *figures, char *text, si
 
 // Writes the orbit's angles and distance, and then the camera as statements of a scene file.
 void status_text_camera(const State *state, FILE *stream);
-
-// Returns the list of keys and mouse actions, one per line. Two blanks separate each key or action
-// from its meaning.
-const char *status_text_help(void);
