@@ -35,10 +35,10 @@ bool file_has_ending(const char *path, const char *ending);
 // which the caller frees, or NULL if memory runs out.
 char *file_path_beside(const char *beside, const char *path, Error *error);
 
-// Finds a companion file of clrt and stores its path. Looks in the running program's folder, as in
-// a build tree, then for `installed`, a path relative to this folder, and then in the folder of
-// clrt's library, because programs such as Python use the library. Never looks in the current
-// folder, which may contain anybody's files. If there is no such file, stores "" or the last path
-// that was tried.
+// Finds a companion file of clrt and stores its path. Looks first in the running program's folder,
+// as in a build tree. The second place is `installed`, a path relative to this folder. The third is
+// the folder of clrt's library, which may run in other programs such as Python. Never looks in the
+// current folder, which may contain anybody's files. If there is no such file, stores "" or the
+// last path that was tried.
 #define COMPANION_PATH_SIZE (2 * PATH_MAX)
 bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *installed);

@@ -146,8 +146,8 @@ static bool is_out_of_view(const Scene *scene, const Normalization *normalizatio
 // than this, the change is visible.
 #define FEW_STEPS 16.0
 
-// Advice on short edges names the mesh's offset or the scene's size as the cause only if this value
-// is more than MUCH times the mesh's size.
+// Advice on short edges blames the mesh's offset or the scene's size only if the offset or size is
+// more than MUCH times the mesh's size.
 #define MUCH 4.0
 
 static const struct {

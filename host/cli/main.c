@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-// Limits the number of PoCL's threads to `count`. If `count` is 0, the limit is
-// processors_usable(), because PoCL ignores the quotas of control groups. This limit does not
-// replace environment variables that the user has set. PoCL 3.1 and 6.0 read different variables.
+// Limits the number of PoCL's threads to `count`. If `count` is 0 and the user has not set PoCL's
+// variables, the limit is processors_usable(), because PoCL ignores the quotas of control groups.
+// PoCL 3.1 and 6.0 read different variables.
 static void limit_threads(uint32_t count)
 {
     char text[16];

@@ -2,12 +2,13 @@
 // Prepares the process for signals that stop a picture, and for small limits on stacks.
 #pragma once
 
-// SIGINT and SIGTERM stop a picture. Before the first tile, there is nothing to write, so a signal
-// ends the process. Afterwards, the first signal makes clrt write the finished tiles. A second
-// signal of the same number ends the process at once.
+// SIGINT, SIGTERM and SIGHUP stop a picture. Before the first tile, there is nothing to write, so a
+// signal ends the process. Afterwards, the first signal makes clrt write the finished tiles. A
+// second signal of the same number ends the process at once.
 
-// Installs handlers for the first SIGINT and the first SIGTERM, unless these signals are ignored.
-// Until stop_wait_for_tiles is called, a signal ends clrt with a message and status 128 + number.
+// Installs a handler for the first occurrence of each of these signals, unless the signal is
+// ignored. Until stop_wait_for_tiles is called, a signal ends clrt with a message and status 128 +
+// number.
 void stop_watch(void);
 
 // Call this function before the first tile is rendered. Afterwards, the first signal only sets the

@@ -20,10 +20,10 @@
 #define MEMORY_LEAST      ((rlim_t)256 << 20) // bytes that even the shortest file may use
 #define MEMORY_FACTOR     128                 // bytes of memory per byte of a file
 #define MEMORY_PER_THREAD ((rlim_t)16 << 20)  // bytes; mostly stack
-#define STACK_LIMIT       ((rlim_t)8 << 20) // bytes; too deep a tree of nodes crashes this process
-#define FILE_LIMIT        32                // open files
-#define PROCESSOR_SECONDS 8                 // processor time for the shortest file
-#define SECONDS           120               // elapsed time
+#define STACK_LIMIT       ((rlim_t)8 << 20)   // bytes; a deeper tree of nodes crashes this process
+#define FILE_LIMIT        32                  // open files
+#define PROCESSOR_SECONDS 8                   // processor time for the shortest file
+#define SECONDS           120                 // elapsed time
 #define BYTES_PER_SECOND  2000000 // a file adds a second of processor time for this many bytes
 
 // AddressSanitizer maps more memory than any limit could allow, so builds with it do not limit

@@ -85,8 +85,8 @@ double crease_of_angles(const EdgeAngles *angles)
 // Edges with more faces are sharp. This limit bounds the number of pairs of faces at an edge.
 #define EDGE_FACES_MOST 8
 
-// Despite rounding, a crease angle of 0 degrees joins coplanar faces, and a crease angle of 180
-// degrees joins opposite faces.
+// With this slack, a crease angle of 0 degrees joins coplanar faces despite rounding, and a crease
+// angle of 180 degrees joins opposite faces.
 #define COSINE_SLACK 0x1p-40
 
 // A triangle is a sliver if the sum of the sines of its angles is below about this limit. Rounded

@@ -42,7 +42,7 @@ typedef struct {
 } PlyElement;
 
 typedef struct {
-    ARRAY(PlyElement) elements; // nonempty ones, except PLY_OTHER, have all needed properties
+    ARRAY(PlyElement) elements; // unless PLY_OTHER or empty, each has all needed properties
     ARRAY(PlyProperty) properties;
     int64_t vertex_count;
     bool has_normals, has_colors;

@@ -4,8 +4,8 @@
 #include "scene/normalize.h"
 
 // The scene counts as coarse for a camera if it is this many times as large as the camera's reach.
-// The center of the box would then move the eye by up to 2^-12 of the reach, about a third of a
-// pixel in pictures of 1000 rows.
+// Relative to the center of the box, rounding could then move the eye by up to 2^-12 of the reach,
+// about a third of a pixel in pictures of 1000 rows.
 #define COARSE          0x1p13
 #define LARGEST_RATIO   0x1p40
 #define LARGEST_RATE    0x1p60 // so that products with coordinates stay finite

@@ -212,8 +212,7 @@ void material_set_shininess(Material *material, float shininess)
     material->exponent = by_squaring ? (uint32_t)shininess : UINT32_MAX;
 }
 
-// Returns the next material in use, or NULL after the last one. The caller sets *place to 0 before
-// the first call.
+// Returns the next material in use, or NULL after the last one. *place must be 0 at the first call.
 static const Material *next_used(const Scene *scene, size_t *place)
 {
     const size_t spheres = scene->spheres.count;

@@ -101,8 +101,8 @@ typedef struct {
     ARRAY(char *) notes;  // messages about the files, such as omitted parts; owned
     double mesh_seconds;  // time spent on loading meshes
     // hash combines the XXH3 hashes of the scene's text, of its mesh files and, for a lone mesh, of
-    // the up axis and the choice of normals. mesh_hash combines only the hashes of the mesh files,
-    // and is zero without meshes.
+    // the up axis, the normals and the studio. mesh_hash combines only the hashes of the mesh
+    // files, and is zero without meshes.
     uint64_t hash[2], mesh_hash[2];
 } Scene;
 

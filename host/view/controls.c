@@ -36,7 +36,8 @@ static double unit_height(const Orbit *orbit)
     return 2 * sine_of_degrees(half) / cosine_of_degrees(half);
 }
 
-// Returns the distance at which a perspective picture has the current scale at the pivot.
+// Returns the distance from which a perspective picture shows objects at the pivot in their current
+// size.
 static double shown_distance(const Orbit *orbit)
 {
     return orbit->camera.height > 0 ? orbit->camera.height / unit_height(orbit) : orbit->distance;
@@ -76,8 +77,7 @@ static double limited(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// Turns the camera by a mouse drag. Limits the azimuth, the eye's angle below the pivot's plane
-// (controls.h).
+// Turns the camera by a mouse drag. Limits the azimuth (controls.h).
 static void orbit_turn(Orbit *orbit, double right, double down)
 {
     orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);
@@ -85,8 +85,8 @@ static void orbit_turn(Orbit *orbit, double right, double down)
         limited(orbit->azimuth - DEGREES_PER_PIXEL * down, -AZIMUTH_LIMIT, AZIMUTH_LIMIT);
 }
 
-// Sets the scale at the pivot to the scale of a perspective picture from this distance. An
-// orthographic camera does not move.
+// Shows objects at the pivot in the size that they have in a perspective picture from this
+// distance. An orthographic camera does not move.
 static void set_shown_distance(Orbit *orbit, double distance)
 {
     const double shown = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The window's settings as a plain struct, the State. Events change the state, and views draw it.
-// The functions below need no window, device or clock, so tests can play events.
+// State holds the window's settings. Events change the state, and views draw it. The functions
+// below need no window, device or clock, so tests can play events.
 #pragma once
 
 #include "scene/scene.h"
@@ -12,9 +12,9 @@ typedef struct {
     Viewpoint camera; // its eye is not used
     Vec3 pivot;       // the center of the orbit
     Vec3 axes[3];     // unit length; the last is up
-    // The eye's angle in degrees below the plane that contains the pivot and is perpendicular to
-    // up. It is negative if the eye is above this plane. The UvA course (scene/scene.c) uses this
-    // name.
+    // The eye's angle in degrees below the plane through the pivot that is perpendicular to up. The
+    // angle is negative if the eye is above this plane. The viewer of the UvA course
+    // (scene/scene.c) calls it azimuth too.
     double azimuth;
     double rotation; // degrees around up
     double distance; // from the eye to the pivot

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tracing may take only part of a frame's time, because displaying takes time too and tracing times
-// vary.
+// Chooses the sizes of passes and of their tiles by the measured time per sample. Tracing may take
+// only part of a frame's time, because displaying takes time too and tracing times vary.
 #include "view/plan.h"
 
 #include "session/costs.h"

@@ -29,8 +29,8 @@ static bool is_free(const char *stem, const char *ending)
     return access(path, F_OK) != 0;
 }
 
-// Stores the saved files' name without extension: the start of the scene file's name, also without
-// extension, and a number.
+// Stores the saved files' name without an extension. The name is the start of the scene file's name
+// and a number.
 static void write_stem(char stem[NAME_SIZE], const char *scene_path)
 {
     const char *slash = strrchr(scene_path, '/');
@@ -173,7 +173,7 @@ static void draw_text(Viewer *viewer, const Figures *figures)
     text_view_draw(&viewer->views.text, &overlay);
 }
 
-// Copies `text` to `shown`, and returns whether this has changed `shown`.
+// Returns whether `text` differs from `shown`, and copies `text` to `shown`.
 static bool is_news(char shown[STATE_SIZE], const char text[STATE_SIZE])
 {
     const bool differs = strcmp(text, shown) != 0;

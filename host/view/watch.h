@@ -9,7 +9,7 @@
 
 typedef struct {
     char *path;        // path of a file, or of a folder whose files are watched; owned
-    uint64_t accepted; // signature (see watch.c) at the latest reported change, or at first
+    uint64_t accepted; // signature (see watch.c) when a change was last reported, or at first
     uint64_t seen;     // the latest signature
 } Watched;
 

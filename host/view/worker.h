@@ -9,7 +9,7 @@
 // mouse. After each finished tile, the worker checks the request again, and stops a pass that is no
 // longer needed.
 //
-// This comparison cannot show some work, for example reading a changed file again. The request
+// Some work leaves no difference to compare, for example reading a changed file again. The request
 // counts such work in members like `loads`, and the status has the same members for finished work.
 // Equal counters mean that the work is done.
 //

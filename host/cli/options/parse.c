@@ -188,7 +188,7 @@ static bool check_loose_value(const Option *option, const char *word, Error *err
 }
 
 // Returns the argument that getopt_long has rejected. After an unknown letter, optind is the index
-// of this argument if more letters follow, or else the next index.
+// of this argument if the argument has more letters. Otherwise, optind is the next index.
 static const char *rejected_word(char **arguments)
 {
     const char *before = arguments[optind - 1];

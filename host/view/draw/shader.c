@@ -146,9 +146,9 @@ void cube_fill_edges(const Drawing *drawing)
 // coordinates. All triangles are within this distance of the origin.
 #define BEYOND 2
 
-// Stores a vector parallel to `step`. Its dot product with an offset from the eye to the image
-// plane (distance 1) is 1 at the edge of the picture toward which `step` points. If `pixels` is
-// negative, it is 1 at the opposite edge.
+// Stores a multiple of `step`. The dot product of this vector with a point of the picture is 1 at
+// the edge in the direction of `step` or, if `pixels` is negative, at the opposite edge. Points are
+// relative to the eye, and the picture is at distance 1.
 static void store_clip(float clip[3], const float step[4], double pixels)
 {
     const Vec3 v = vec3_of_floats(step);
