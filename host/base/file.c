@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Reads whole files, because parsers need contiguous bytes. Finds companion files of the program.
+// Reads whole files, because parsers need contiguous bytes.
 #include "base/file.h"
 
 #include "base/array.h"
 
-#include <dlfcn.h>
 #include <errno.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -126,27 +125,4 @@ char *file_path_beside(const char *beside, const char *path, Error *error)
         strcpy(joined + folder, path);
     }
     return joined;
-}
-
-// Puts the folder of `file` in front of name. Returns whether the new path can be read.
-static bool find_beside(char path[COMPANION_PATH_SIZE], const char *file, const char *name)
-{
-    const char *slash = strrchr(file, '/');
-    if (file[0] != '/' || slash == NULL)
-        return false;
-    snprintf(path, COMPANION_PATH_SIZE, "%.*s%s", (int)(slash - file) + 1, file, name);
-    return access(path, R_OK) == 0;
-}
-
-bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *installed)
-{
-    static const char here[] = "";
-    char program[PATH_MAX] = "";
-    Dl_info own = {.dli_fname = ""};
-    if (readlink("/proc/self/exe", program, sizeof program - 1) < 0)
-        program[0] = '\0';
-    dladdr(here, &own);
-    path[0] = '\0';
-    return find_beside(path, program, name) || find_beside(path, program, installed) ||
-           find_beside(path, own.dli_fname, name);
 }

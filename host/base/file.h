@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 
-#include <limits.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -34,11 +33,3 @@ bool file_has_ending(const char *path, const char *ending);
 // If path is relative, puts the folder of the file `beside` in front of it. Returns the new path,
 // which the caller frees, or NULL if memory runs out.
 char *file_path_beside(const char *beside, const char *path, Error *error);
-
-// Finds a companion file of clrt and stores its path. Looks first in the running program's folder,
-// as in a build tree. The second place is `installed`, a path relative to this folder. The third is
-// the folder of clrt's library, which may run in other programs such as Python. Never looks in the
-// current folder, which may contain anybody's files. If there is no such file, stores "" or the
-// last path that was tried.
-#define COMPANION_PATH_SIZE (2 * PATH_MAX)
-bool file_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *installed);

@@ -10,6 +10,7 @@
 #include "base/array.h"
 #include "base/clock.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -21,10 +22,33 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+// Puts the folder of `file` in front of name. Returns whether the new path can be read.
+static bool find_beside(char path[COMPANION_PATH_SIZE], const char *file, const char *name)
+{
+    const char *slash = strrchr(file, '/');
+    if (file[0] != '/' || slash == NULL)
+        return false;
+    snprintf(path, COMPANION_PATH_SIZE, "%.*s%s", (int)(slash - file) + 1, file, name);
+    return access(path, R_OK) == 0;
+}
+
+bool foreign_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *installed)
+{
+    static const char here[] = "";
+    char program[PATH_MAX] = "";
+    Dl_info own = {.dli_fname = ""};
+    if (readlink("/proc/self/exe", program, sizeof program - 1) < 0)
+        program[0] = '\0';
+    dladdr(here, &own);
+    path[0] = '\0';
+    return find_beside(path, program, name) || find_beside(path, program, installed) ||
+           find_beside(path, own.dli_fname, name);
+}
+
 // Searches beside clrt, and then in the installation folder.
 static void find_program(char path[COMPANION_PATH_SIZE])
 {
-    if (!file_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER "/clrt-foreign"))
+    if (!foreign_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER "/clrt-foreign"))
         snprintf(path, COMPANION_PATH_SIZE, "%s/clrt-foreign", CLRT_FOREIGN_INSTALLED);
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/file.h"
 
+#include <limits.h>
 #include <stdint.h>
 
 typedef enum {
@@ -34,6 +35,14 @@ typedef struct {
     double seconds;      // limit of wall time
     size_t bytes;        // limit of the output
 } ForeignReader;
+
+// Finds a companion file of clrt and stores its path. Looks first in the running program's folder,
+// as in a build tree. The second place is `installed`, a path relative to this folder. The third is
+// the folder of clrt's library, which may run in other programs such as Python. Never looks in the
+// current folder, which may contain anybody's files. If there is no such file, stores "" or the
+// last path that was tried.
+#define COMPANION_PATH_SIZE (2 * PATH_MAX)
+bool foreign_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *installed);
 
 // Puts `substitute` in place of characters that are not printable ASCII, because a terminal could
 // interpret these characters. `size` is the length of text.

@@ -11,8 +11,8 @@
 
 static bool find_module(char path[COMPANION_PATH_SIZE], Error *cause)
 {
-    return file_companion(path, CLRT_IMAGE_MODULE,
-                          CLRT_IMAGE_MODULE_FOLDER "/" CLRT_IMAGE_MODULE) ||
+    return foreign_companion(path, CLRT_IMAGE_MODULE,
+                             CLRT_IMAGE_MODULE_FOLDER "/" CLRT_IMAGE_MODULE) ||
            error_set(cause, "the picture module %s cannot be found", CLRT_IMAGE_MODULE);
 }
 
