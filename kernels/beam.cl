@@ -178,28 +178,19 @@ static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint others,
 static NOT_INLINE bool intersect_beam_spheres(Beam *beam, uint child, uint packets,
                                               const uint bits[PACKETS])
 {
-    global const SphereBlock *block = sphere_block(beam->tracer, child);
-    bool any = false;
+    SpherePairs pairs;
+    uint any = 0;
+    start_pairs(&pairs, beam->tracer, beam->packets[0].rays.ray, beam->hits);
+    for (uint left = packets; left != 0; left &= left - 1)
+        pair_lanes(&pairs, lowest_bit(left), bits[lowest_bit(left)], child);
+    finish_pairs(&pairs);
     for (; packets != 0; packets &= packets - 1) {
         const uint number = lowest_bit(packets);
-        const UInt before = beam->hits[number].id;
-        Hit hit = read_hit(&beam->hits[number]);
-        Ray ray = *beam->packets[number].rays.ray;
-        ray.active = lanes_of(bits[number]);
-        for (uint slot = 0; slot < WIDE && block->id[slot] != NOTHING; slot++) {
-            const Sphere sphere = block_sphere(block, slot);
-            const uint id = block->id[slot];
-            accept_sphere(leaf_sphere_distance(&sphere, &ray, (UInt)(id)), id, &hit);
-            if (CLRT_STATISTICS)
-                beam->tracer->tally->sphere_tests += popcount(bits[number]);
-        }
-        if (!any_lane(hit.id != before))
-            continue;
-        beam->hits[number] = read_hit(&hit);
-        update_packet(beam, number);
-        any = true;
+        any |= pairs.changed[number];
+        if (pairs.changed[number] != 0)
+            update_packet(beam, number);
     }
-    return any;
+    return any != 0;
 }
 
 // Tests a block of spheres or, among its triangles, `others`.

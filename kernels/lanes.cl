@@ -234,6 +234,16 @@ static inline Real stored_real(UInt word)
 {
     return as_real(word);
 }
+
+static inline float lane_real(const Real *lanes, uint lane)
+{
+    return ((const float *)lanes)[lane];
+}
+
+static inline uint lane_uint(const UInt *lanes, uint lane)
+{
+    return ((const uint *)lanes)[lane];
+}
 #endif
 
 #endif

@@ -222,18 +222,10 @@ static inline Mask may_meet_before(const Sphere *bound, Real3 origin, Real3 d, R
     return is_near && !(ahead > 0.0f && ahead * ahead > 1.01f * reach * dd);
 }
 
-// Returns the smallest t > 0 at which origin + t * direction hits the sphere. Returns INFINITY if
-// the ray misses or its lane is not wanted. A ray from inside hits the far wall.
-static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
+// Returns the smallest t > 0 at which origin + t * direction hits the sphere, and INFINITY if the
+// ray misses. A ray from inside hits the far wall.
+static inline Real exact_sphere_distance(const Sphere *sphere, Real3 origin, Real3 d)
 {
-    if (!any_lane(wanted))
-        return INFINITY;
-    Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
-    if (!any_lane(is_near))
-        return INFINITY;
-    is_near = is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
-    if (!any_lane(is_near))
-        return INFINITY;
     const TwoFloat3 f = sphere_to_origin(sphere, origin);
     const TwoFloat rr = two_square(sphere->radius);
     const Real dd = dot_product(d, d);
@@ -246,7 +238,23 @@ static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, 
     const Real far = one < other ? other : one;
     const Real first = far > 0.0f ? far : INFINITY;
     const Real t = near > 0.0f ? near : first;
-    return is_near && discriminant >= 0.0f ? t : INFINITY;
+    return discriminant >= 0.0f ? t : INFINITY;
+}
+
+// Returns exact_sphere_distance in the wanted lanes, and INFINITY in the others. Most spheres need
+// no two-float test.
+static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
+{
+    if (!any_lane(wanted))
+        return INFINITY;
+    Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
+    if (!any_lane(is_near))
+        return INFINITY;
+    is_near = is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
+    if (!any_lane(is_near))
+        return INFINITY;
+    const Real t = exact_sphere_distance(sphere, origin, d);
+    return is_near ? t : INFINITY;
 }
 
 // Returns the hit point at t. The ray's point at t is projected onto the sphere, so the result's

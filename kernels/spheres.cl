@@ -64,55 +64,9 @@ static inline void intersect_all_spheres(const Tracer *tracer, const Ray *ray, H
 
 #if CLRT_WIDE_NODES
 
-// The searches share one copy of the test. Scenes of few spheres have another one in their loop,
-// where calling it would take 4 % of their time.
-static NOT_INLINE Real leaf_sphere_distance(const Sphere *sphere, const Ray *ray, UInt id)
-{
-    return sphere_ray_distance(sphere, ray, id);
-}
-
 static inline bool has_sphere_tree(const Tracer *tracer)
 {
     return CLRT_SPHERES && CLRT_BVH && tracer->frame->sphere_root != NOTHING;
-}
-
-static inline global const SphereBlock *sphere_block(const Tracer *tracer, uint child)
-{
-    global const SphereBlock *blocks =
-        (global const SphereBlock *)(tracer->spheres + tracer->frame->sphere_count);
-    return blocks + (child & ~WIDE_SPHERES);
-}
-
-// Returns the same sphere of a block in all lanes.
-static inline Sphere block_sphere(global const SphereBlock *block, uint slot)
-{
-    return (Sphere){{two_stored(block->center[0][slot], block->center_low[0][slot]),
-                     two_stored(block->center[1][slot], block->center_low[1][slot]),
-                     two_stored(block->center[2][slot], block->center_low[2][slot])},
-                    two_stored(block->radius[slot], block->radius_low[slot])};
-}
-
-// Reads CLRT_LANES numbers of a row. 16 lanes get the row twice.
-#if CLRT_LANES == 16
-#define ROW_LANES(type, row) ((type)(vload8(0, row), vload8(0, row)))
-#elif CLRT_LANES == 8
-#define ROW_LANES(type, row) vload8(0, row)
-#else
-#define ROW_LANES(type, row) vload4(0, row)
-#endif
-
-static inline TwoFloat row_pair(global const float *high, global const float *low)
-{
-    return (TwoFloat){ROW_LANES(Real, high), ROW_LANES(Real, low)};
-}
-
-// Returns the spheres of a block from slot `first` on, one per lane.
-static inline Sphere block_spheres(global const SphereBlock *block, uint first)
-{
-    return (Sphere){{row_pair(block->center[0] + first, block->center_low[0] + first),
-                     row_pair(block->center[1] + first, block->center_low[1] + first),
-                     row_pair(block->center[2] + first, block->center_low[2] + first)},
-                    row_pair(block->radius + first, block->radius_low + first)};
 }
 
 #else

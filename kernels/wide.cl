@@ -9,20 +9,9 @@
 #ifndef CLRT_WIDE_CL
 #define CLRT_WIDE_CL
 #include "accept.cl"
-#include "spheres.cl"
-#include "wide_stack.cl"
+#include "sphere_blocks.cl"
 
 #if CLRT_WIDE_NODES
-
-static inline float lane_real(const Real *lanes, uint lane)
-{
-    return ((const float *)lanes)[lane];
-}
-
-static inline uint lane_uint(const UInt *lanes, uint lane)
-{
-    return ((const uint *)lanes)[lane];
-}
 
 // Returns search_reach for one lane.
 static inline float lane_reach(const Search *search, const Hit *hits, uint lane)
@@ -196,45 +185,6 @@ static ALWAYS_INLINE bool intersect_block(const BlockPlace *start, const Search 
     return changed;
 }
 
-// Returns a lane's ray in all lanes.
-static inline Ray ray_of_lane(const Ray *ray, uint lane)
-{
-    const Real3 o = ray->origin, d = ray->direction;
-    return (Ray){{lane_real(&o.x, lane), lane_real(&o.y, lane), lane_real(&o.z, lane)},
-                 {lane_real(&d.x, lane), lane_real(&d.y, lane), lane_real(&d.z, lane)},
-                 (UInt)(lane_uint(&ray->own, lane)),
-                 (UInt)(lane_uint(&ray->own_index, lane)),
-                 ray->kind,
-                 0};
-}
-
-// Tests a block's spheres against the lane's ray. Returns whether the ray's hit changed.
-static NOT_INLINE bool intersect_sphere_block(const Search *search, uint lane, uint child,
-                                              Hit *hits)
-{
-    global const SphereBlock *block = sphere_block(search->tracer, child);
-    Ray ray = ray_of_lane(search->ray, lane);
-    bool changed = false;
-    for (uint first = 0; first < WIDE; first += CLRT_LANES) {
-        const UInt ids = ROW_LANES(UInt, block->id + first);
-        const Sphere spheres = block_spheres(block, first);
-        ray.active = lanes_of((1u << WIDE) - 1) && ids != NOTHING;
-        const Real t = leaf_sphere_distance(&spheres, &ray, ids);
-        uint candidates = lane_bits(t <= lane_real(&hits->t, lane) && t < INFINITY);
-        for (; candidates != 0; candidates &= candidates - 1) {
-            const uint place = lowest_bit(candidates);
-            const Real distance = (Real)(lane_real(&t, place));
-            const UInt id = (UInt)(lane_uint(&ids, place));
-            const Mask precedes = lanes_of(1u << lane) && hit_precedes(distance, id, hits);
-            hits->t = precedes ? distance : hits->t;
-            hits->id = precedes ? id : hits->id;
-            hits->index = precedes ? id : hits->index;
-            changed |= any_lane(precedes);
-        }
-    }
-    return changed;
-}
-
 static inline bool has_spheres(uint leaf)
 {
     return CLRT_SPHERES && leaf >= WIDE_SPHERES;
@@ -311,33 +261,43 @@ static inline void visit_nodes(LaneSearches *searches)
     }
 }
 
-// Tests a block against the lane's ray. Returns whether the ray's hit changed.
-static inline bool visit_leaf(const Search *search, uint lane, uint child, Hit *hits)
+// Tests the blocks of the given lanes, which have spheres. Returns the lanes whose hits changed.
+static NOT_INLINE uint visit_spheres(LaneSearches *searches, uint bits)
 {
-    Tally *tally = search->tracer->tally;
-    if (has_spheres(child)) {
-        if (CLRT_STATISTICS)
-            tally->sphere_tests += WIDE;
-        return intersect_sphere_block(search, lane, child, hits);
-    }
+    const Search *search = searches->search;
+    SpherePairs pairs;
+    start_pairs(&pairs, search->tracer, search->ray, searches->hits);
+    for (; bits != 0; bits &= bits - 1)
+        pair_ray(&pairs, 0, lowest_bit(bits), searches->child[lowest_bit(bits)]);
+    finish_pairs(&pairs);
+    return pairs.changed[0];
+}
+
+// Tests the block's triangles against the lane's ray. Returns whether the ray's hit changed.
+static inline bool visit_triangles(const Search *search, uint lane, uint child, Hit *hits)
+{
     const BlockPlace start = block_start(search->tracer, child & ~WIDE_LEAF);
     if (CLRT_STATISTICS)
-        tally->triangle_tests += WIDE;
+        search->tracer->tally->triangle_tests += WIDE;
     return intersect_block(&start, search, lane, hits);
 }
 
 // Tests the block of each lane that is at a block. The lane then advances, unless a new hit ends
-// its search.
+// its search. All lanes search the same tree.
 static inline void visit_leaves(LaneSearches *searches)
 {
     const bool any_hit = ends_at_any_hit(searches->search->ray->kind);
-    uint bits = searches->leaves;
+    uint bits = searches->leaves, changed = 0;
+    const bool spheres = bits != 0 && has_spheres(searches->child[lowest_bit(bits)]);
     searches->leaves = 0;
+    if (spheres)
+        changed = visit_spheres(searches, bits);
     for (; bits != 0; bits &= bits - 1) {
         const uint lane = lowest_bit(bits);
-        const bool changed =
-            visit_leaf(searches->search, lane, searches->child[lane], searches->hits);
-        if (!any_hit || !changed)
+        if (!spheres &&
+            visit_triangles(searches->search, lane, searches->child[lane], searches->hits))
+            changed |= 1u << lane;
+        if (!any_hit || (changed >> lane & 1) == 0)
             advance_lane(searches, lane);
         else
             searches->ended |= 1u << lane;
