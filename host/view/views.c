@@ -12,10 +12,11 @@ bool views_open(Views *views, Error *no_font, Error *error)
 {
     *views = (Views){0};
     target_open(&views->target);
+    ray_view_open(&views->rays);
     return triangle_view_open(&views->triangles, error) &&
            sphere_view_open(&views->spheres, error) &&
            line_view_open(&views->boxes, false, error) &&
-           line_view_open(&views->normals, true, error) && ray_view_open(&views->rays, error) &&
+           line_view_open(&views->normals, true, error) &&
            text_view_open(&views->text, no_font, error);
 }
 
@@ -129,10 +130,8 @@ static bool draw(Views *views, const Frame *frame, uint32_t factor, Error *error
     glDepthFunc(GL_LEQUAL);
     if (!state->traced || state->boxes || state->normals || !has_picture(frame->canvas))
         draw_scene(views, frame, &lens);
-    glDisable(GL_DEPTH_TEST);
     if (state->traced)
         ray_view_draw(&views->rays, frame->canvas, width, height);
-    glEnable(GL_DEPTH_TEST);
     const bool ok = draw_lines(views, frame, &lens, error);
     glDisable(GL_CLIP_DISTANCE0);
     glDisable(GL_DEPTH_CLAMP);

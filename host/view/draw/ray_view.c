@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Copies the canvas's layers into textures and draws them. Only new tiles are uploaded. A picture
-// with the target's size is drawn without filtering.
+// Copies the canvas's layers into textures, and blits the textures. Only new tiles are uploaded. A
+// picture with the target's size is not filtered.
 #include "view/draw/ray_view.h"
 
-bool ray_view_open(RayView *view, Error *error)
+void ray_view_open(RayView *view)
 {
-    static const DrawingLayout layout = {.shader = shader_picture};
     *view = (RayView){0};
     for (int layer = 0; layer < CANVAS_LAYERS; layer++) {
-        glGenTextures(1, &view->copies[layer].texture);
-        glBindTexture(GL_TEXTURE_2D, view->copies[layer].texture);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        LayerCopy *copy = &view->copies[layer];
+        glGenTextures(1, &copy->texture);
+        glGenFramebuffers(1, &copy->frame);
+        glBindTexture(GL_TEXTURE_2D, copy->texture);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, copy->frame);
+        glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                               copy->texture, 0);
     }
-    return drawing_open(&view->drawing, &layout, error);
 }
 
 void ray_view_close(RayView *view)
 {
-    for (int layer = 0; layer < CANVAS_LAYERS; layer++)
+    for (int layer = 0; layer < CANVAS_LAYERS; layer++) {
+        glDeleteFramebuffers(1, &view->copies[layer].frame);
         glDeleteTextures(1, &view->copies[layer].texture);
-    drawing_close(&view->drawing);
+    }
     *view = (RayView){0};
 }
 
@@ -37,8 +39,8 @@ static void update_copy(LayerCopy *copy, const Layer *layer)
     const RenderSettings *settings = &layer->settings;
     glBindTexture(GL_TEXTURE_2D, copy->texture);
     if (copy->pass != layer->pass) {
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, (GLsizei)settings->width, (GLsizei)settings->height,
-                     0, GL_RGB, GL_UNSIGNED_BYTE, NULL);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, (GLsizei)settings->width,
+                     (GLsizei)settings->height, 0, GL_RGB, GL_UNSIGNED_BYTE, NULL);
         copy->pass = layer->pass;
         copy->tiles = 0;
     }
@@ -51,10 +53,13 @@ static void update_copy(LayerCopy *copy, const Layer *layer)
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-static void draw_part(GLint x, GLint y, GLint width, GLint height)
+// Blits the picture's columns [0, right) and rows [top, bottom) to the target, which has the same
+// size. The picture's first row is at the top, and the target's first row is at the bottom.
+static void blit_part(const Layer *layer, GLint top, GLint right, GLint bottom)
 {
-    glScissor(x, y, width, height);
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    const GLint height = (GLint)layer->settings.height;
+    glBlitFramebuffer(0, top, right, bottom, 0, height - top, right, height - bottom,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 // Draws the complete rows of tiles, and the finished part of the next row.
@@ -66,10 +71,9 @@ static void draw_done(const Layer *layer)
     const GLint rows = (GLint)(layer->tiles_done / columns * settings->tile_height);
     const GLint part = (GLint)(layer->tiles_done % columns * settings->tile_width);
     const GLint done = rows < height ? rows : height;
-    draw_part(0, height - done, width, done);
     const GLint next = done + (GLint)settings->tile_height;
-    const GLint bottom = next < height ? next : height;
-    draw_part(0, height - bottom, part, bottom - done);
+    blit_part(layer, 0, width, done);
+    blit_part(layer, done, part, next < height ? next : height);
 }
 
 static bool has_size(const Layer *layer, uint32_t width, uint32_t height)
@@ -79,27 +83,22 @@ static bool has_size(const Layer *layer, uint32_t width, uint32_t height)
 
 static void draw_layer(LayerCopy *copy, const Layer *layer, uint32_t width, uint32_t height)
 {
-    const bool is_exact = has_size(layer, width, height);
     update_copy(copy, layer);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, is_exact ? GL_NEAREST : GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, is_exact ? GL_NEAREST : GL_LINEAR);
-    if (is_exact)
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, copy->frame);
+    if (has_size(layer, width, height))
         draw_done(layer);
     else
-        draw_part(0, 0, (GLint)width, (GLint)height);
+        glBlitFramebuffer(0, 0, (GLint)layer->settings.width, (GLint)layer->settings.height, 0,
+                          (GLint)height, (GLint)width, 0, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 
 void ray_view_draw(RayView *view, Canvas *canvas, uint32_t width, uint32_t height)
 {
     pthread_mutex_lock(&canvas->mutex);
     const Layer *whole = canvas_whole(canvas), *unfinished = canvas_unfinished(canvas);
-    drawing_use(&view->drawing);
-    glEnable(GL_SCISSOR_TEST);
     if (whole != NULL)
         draw_layer(&view->copies[whole - canvas->layers], whole, width, height);
     if (unfinished != NULL && has_size(unfinished, width, height))
         draw_layer(&view->copies[unfinished - canvas->layers], unfinished, width, height);
-    glDisable(GL_SCISSOR_TEST);
-    glBindVertexArray(0);
     pthread_mutex_unlock(&canvas->mutex);
 }

@@ -4,20 +4,20 @@
 #pragma once
 
 #include "view/draw/canvas.h"
-#include "view/draw/shader.h"
+
+#include <epoxy/gl.h>
 
 // OpenGL's copy of a layer.
 typedef struct {
-    GLuint texture;
+    GLuint texture, frame; // the frame reads the texture
     uint64_t pass, tiles;
 } LayerCopy;
 
 typedef struct {
-    Drawing drawing;
     LayerCopy copies[CANVAS_LAYERS];
 } RayView;
 
-bool ray_view_open(RayView *view, Error *error);
+void ray_view_open(RayView *view);
 void ray_view_close(RayView *view);
 
 // Draws the canvas over the whole target, which has width x height pixels.

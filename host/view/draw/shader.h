@@ -11,8 +11,7 @@
 
 // The shaders of host/view/shaders. tools/embed_shaders.cmake embeds them with their included
 // files.
-extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_picture[],
-    shader_text[];
+extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_text[];
 
 // An attribute of a shader. Buffer 0 contains attributes per vertex. Buffer 1 contains attributes
 // per instance or, for meshes, the corners of triangles.
