@@ -131,13 +131,13 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
 // at HEIGHT_PLACE, holds the eye's height above the sphere.
 #define SPHERE_NUMBERS (4 + 4 * MATERIAL_VECTORS)
 #define HEIGHT_PLACE   13
+#define CUBE_VERTICES  36 // of the cube's triangles (spheres.glsl)
 
 bool sphere_view_open(SphereView *view, Error *error)
 {
     static const DrawingLayout layout = {shader_spheres,
-                                         {3 * sizeof(float), SPHERE_NUMBERS * sizeof(float)},
-                                         {{"corner", 0, 3, 0},
-                                          {"sphere", 1, 4, 0},
+                                         {0, SPHERE_NUMBERS * sizeof(float)},
+                                         {{"sphere", 1, 4, 0},
                                           {"diffuse", 1, 4, 4 * sizeof(float)},
                                           {"specular", 1, 4, 8 * sizeof(float)},
                                           {"look", 1, 4, 12 * sizeof(float)},
@@ -145,9 +145,7 @@ bool sphere_view_open(SphereView *view, Error *error)
                                           {"odd", 1, 4, 20 * sizeof(float)},
                                           {"shift", 1, 4, 24 * sizeof(float)}}};
     *view = (SphereView){0};
-    const bool ok = drawing_open(&view->drawing, &layout, error);
-    cube_fill_faces(&view->drawing);
-    return ok;
+    return drawing_open(&view->drawing, &layout, error);
 }
 
 void sphere_view_close(SphereView *view)
@@ -193,25 +191,25 @@ void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, co
     // Draws only back faces, which cover the sphere even if the eye is inside the cube.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
-    glDrawArraysInstanced(GL_TRIANGLES, 0, CUBE_FACE_VERTICES, (GLsizei)count);
+    glDrawArraysInstanced(GL_TRIANGLES, 0, CUBE_VERTICES, (GLsizei)count);
     glCullFace(GL_BACK);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(0);
 }
 
 // The following functions draw each box as an instance of a cube's edges, or of a cube's diagonal.
+// The diagonal's two vertices follow the vertices of the edges (lines.glsl).
+
+#define EDGE_VERTICES 24
 
 bool line_view_open(LineView *view, bool is_diagonal, Error *error)
 {
-    static const DrawingLayout layout = {shader_lines,
-                                         {3 * sizeof(float), sizeof(Box)},
-                                         {{"corner", 0, 3, 0},
-                                          {"low", 1, 3, offsetof(Box, low)},
-                                          {"high", 1, 3, offsetof(Box, high)}}};
+    static const DrawingLayout layout = {
+        shader_lines,
+        {0, sizeof(Box)},
+        {{"low", 1, 3, offsetof(Box, low)}, {"high", 1, 3, offsetof(Box, high)}}};
     *view = (LineView){.is_diagonal = is_diagonal};
-    const bool ok = drawing_open(&view->drawing, &layout, error);
-    cube_fill_edges(&view->drawing);
-    return ok;
+    return drawing_open(&view->drawing, &layout, error);
 }
 
 void line_view_load(LineView *view, const Box *boxes, size_t count)
@@ -226,9 +224,9 @@ void line_view_draw(const LineView *view, const Lens *lens, const float color[3]
     lens_apply(lens, view->drawing.program);
     shader_set_vector(view->drawing.program, "paint", color);
     if (view->is_diagonal)
-        glDrawArraysInstanced(GL_LINES, CUBE_EDGE_VERTICES, 2, (GLsizei)view->count);
+        glDrawArraysInstanced(GL_LINES, EDGE_VERTICES, 2, (GLsizei)view->count);
     else
-        glDrawArraysInstanced(GL_LINES, 0, CUBE_EDGE_VERTICES, (GLsizei)view->count);
+        glDrawArraysInstanced(GL_LINES, 0, EDGE_VERTICES, (GLsizei)view->count);
     glBindVertexArray(0);
 }
 

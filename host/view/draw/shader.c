@@ -108,33 +108,6 @@ void shader_set_vector(GLuint program, const char *name, const float v[3])
     glUniform3fv(glGetUniformLocation(program, name), 1, v);
 }
 
-// Fills a buffer with cube corners. Bit n of a corner's number selects its coordinate along axis n:
-// 1 if the bit is set, and otherwise `low`.
-static void fill_cube(const Drawing *drawing, const unsigned char *corners, int count, float low)
-{
-    float vertices[CUBE_FACE_VERTICES][3];
-    for (int i = 0; i < count; i++)
-        for (int axis = 0; axis < 3; axis++)
-            vertices[i][axis] = (corners[i] >> axis & 1) != 0 ? 1 : low;
-    drawing_fill(drawing, 0, vertices, (size_t)count * sizeof vertices[0]);
-}
-
-void cube_fill_faces(const Drawing *drawing)
-{
-    // The corners of each triangle are counter-clockwise, seen from outside.
-    static const unsigned char corners[CUBE_FACE_VERTICES] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
-                                                              0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3,
-                                                              0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
-    fill_cube(drawing, corners, CUBE_FACE_VERTICES, -1);
-}
-
-void cube_fill_edges(const Drawing *drawing)
-{
-    static const unsigned char corners[CUBE_EDGE_VERTICES + 2] = {
-        0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4, 6, 5, 7, 0, 4, 1, 5, 2, 6, 3, 7, 0, 7};
-    fill_cube(drawing, corners, CUBE_EDGE_VERTICES + 2, 0);
-}
-
 // The following functions convert a camera. The camera's step is half a pixel, so half the
 // picture's width is `width` steps.
 

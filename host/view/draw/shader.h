@@ -48,14 +48,6 @@ void drawing_fill(const Drawing *drawing, int buffer, const void *bytes, size_t 
 // Sets a uniform of the current program. Ignores names that the program does not use.
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
 
-// Vertices of a cube, with coordinates -1 or 1 for faces, and 0 or 1 for edges.
-#define CUBE_FACE_VERTICES 36
-#define CUBE_EDGE_VERTICES 24 // followed by two vertices of a diagonal
-
-// These functions fill buffer 0 with triangles or lines, three floats per vertex.
-void cube_fill_faces(const Drawing *drawing);
-void cube_fill_edges(const Drawing *drawing);
-
 // The following declarations convert the scene's lights and materials to the uniforms of
 // shaders/light.glsl.
 

@@ -2,7 +2,6 @@
 // Intersects a sphere with each pixel's ray. A cube around the sphere selects the pixels.
 #include "lens.glsl"
 #ifdef VERTEX
-in vec3 corner;
 in vec4 sphere; // center relative to the eye, and radius
 in vec4 diffuse, specular;
 in vec4 look; // the second number is the eye's height above the sphere
@@ -10,8 +9,15 @@ in vec4 even, odd, shift;
 flat out vec4 sphere_shown, diffuse_shown, specular_shown, look_shown;
 flat out vec4 even_shown, odd_shown, shift_shown;
 
+// The triangles of a cube, counter-clockwise seen from outside. Bit n of a corner selects its side
+// along axis n.
+const int corners[36] = int[](0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                              2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5);
+
 void main()
 {
+    int corner = corners[gl_VertexID];
+    vec3 side = vec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1) * 2.0 - 1.0;
     sphere_shown = sphere;
     diffuse_shown = diffuse;
     specular_shown = specular;
@@ -19,7 +25,7 @@ void main()
     even_shown = even;
     odd_shown = odd;
     shift_shown = shift;
-    gl_Position = projected(sphere.xyz + 1.01 * sphere.w * corner);
+    gl_Position = projected(sphere.xyz + 1.01 * sphere.w * side);
 }
 #else
 #include "light.glsl"
