@@ -93,10 +93,10 @@ static float width_of(const Font *font, const char *text, size_t length)
 bool text_view_open(TextView *view, Error *no_font, Error *error)
 {
     static const DrawingLayout layout = {shader_text,
-                                         {sizeof(TextVertex), 0},
-                                         {{"position", 0, 2, offsetof(TextVertex, x)},
-                                          {"texel", 0, 2, offsetof(TextVertex, u)},
-                                          {"tint", 0, 4, offsetof(TextVertex, color)}}};
+                                         {0, sizeof(TextQuad)},
+                                         {{"first", 1, 4, offsetof(TextQuad, place.x0)},
+                                          {"last", 1, 4, offsetof(TextQuad, place.x1)},
+                                          {"tint", 1, 4, offsetof(TextQuad, color)}}};
     *view = (TextView){0};
     find_font(&view->font, no_font);
     glGenTextures(1, &view->font.texture);
@@ -108,24 +108,16 @@ void text_view_close(TextView *view)
     drawing_close(&view->drawing);
     glDeleteTextures(1, &view->font.texture);
     file_free(&view->font.file);
-    free(view->corners.memory);
+    free(view->quads.memory);
     *view = (TextView){0};
 }
 
 // Adds a character's rectangle to the text to draw. If memory runs out, the character is missing.
-static void add_quad(TextView *view, const stbtt_aligned_quad *quad, const float color[4])
+static void add_quad(TextView *view, const stbtt_aligned_quad *place, const float color[4])
 {
-    static const int places[6] = {0, 1, 2, 2, 1, 3};
     Error error = {0};
-    for (int i = 0; i < 6; i++) {
-        const bool right = places[i] & 1, low = places[i] & 2;
-        TextVertex corner = {right ? quad->x1 : quad->x0,
-                             low ? quad->y1 : quad->y0,
-                             right ? quad->s1 : quad->s0,
-                             low ? quad->t1 : quad->t0,
-                             {color[0], color[1], color[2], color[3]}};
-        (void)array_push(&view->corners, corner, &error);
-    }
+    const TextQuad quad = {*place, {color[0], color[1], color[2], color[3]}};
+    (void)array_push(&view->quads, quad, &error);
 }
 
 // The position and style of the next character.
@@ -211,14 +203,14 @@ static void put_text(Pen *pen, const char *text)
     pen->y += MARGIN / 2 * pen->size;
 }
 
-static void draw_corners(TextView *view)
+static void draw_quads(TextView *view)
 {
     drawing_use(&view->drawing);
-    drawing_fill(&view->drawing, 0, view->corners.data, view->corners.count * sizeof(TextVertex));
+    drawing_fill(&view->drawing, 1, view->quads.data, view->quads.count * sizeof(TextQuad));
     glBindTexture(GL_TEXTURE_2D, view->font.texture);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)view->corners.count);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)view->quads.count);
     glDisable(GL_BLEND);
     glBindVertexArray(0);
 }
@@ -238,13 +230,13 @@ static float draw_text(TextView *view, const char *text, const TextOverlay *over
     if (view->font.size != pen.size)
         set_size(&view->font, pen.size);
     const float texel = 0.5f / (float)view->font.side;
-    view->corners.count = 0;
+    view->quads.count = 0;
     add_quad(view,
              &(stbtt_aligned_quad){0, top, texel, texel, pen.widest + start.x, pen.y, texel, texel},
              ground);
     start.draws = true;
     put_text(&start, text);
-    draw_corners(view);
+    draw_quads(view);
     return pen.y;
 }
 

@@ -19,14 +19,16 @@ typedef struct {
     stbtt_bakedchar glyphs[FONT_CHARACTERS];
 } Font;
 
+// A character's rectangle in the window and in the texture.
 typedef struct {
-    float x, y, u, v, color[4];
-} TextVertex;
+    stbtt_aligned_quad place;
+    float color[4];
+} TextQuad;
 
 typedef struct {
     Drawing drawing;
     Font font;
-    ARRAY(TextVertex) corners; // of the text to draw
+    ARRAY(TextQuad) quads; // of the text to draw
 } TextView;
 
 typedef struct {
