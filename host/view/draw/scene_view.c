@@ -3,7 +3,6 @@
 // cast in each pixel, and boxes and normals as lines.
 #include "view/draw/scene_view.h"
 
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,11 +19,8 @@ typedef struct {
 
 bool triangle_view_open(Drawing *view, Error *error)
 {
-    static const DrawingLayout layout = {shader_triangles,
-                                         {sizeof(DrawnVertex), 0},
-                                         {{"position", 0, 3, offsetof(DrawnVertex, position)},
-                                          {"normal", 0, 3, offsetof(DrawnVertex, normal)},
-                                          [TINT] = {"tint", 0, 3, 0}}};
+    static const DrawingLayout layout = {
+        shader_triangles, false, {{"position", 3}, {"normal", 3}, [TINT] = {"tint", 0}}};
     return drawing_open(view, &layout, error);
 }
 
@@ -136,14 +132,14 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
 bool sphere_view_open(SphereView *view, Error *error)
 {
     static const DrawingLayout layout = {shader_spheres,
-                                         {0, SPHERE_NUMBERS * sizeof(float)},
-                                         {{"sphere", 1, 4, 0},
-                                          {"diffuse", 1, 4, 4 * sizeof(float)},
-                                          {"specular", 1, 4, 8 * sizeof(float)},
-                                          {"look", 1, 4, 12 * sizeof(float)},
-                                          {"even", 1, 4, 16 * sizeof(float)},
-                                          {"odd", 1, 4, 20 * sizeof(float)},
-                                          {"shift", 1, 4, 24 * sizeof(float)}}};
+                                         true,
+                                         {{"sphere", 4},
+                                          {"diffuse", 4},
+                                          {"specular", 4},
+                                          {"look", 4},
+                                          {"even", 4},
+                                          {"odd", 4},
+                                          {"shift", 4}}};
     *view = (SphereView){0};
     return drawing_open(&view->drawing, &layout, error);
 }
@@ -187,7 +183,7 @@ void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, co
     drawing_use(&view->drawing);
     lens_apply(lens, view->drawing.program);
     light_apply(scene, &model->normalization, tone, view->drawing.program);
-    drawing_fill(&view->drawing, 1, view->numbers.data, SPHERE_NUMBERS * count * sizeof(float));
+    drawing_fill(&view->drawing, 0, view->numbers.data, SPHERE_NUMBERS * count * sizeof(float));
     // Draws only back faces, which cover the sphere even if the eye is inside the cube.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
@@ -204,10 +200,7 @@ void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, co
 
 bool line_view_open(LineView *view, bool is_diagonal, Error *error)
 {
-    static const DrawingLayout layout = {
-        shader_lines,
-        {0, sizeof(Box)},
-        {{"low", 1, 3, offsetof(Box, low)}, {"high", 1, 3, offsetof(Box, high)}}};
+    static const DrawingLayout layout = {shader_lines, true, {{"low", 3}, {"high", 3}}};
     *view = (LineView){.is_diagonal = is_diagonal};
     return drawing_open(&view->drawing, &layout, error);
 }
@@ -215,7 +208,7 @@ bool line_view_open(LineView *view, bool is_diagonal, Error *error)
 void line_view_load(LineView *view, const Box *boxes, size_t count)
 {
     view->count = (uint32_t)count;
-    drawing_fill(&view->drawing, 1, boxes, count * sizeof *boxes);
+    drawing_fill(&view->drawing, 0, boxes, count * sizeof *boxes);
 }
 
 void line_view_draw(const LineView *view, const Lens *lens, const float color[3])

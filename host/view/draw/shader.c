@@ -59,15 +59,17 @@ bool drawing_open(Drawing *drawing, const DrawingLayout *layout, Error *error)
     glGenVertexArrays(1, &drawing->array);
     glGenBuffers(2, drawing->buffers);
     glBindVertexArray(drawing->array);
-    for (GLuint i = 0; i < ATTRIBUTES_MOST && layout->attributes[i].name != NULL; i++) {
-        const Attribute *attribute = &layout->attributes[i];
-        const int buffer = attribute->buffer;
-        glBindBuffer(GL_ARRAY_BUFFER, drawing->buffers[buffer]);
-        glVertexAttribPointer(i, attribute->floats, GL_FLOAT, GL_FALSE,
-                              (GLsizei)layout->sizes[buffer], (void *)attribute->offset);
+    glBindBuffer(GL_ARRAY_BUFFER, drawing->buffers[0]);
+    GLint stride = 0, offset = 0; // in floats
+    for (int i = 0; i < ATTRIBUTES_MOST; i++)
+        stride += layout->attributes[i].floats;
+    for (GLuint i = 0; i < ATTRIBUTES_MOST && layout->attributes[i].floats > 0; i++) {
+        const GLint floats = layout->attributes[i].floats;
+        glVertexAttribPointer(i, floats, GL_FLOAT, GL_FALSE, stride * (GLint)sizeof(float),
+                              (void *)((size_t)offset * sizeof(float)));
         glEnableVertexAttribArray(i);
-        if (buffer == 1)
-            glVertexAttribDivisor(i, 1);
+        glVertexAttribDivisor(i, layout->has_instances);
+        offset += floats;
     }
     glBindVertexArray(0);
     return build(drawing->program, layout, error);

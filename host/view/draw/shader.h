@@ -13,24 +13,20 @@
 // files.
 extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_text[];
 
-// An attribute of a shader. Buffer 0 contains attributes per vertex. Buffer 1 contains attributes
-// per instance or, for meshes, the corners of triangles.
-typedef struct {
-    const char *name;
-    int buffer;
-    GLint floats; // number of floats
-    size_t offset;
-} Attribute;
-
 #define ATTRIBUTES_MOST 8
 
+// A shader and its attributes. Each element of buffer 0, a vertex or an instance, has the floats of
+// all attributes, in this order.
 typedef struct {
     const char *shader;
-    size_t sizes[2];                       // bytes per element of each buffer
-    Attribute attributes[ATTRIBUTES_MOST]; // unused ones have no name
+    bool has_instances;
+    struct {
+        const char *name; // NULL if unused
+        GLint floats;     // 0 if the caller sets the attribute's pointer
+    } attributes[ATTRIBUTES_MOST];
 } DrawingLayout;
 
-// A program and the buffers that it reads.
+// A program and its buffers: the attributes, and the corners of triangles.
 typedef struct {
     GLuint program, array, buffers[2];
 } Drawing;

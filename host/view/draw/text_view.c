@@ -6,7 +6,6 @@
 #include "view/draw/text_view.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -92,11 +91,8 @@ static float width_of(const Font *font, const char *text, size_t length)
 
 bool text_view_open(TextView *view, Error *no_font, Error *error)
 {
-    static const DrawingLayout layout = {shader_text,
-                                         {0, sizeof(TextQuad)},
-                                         {{"first", 1, 4, offsetof(TextQuad, place.x0)},
-                                          {"last", 1, 4, offsetof(TextQuad, place.x1)},
-                                          {"tint", 1, 4, offsetof(TextQuad, color)}}};
+    static const DrawingLayout layout = {
+        shader_text, true, {{"first", 4}, {"last", 4}, {"tint", 4}}};
     *view = (TextView){0};
     find_font(&view->font, no_font);
     glGenTextures(1, &view->font.texture);
@@ -206,7 +202,7 @@ static void put_text(Pen *pen, const char *text)
 static void draw_quads(TextView *view)
 {
     drawing_use(&view->drawing);
-    drawing_fill(&view->drawing, 1, view->quads.data, view->quads.count * sizeof(TextQuad));
+    drawing_fill(&view->drawing, 0, view->quads.data, view->quads.count * sizeof(TextQuad));
     glBindTexture(GL_TEXTURE_2D, view->font.texture);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
