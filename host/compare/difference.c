@@ -6,8 +6,8 @@
 
 #include "base/number.h"
 
+#include <jansson.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static float value_at(const StoredImage *image, size_t pixel, uint32_t channel)
@@ -217,28 +217,21 @@ enum { PRIMITIVE, SHADOW, BOUNCES, SAMPLES, CHANNELS };
 typedef struct {
     const StoredImage *image;
     int channels[CHANNELS]; // indices; -1 if missing
+    json_t *settings;       // NULL if the file has none; owned
     int level;              // value of --max-level; -1 if not recorded
 } Side;
 
-// Returns the integer after `name` in the image's settings, which are JSON without blanks. Returns
-// -1 if the settings lack `name`.
-static int setting_of(const StoredImage *image, const char *name)
-{
-    char pattern[32];
-    int value = -1;
-    const char *word = strstr(image->texts[STORED_SETTINGS], name);
-    snprintf(pattern, sizeof pattern, "%s%%9d", name);
-    return word != NULL && sscanf(word, pattern, &value) == 1 ? value : -1;
-}
-
 static Side side_of(const StoredImage *image)
 {
-    return (Side){.image = image,
-                  .channels = {stored_image_channel(image, DIFFERENCE_HITS),
-                               stored_image_channel(image, "shadow"),
-                               stored_image_channel(image, "bounces"),
-                               stored_image_channel(image, "samples")},
-                  .level = setting_of(image, "\"max_level\":")};
+    Side side = {.image = image,
+                 .channels = {stored_image_channel(image, DIFFERENCE_HITS),
+                              stored_image_channel(image, "shadow"),
+                              stored_image_channel(image, "bounces"),
+                              stored_image_channel(image, "samples")},
+                 .settings = json_loads(image->texts[STORED_SETTINGS], 0, NULL),
+                 .level = -1};
+    json_unpack(side.settings, "{s:i}", "max_level", &side.level);
+    return side;
 }
 
 static bool is_complete(const Side *side)
@@ -272,19 +265,6 @@ static bool is_truncated(const Side sides[2], size_t pixel)
            bounces[shorter] >= (float)(sides[shorter].level - 1);
 }
 
-// Returns whether the settings of both pictures have the same entry "samples".
-static bool have_same_grid(const Side sides[2])
-{
-    const char *words[2];
-    for (int i = 0; i < 2; i++) {
-        words[i] = strstr(sides[i].image->texts[STORED_SETTINGS], "\"samples\":");
-        if (words[i] == NULL)
-            return false;
-    }
-    const size_t length = strcspn(words[0], ",}");
-    return length == strcspn(words[1], ",}") && strncmp(words[0], words[1], length) == 0;
-}
-
 static bool has_same_samples(const Side sides[2], size_t pixel)
 {
     return sides[0].channels[SAMPLES] < 0 || sides[1].channels[SAMPLES] < 0 ||
@@ -308,7 +288,8 @@ void causes_find(Causes *causes, const ComparedImages *compared)
     const Side sides[] = {side_of(compared->images[0]), side_of(compared->images[1])};
     const size_t pixels = (size_t)compared->images[0]->width * compared->images[0]->height;
     *causes = (Causes){.known = is_complete(&sides[0]) && is_complete(&sides[1])};
-    const bool same_grid = have_same_grid(sides);
+    const bool same_grid = json_equal(json_object_get(sides[0].settings, "samples"),
+                                      json_object_get(sides[1].settings, "samples"));
     for (size_t pixel = 0; causes->known && pixel < pixels; pixel++) {
         double squares = 0, largest = 0;
         for (int color = 0; color < 3; color++) {
@@ -323,4 +304,6 @@ void causes_find(Causes *causes, const ComparedImages *compared)
         causes->squares[cause] += squares;
         causes->pixels[cause] += largest > 0;
     }
+    json_decref(sides[0].settings);
+    json_decref(sides[1].settings);
 }
