@@ -48,21 +48,14 @@ static void visit_edges(MeshCensus *census, const Edges *edges, Fans *fans)
 static bool count_pinched(MeshCensus *census, const Fans *fans, Error *error)
 {
     const Mesh *mesh = fans->mesh;
-    bool *has_fan = memory_zeroed(mesh->vertex_count, sizeof *has_fan, error);
-    bool *is_pinched = memory_zeroed(mesh->vertex_count, sizeof *is_pinched, error);
-    const bool ok = has_fan != NULL && is_pinched != NULL;
-    for (uint32_t corner = 0; ok && corner < 3 * mesh->triangle_count; corner++) {
+    unsigned char *counts = memory_zeroed(mesh->vertex_count, 1, error); // fans by point, at most 2
+    for (uint32_t corner = 0; counts != NULL && corner < 3 * mesh->triangle_count; corner++) {
         const uint32_t point = fans->weld->points[mesh->triangles[corner / 3][corner % 3]];
-        if (fans->parents[corner] != corner)
-            continue;
-        if (has_fan[point] && !is_pinched[point]) {
+        if (fans->parents[corner] == corner && counts[point] < 2 && ++counts[point] == 2)
             mesh_fault_add(&census->faults[FAULT_PINCHED], corner / 3);
-            is_pinched[point] = true;
-        }
-        has_fan[point] = true;
     }
-    free(has_fan);
-    free(is_pinched);
+    const bool ok = counts != NULL;
+    free(counts);
     return ok;
 }
 
