@@ -110,26 +110,11 @@ void shader_set_vector(GLuint program, const char *name, const float v[3])
     glUniform3fv(glGetUniformLocation(program, name), 1, v);
 }
 
-// The following functions convert a camera. The camera's step is half a pixel, so half the
-// picture's width is `width` steps.
-
-// Points up to this distance have depth 0, so the point drawn last is visible. The distance is in
-// normalized coordinates, in which the longest side of the triangles' box is 1 to 2.
-#define NEAREST 0.01f
+// The following functions convert a camera.
 
 // The depth range of an orthographic picture ends at least this far behind the origin of normalized
 // coordinates. All triangles are within this distance of the origin.
 #define BEYOND 2
-
-// Stores a multiple of `step`. The dot product of this vector with a point of the picture is 1 at
-// the edge in the direction of `step` or, if `pixels` is negative, at the opposite edge. Points are
-// relative to the eye, and the picture is at distance 1.
-static void store_clip(float clip[3], const float step[4], double pixels)
-{
-    const Vec3 v = vec3_of_floats(step);
-    const double length = sqrt(vec3_dot(v, v));
-    vec3_store(clip, vec3_scale(v, 1 / (length * length * pixels)));
-}
 
 Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uint32_t width,
              uint32_t height)
@@ -137,12 +122,9 @@ Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uin
     Lens lens = {.camera = camera_make(viewpoint, normalization, width, height, 1),
                  .eye = normalize_point(normalization, viewpoint->eye),
                  .width = (float)width,
-                 .height = (float)height,
-                 .nearest = NEAREST};
+                 .height = (float)height};
     if (viewpoint->height > 0)
         lens.farthest = (float)(sqrt(vec3_dot(lens.eye, lens.eye)) + BEYOND);
-    store_clip(lens.clip_x, lens.camera.right_step, width);
-    store_clip(lens.clip_y, lens.camera.down_step, -(double)height);
     return lens;
 }
 
@@ -150,11 +132,8 @@ void lens_apply(const Lens *lens, GLuint program)
 {
     shader_set_vector(program, "eye", lens->camera.eye);
     shader_set_vector(program, "forward", lens->camera.forward);
-    shader_set_vector(program, "clip_x", lens->clip_x);
-    shader_set_vector(program, "clip_y", lens->clip_y);
     shader_set_vector(program, "right_step", lens->camera.right_step);
     shader_set_vector(program, "down_step", lens->camera.down_step);
-    set_number(program, "nearest", (double)lens->nearest);
     set_number(program, "farthest", (double)lens->farthest);
     glUniform2f(glGetUniformLocation(program, "size"), lens->width, lens->height);
 }

@@ -70,11 +70,9 @@ void light_store_material(float vectors[MATERIAL_VECTORS][4], const Material *ma
 
 // A projection that makes OpenGL draw the same picture as the rays of a camera.
 typedef struct {
-    CameraData camera; // in normalized coordinates; a step is half a pixel
-    Vec3 eye;          // in normalized coordinates, in fp64
-    float clip_x[3], clip_y[3];
+    CameraData camera;   // in normalized coordinates; a step is half a pixel
+    Vec3 eye;            // in normalized coordinates, in fp64
     float width, height; // of the picture, in pixels
-    float nearest;       // smaller distances all have depth 0
     float farthest;      // greater distances all have depth 1; 0 for perspective
 } Lens;
 
