@@ -7,7 +7,6 @@
 
 typedef struct ThreadPool ThreadPool;
 
-// Runs one task.
 typedef void ThreadPoolWork(void *context, uint32_t task);
 
 // Opens a pool of up to `threads` threads, including the caller's thread. With 0, the pool has a

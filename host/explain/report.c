@@ -158,7 +158,6 @@ static json_t *sample_json(const ExplainReport *report, const ExplainedSample *s
                 FIELD("color", vector_json(sample->found.color)));
 }
 
-// Prints all factors of the surface's color except the lights.
 static void print_factors(const json_t *factors, Shader shader, FILE *stream)
 {
     if (shader == SHADER_GLASS) {

@@ -37,7 +37,6 @@ static bool check_polygons(const Polygons *polygons, Error *error)
                      polygons->most);
 }
 
-// Returns false if the scene's polygons take too long to triangulate.
 static bool check_scene(const struct aiScene *scene, Error *error)
 {
     Polygons polygons = {0};

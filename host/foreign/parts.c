@@ -70,7 +70,6 @@ static ForeignMaterial material_taken(const struct aiMaterial *material)
     return taken;
 }
 
-// Returns whether the material's color has a texture, which clrt does not render.
 static bool material_is_textured(const struct aiMaterial *material)
 {
     return aiGetMaterialTextureCount(material, aiTextureType_DIFFUSE) > 0 ||

@@ -40,7 +40,6 @@ typedef struct {
 bool layers_make(Layers *layers, uint32_t width, uint32_t height, Error *error);
 void layers_free(Layers *layers);
 
-// Returns the values of a pixel.
 static inline uint32_t *layers_at(const Layers *layers, uint32_t x, uint32_t y)
 {
     return layers->values + ((size_t)y * layers->width + x) * layers->count;

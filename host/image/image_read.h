@@ -4,8 +4,8 @@
 
 #include "image/stored_image.h"
 
-// Reads a picture file. The file's first bytes, not its name, determine the format. libpng reads
-// PNG, and pfm.c reads PFM. In builds with OpenImageIO, a child process reads the other formats
-// that clrt writes, except GIF, and may crash without harm. On failure, returns false with a
-// message that names the file. The caller frees the image.
+// The file's first bytes, not its name, determine the format. libpng reads PNG, and pfm.c reads
+// PFM. In builds with OpenImageIO, a child process reads the other formats that clrt writes, except
+// GIF, and may crash without harm. On failure, returns false with a message that names the file.
+// The caller frees the image.
 bool image_read(StoredImage *image, const char *path, Error *error);
