@@ -26,7 +26,7 @@ void views_close(Views *views)
     ray_view_close(&views->rays);
     drawing_close(&views->normals.drawing);
     drawing_close(&views->boxes.drawing);
-    sphere_view_close(&views->spheres);
+    drawing_close(&views->spheres);
     drawing_close(&views->triangles);
     target_close(&views->target);
     *views = (Views){0};
@@ -35,8 +35,7 @@ void views_close(Views *views)
 bool views_load(Views *views, const Model *model, Error *error)
 {
     views->has_boxes = views->has_normals = false;
-    return triangle_view_load(&views->triangles, model, error) &&
-           sphere_view_load(&views->spheres, model, error);
+    return triangle_view_load(&views->triangles, model, error);
 }
 
 static bool load_boxes(Views *views, const Frame *frame, Error *error)

@@ -10,8 +10,7 @@
 
 typedef struct {
     Target target;
-    Drawing triangles;
-    SphereView spheres;
+    Drawing triangles, spheres;
     LineView boxes, normals;
     RayView rays;
     TextView text;

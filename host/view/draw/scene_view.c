@@ -129,7 +129,7 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
 #define HEIGHT_PLACE   13
 #define CUBE_VERTICES  36 // of the cube's triangles (spheres.glsl)
 
-bool sphere_view_open(SphereView *view, Error *error)
+bool sphere_view_open(Drawing *view, Error *error)
 {
     static const DrawingLayout layout = {shader_spheres,
                                          true,
@@ -140,21 +140,7 @@ bool sphere_view_open(SphereView *view, Error *error)
                                           {"even", 4},
                                           {"odd", 4},
                                           {"shift", 4}}};
-    *view = (SphereView){0};
-    return drawing_open(&view->drawing, &layout, error);
-}
-
-void sphere_view_close(SphereView *view)
-{
-    drawing_close(&view->drawing);
-    free(view->numbers.memory);
-    *view = (SphereView){0};
-}
-
-bool sphere_view_load(SphereView *view, const Model *model, Error *error)
-{
-    return array_reserve(&view->numbers.memory, &view->numbers.capacity,
-                         SPHERE_NUMBERS * model->scene.spheres.count, sizeof(float), error);
+    return drawing_open(view, &layout, error);
 }
 
 static void store_sphere(float *numbers, const Model *model, const Sphere *sphere, Vec3 eye)
@@ -171,19 +157,22 @@ static void store_sphere(float *numbers, const Model *model, const Sphere *spher
     numbers[HEIGHT_PLACE] = (float)(sqrt(vec3_dot(offset, offset)) - radius);
 }
 
-void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, const Tone *tone)
+void sphere_view_draw(const Drawing *view, const Model *model, const Lens *lens, const Tone *tone)
 {
     const Scene *scene = &model->scene;
     const size_t count = scene->spheres.count;
     if (count == 0)
         return;
+    drawing_use(view);
+    drawing_fill(view, 0, NULL, SPHERE_NUMBERS * count * sizeof(float));
+    float *numbers = glMapBuffer(GL_ARRAY_BUFFER, GL_WRITE_ONLY);
+    if (numbers == NULL)
+        return;
     for (size_t i = 0; i < count; i++)
-        store_sphere(view->numbers.data + SPHERE_NUMBERS * i, model, &scene->spheres.data[i],
-                     lens->eye);
-    drawing_use(&view->drawing);
-    lens_apply(lens, view->drawing.program);
-    light_apply(scene, &model->normalization, tone, view->drawing.program);
-    drawing_fill(&view->drawing, 0, view->numbers.data, SPHERE_NUMBERS * count * sizeof(float));
+        store_sphere(numbers + SPHERE_NUMBERS * i, model, &scene->spheres.data[i], lens->eye);
+    glUnmapBuffer(GL_ARRAY_BUFFER);
+    lens_apply(lens, view->program);
+    light_apply(scene, &model->normalization, tone, view->program);
     // Draws only back faces, which cover the sphere even if the eye is inside the cube.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);

@@ -15,19 +15,11 @@ bool triangle_view_load(const Drawing *view, const Model *model, Error *error);
 void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens,
                         const Tone *tone);
 
-// Draws spheres by a ray in each pixel, so their outlines are exact.
-typedef struct {
-    Drawing drawing;
-    ARRAY(float) numbers; // the attributes of all spheres
-} SphereView;
+bool sphere_view_open(Drawing *view, Error *error);
 
-bool sphere_view_open(SphereView *view, Error *error);
-void sphere_view_close(SphereView *view);
-
-// Allocates memory for the model's spheres.
-bool sphere_view_load(SphereView *view, const Model *model, Error *error);
-
-void sphere_view_draw(SphereView *view, const Model *model, const Lens *lens, const Tone *tone);
+// Draws spheres by a ray in each pixel, so their outlines are exact. If memory runs out, draws
+// nothing.
+void sphere_view_draw(const Drawing *view, const Model *model, const Lens *lens, const Tone *tone);
 
 // Draws boxes, or their diagonals, in one color.
 typedef struct {
