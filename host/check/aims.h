@@ -7,8 +7,8 @@
 // start at eyes, which are 32 positions around the mesh. If no eye suits an aim, or if another part
 // of the mesh hides the aim from its eye, a ray starts near the aim.
 //
-// Invariant: a ray is cast only if every triangle around its aim faces the ray's origin so clearly
-// that rounding cannot carry the ray past these triangles. In a closed mesh, every miss is
+// Invariant: a ray is cast only if every triangle around its aim clearly faces the ray's origin.
+// Rounding then cannot carry the ray past these triangles. In a closed mesh, every miss is
 // therefore a leak.
 #pragma once
 

@@ -18,9 +18,9 @@ typedef struct {
     size_t object; // the mesh that contains its eye, if sphere is 0
 } EnclosedEyes;
 
-// A mesh contains a point if the sum of its triangles' signed solid angles, seen from the point,
-// exceeds half of the full sphere in magnitude (Van Oosterom and Strackee, "The Solid Angle of a
-// Plane Triangle", 1983).
+// A mesh contains a point if its triangles cover more than half of all directions from the point.
+// Signed solid angles are summed (Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle",
+// 1983).
 
 #define TAU 6.283185307179586477
 
@@ -146,8 +146,8 @@ static bool is_out_of_view(const Scene *scene, const Normalization *normalizatio
 // than this, the change is visible.
 #define FEW_STEPS 16.0
 
-// Advice on short edges blames the mesh's offset or the scene's size only if the offset or size is
-// more than MUCH times the mesh's size.
+// Advice on short edges blames the mesh's offset, or the scene's size, only if this length is more
+// than MUCH times the mesh's size.
 #define MUCH 4.0
 
 static const struct {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Takes the census of a scene, and counts the leaks of each mesh. For a mesh, compiles a scene that
-// contains only the mesh, casts rays at the mesh's edges and points (check/aims.h), and counts the
-// rays that pass through. The mesh is two-sided, and in the coordinates of its whole scene.
+// contains only the mesh. Then casts rays at the mesh's edges and points (check/aims.h), and counts
+// the rays that pass through. The mesh is two-sided, and in the coordinates of its whole scene.
 #include "check/measure.h"
 
 #include "check/aims.h"

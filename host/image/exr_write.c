@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a picture as a tiled EXR file. The file of a part has the header of the whole picture and
-// a table with room for all tiles of the picture, but contains only the part's tiles. clrt merge
-// can then copy tiles without decoding them.
+// Writes a picture as a tiled EXR file. The file of a part contains only the part's tiles. Its
+// header and the size of its table of tiles are the whole picture's. clrt merge can then copy tiles
+// without decoding them.
 //
 // OpenEXRCore writes the header and compresses the tiles, but it cannot omit tiles. The code here
 // therefore writes the table and the tiles itself. Threads compress tiles concurrently, but write

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A traced picture: its colors as floats, its other channels, and the conversion of colors to the
-// bytes of 8-bit files and of the window.
+// A traced picture: its colors as floats, and its other channels. Colors are converted to bytes for
+// 8-bit files and for the window.
 #pragma once
 
 #include "base/array.h"

@@ -60,7 +60,8 @@ static bool is_regular(const Journal *journal)
 }
 
 // Locks the journal. On file systems without locks, flock fails with an error other than
-// EWOULDBLOCK. take_lock ignores this, because journal_claim also prevents concurrent appends.
+// EWOULDBLOCK. take_lock ignores these errors, because journal_claim also prevents concurrent
+// appends.
 static bool take_lock(Journal *journal, Error *error)
 {
     journal->is_busy =

@@ -235,8 +235,8 @@ static bool have_same_color(const Mesh *mesh, uint32_t vertex, uint32_t other)
            memcmp(mesh->colors[vertex], mesh->colors[other], sizeof *mesh->colors) == 0;
 }
 
-// Gives a corner its own vertex in four cases: the file has a normal for the corner; the corner's
-// color differs from the fan's; the fan's mean normal is zero; or the mean differs from the face's
+// Gives a corner its own vertex in four cases. The file has a normal for the corner. The corner's
+// color differs from the fan's. The fan's mean normal is zero. The mean differs from the face's
 // normal by more than the crease angle, as at the tip of a cone.
 static bool split_corners(Smoothing *smoothing, Error *error)
 {

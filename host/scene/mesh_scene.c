@@ -129,8 +129,8 @@ static Vec3 farthest(const Framing *framing, Vec3 d)
 }
 
 // Returns the slope of the two planes through the eye that enclose the meshes along an axis. Stores
-// the eye's coordinate on the axis in *middle. The gap between the planes and the meshes is a
-// convex, piecewise linear function of the slope, so Newton's method ends after few steps.
+// the eye's coordinate on the axis in *middle. Newton's method ends after few steps, because the
+// gap between the planes and the meshes is a convex, piecewise linear function of the slope.
 static double touch(const Framing *framing, Vec3 axis, Vec3 back, double *middle)
 {
     double slope = -1, next = 0;

@@ -4,8 +4,8 @@
 #include "scene/normalize.h"
 
 // The scene counts as coarse for a camera if it is this many times as large as the camera's reach.
-// Relative to the center of the box, rounding could then move the eye by up to 2^-12 of the reach,
-// about a third of a pixel in pictures of 1000 rows.
+// Relative to the center of the box, rounding could then move the eye by up to 2^-12 of the reach.
+// In pictures of 1000 rows, this is about a third of a pixel.
 #define COARSE          0x1p13
 #define LARGEST_RATIO   0x1p40
 #define LARGEST_RATE    0x1p60 // so that products with coordinates stay finite
@@ -57,8 +57,8 @@ static double distance_to_spheres(const Scene *scene, Vec3 point)
     return nearest;
 }
 
-// Returns the distance up to which the camera shows details: to the point that it looks at or, if
-// no surface is that near, to the nearest surface.
+// Returns the camera's reach, the distance up to which it shows details. This is the distance to
+// the point that it looks at or, if no surface is that near, to the nearest surface.
 static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
 {
     if (viewpoint->height > 0)

@@ -22,7 +22,7 @@ typedef struct {
 // Returns the normalization that centers the triangles' bounding box and scales its longest side
 // into [1, 2). Spheres count only in scenes without triangles, because a ground sphere of radius
 // 1e9 would leave too few bits for a mesh. If the box around the spheres is thousands of times as
-// large as the distances that the cameras see, the center is between the cameras' eyes.
+// large as the cameras' reach (normalize.c), the center is between the cameras' eyes.
 Normalization normalization_of(const Scene *scene);
 
 // Returns the longest side of the box that normalization_of scales, or a negative number if the box
@@ -46,8 +46,8 @@ void normalize_checker(Material *material, const Normalization *normalization);
 // Returns the scene coordinates of a normalized point.
 Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 
-// Fails if a normalized coordinate of a point light, eye or sphere center is outside [-2^40, 2^40],
-// or if a normalized radius is outside [2^-40, 2^40]. The normalized height of an orthographic
-// camera must be in [2^-40, 2^20], and its width at most 2^20. Outside these ranges, the kernels'
-// floats could overflow or underflow.
+// Returns whether the kernels can trace the scene. The normalized coordinates of point lights, eyes
+// and sphere centers must be in [-2^40, 2^40], and normalized radii in [2^-40, 2^40]. For
+// orthographic cameras, the normalized height must be in [2^-40, 2^20], and the normalized width at
+// most 2^20. Outside these ranges, the kernels' floats could overflow or underflow.
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);
