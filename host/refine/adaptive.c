@@ -1,167 +1,303 @@
 // SPDX-License-Identifier: MIT
-// Each pass marks cells in parallel, subdivides the marked cells in order, and traces all new
-// samples as one list. The next pass examines only the new groups of cells, their neighbors, and
-// the seams that are new or that this pass has listed.
+// Each pass lists the first samples of all new lines, and then one sample for each open gap. When
+// all gaps are closed, pixels with new lines may be divided further.
 #include "refine/adaptive.h"
 
-#include "refine/contrast.h"
-#include "refine/seam_search.h"
-
 #include <stdlib.h>
+#include <string.h>
 
-// The number of new samples of a subdivided cell.
-#define NEW_SAMPLES (GROUP_CELLS - 1)
+#define PIXELS_MOST ((uint64_t)1 << 31)
 
-// A seam is bisected until its contrast is at most this fraction of the threshold. The fraction is
-// small, because halving takes one sample, and subdividing a cell takes eight.
-#define SEAM_PART 0.17f
+// Gaps are bisected until their contrast is at most GAP_PART of the threshold. The fraction is
+// small, because halving takes one sample, and a line takes at least three. Bands are divided if
+// the error of their bend exceeds BEND_PART of the threshold.
+#define GAP_PART  0.12f
+#define BEND_PART 0.17f
 
-// A pass lists eight samples for each new group, in the order of the groups, and then one sample
-// for each listed seam.
+// The gaps of a line of level 0, which has samples at its middle and at its ends. Lines of deeper
+// levels have twice as many gaps.
+#define LINE_GAPS 2
 
-#define GROUPS_OF_TASK 512
+// The places of a pass.
+typedef ARRAY(SamplePlace) PlaceList;
 
-// The samples of a pass: of all pixels at first, and later of the groups from `first` on.
-typedef struct {
-    RefineTree *tree;
-    uint32_t first;
-    SamplePlace *places;
-    SampleData *samples;
-} Exchange;
-
-static void list_places(void *context, uint32_t first, uint32_t end)
-{
-    const Exchange *exchange = context;
-    const RefineTree *tree = exchange->tree;
-    SamplePlace *places = exchange->places + (size_t)first * NEW_SAMPLES;
-    for (uint32_t i = first; i < end; i++)
-        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++) {
-            uint32_t place[2];
-            if (cell == GROUP_MIDDLE)
-                continue;
-            refine_tree_cell_place(&tree->groups.data[exchange->first + i], cell, place);
-            *places++ = (SamplePlace){place[0], place[1]};
-        }
-}
-
-static void take_samples(void *context, uint32_t first, uint32_t end)
-{
-    const Exchange *exchange = context;
-    RefineTree *tree = exchange->tree;
-    const SampleData *samples = exchange->samples + (size_t)first * NEW_SAMPLES;
-    for (uint32_t i = first; i < end; i++) {
-        CellGroup *group = &tree->groups.data[exchange->first + i];
-        for (uint32_t cell = 0; cell < GROUP_CELLS; cell++)
-            if (cell != GROUP_MIDDLE)
-                group->cells[cell] = *samples++;
-    }
-}
-
-// Returns false if the observer has stopped a pass.
 static bool is_whole(const Adaptive *adaptive)
 {
     return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
 }
 
-// Traces the samples of the groups from `first` on and of the listed seams. If the observer stops
-// the pass, removes these groups.
-static bool trace_pass(Adaptive *adaptive, uint32_t first, const SeamSearch *search,
+// Returns whether lines of the pixel are columns: colors change more along columns, or a thin part
+// crosses columns.
+static bool has_columns(const Adaptive *adaptive, uint32_t pixel)
+{
+    const ThinAxis axis = (ThinAxis)adaptive->thin_parts.axes[pixel];
+    const SampleData *center = centers_at(&adaptive->centers, pixel);
+    float changes[4];
+    for (int side = 0; side < 4; side++)
+        changes[side] =
+            sample_difference(center, centers_beside(&adaptive->centers, pixel, (Side)side));
+    return axis == THIN_NONE ? changes[SIDE_ABOVE] + changes[SIDE_BELOW] >
+                                   changes[SIDE_LEFT] + changes[SIDE_RIGHT]
+                             : axis == THIN_COLUMNS;
+}
+
+static bool add_pixel(Adaptive *adaptive, uint32_t pixel, Error *error)
+{
+    const ThinParts *parts = &adaptive->thin_parts;
+    const size_t first = thin_parts_first_probe(parts, pixel);
+    size_t end = first;
+    while (end < parts->probes.count && parts->probes.data[end].pixel == pixel)
+        end++;
+    const RefinedPixel refined = {.pixel = pixel,
+                                  .probes = (uint32_t)first,
+                                  .samples = 1,
+                                  .least =
+                                      (uint8_t)band_height(end > first ? 1 : REFINE_LEVELS - 1),
+                                  .has_columns = has_columns(adaptive, pixel)};
+    adaptive->refined[pixel] = (uint32_t)adaptive->lines.pixels.count;
+    return scan_lines_add(&adaptive->lines, &refined, parts->probes.data + first, end - first,
+                          error);
+}
+
+// Fills in the places at which a new line is sampled, in ascending order. Returns their number.
+static uint32_t first_places(const Adaptive *adaptive, const ScanLine *line, LineSample *samples)
+{
+    const ThinParts *parts = &adaptive->thin_parts;
+    const RefinedPixel *pixel = &adaptive->lines.pixels.data[line->pixel];
+    bool wanted[REFINE_GRID] = {false};
+    uint32_t count = 0;
+    const uint32_t gaps = line->height < band_height(0) ? 2 * LINE_GAPS : LINE_GAPS;
+    for (uint32_t i = 0; i <= gaps; i++)
+        wanted[i * (REFINE_GRID - 1) / gaps] = true;
+    for (size_t i = pixel->probes;
+         i < parts->probes.count && parts->probes.data[i].pixel == pixel->pixel; i++)
+        if (parts->probes.data[i].line == line->middle)
+            wanted[parts->probes.data[i].place] = true;
+    for (uint32_t place = 0; place < REFINE_GRID; place++)
+        if (wanted[place])
+            samples[count++].place = place;
+    return count;
+}
+
+// Returns the position of a place of a line in the picture.
+static SamplePlace position_of(const Adaptive *adaptive, const ScanLine *line, uint32_t place)
+{
+    const RefinedPixel *pixel = &adaptive->lines.pixels.data[line->pixel];
+    const uint32_t x = pixel->pixel % adaptive->frame.width * REFINE_GRID;
+    const uint32_t y = pixel->pixel / adaptive->frame.width * REFINE_GRID;
+    return pixel->has_columns ? (SamplePlace){x + line->middle, y + place}
+                              : (SamplePlace){x + place, y + line->middle};
+}
+
+static bool is_center(const ScanLine *line, uint32_t place)
+{
+    return line->middle == REFINE_GRID / 2 && place == REFINE_GRID / 2;
+}
+
+// Lists one sample for each open gap, and then the first samples of new lines.
+static bool list_places(const Adaptive *adaptive, PlaceList *places, Error *error)
+{
+    const ScanLines *lines = &adaptive->lines;
+    for (size_t i = 0; i < lines->gaps.count; i++) {
+        const Gap *gap = &lines->gaps.data[i];
+        const SamplePlace place =
+            position_of(adaptive, &lines->lines.data[gap->line], scan_gap_place(gap));
+        if (!array_push(places, place, error))
+            return false;
+    }
+    for (size_t i = lines->opened; i < lines->lines.count; i++) {
+        const ScanLine *line = &lines->lines.data[i];
+        LineSample samples[REFINE_GRID];
+        const uint32_t count = first_places(adaptive, line, samples);
+        for (uint32_t k = 0; k < count; k++)
+            if (!is_center(line, samples[k].place) &&
+                !array_push(places, position_of(adaptive, line, samples[k].place), error))
+                return false;
+    }
+    return true;
+}
+
+// Adds the neighbor on that side, unless it is refined already or resembles the sample.
+static bool spread(Adaptive *adaptive, uint32_t pixel, Side side, const SampleData *sample,
+                   float most, Error *error)
+{
+    uint32_t neighbor;
+    if (!centers_have_neighbor(&adaptive->centers, pixel, side, &neighbor) ||
+        adaptive->refined[neighbor] != 0 ||
+        !(sample_difference(sample, centers_at(&adaptive->centers, neighbor)) > most))
+        return true;
+    return add_pixel(adaptive, neighbor, error);
+}
+
+// Opens the next new line. Takes its samples from `data`, and returns their number in *count.
+static bool open_line(Adaptive *adaptive, const SampleData *data, float most, uint32_t *count,
+                      Error *error)
+{
+    const ScanLine line = adaptive->lines.lines.data[adaptive->lines.opened];
+    RefinedPixel *pixel = &adaptive->lines.pixels.data[line.pixel];
+    const uint32_t place = pixel->pixel, first = pixel->has_columns ? SIDE_ABOVE : SIDE_LEFT;
+    const uint32_t across = SIDE_ABOVE - first;
+    LineSample samples[REFINE_GRID];
+    const uint32_t all = first_places(adaptive, &line, samples);
+    *count = 0;
+    for (uint32_t i = 0; i < all; i++)
+        samples[i].data = is_center(&line, samples[i].place)
+                              ? *centers_at(&adaptive->centers, place)
+                              : data[(*count)++];
+    pixel->samples += *count;
+    bool ok = scan_lines_open(&adaptive->lines, samples, all, error) &&
+              spread(adaptive, place, (Side)first, &samples[0].data, most, error) &&
+              spread(adaptive, place, (Side)(first + 1), &samples[all - 1].data, most, error);
+    for (uint32_t i = 0; ok && i < all; i++) {
+        if (line.middle < line.height)
+            ok = spread(adaptive, place, (Side)across, &samples[i].data, most, error);
+        if (ok && line.middle + line.height >= REFINE_GRID)
+            ok = spread(adaptive, place, (Side)(across + 1), &samples[i].data, most, error);
+    }
+    return ok;
+}
+
+// Traces the samples of open gaps and new lines. If the observer stops the pass, drops its samples.
+static bool trace_pass(Adaptive *adaptive, PlaceList *places, float most,
                        const RenderObserver *observer, Error *error)
 {
-    RefineTree *tree = &adaptive->tree;
-    const uint32_t groups = (uint32_t)tree->groups.count - first, cut = NEW_SAMPLES * groups;
-    const uint32_t count = cut + (uint32_t)search->asked.count;
-    SamplePlace *places = memory_raw(count, sizeof *places, error);
-    SampleData *samples = memory_raw(count, sizeof *samples, error);
-    const SampleList list = {places, samples, count, 0};
-    Exchange exchange = {tree, first, places, samples};
-    bool ok = places != NULL && samples != NULL;
-    if (ok) {
-        thread_pool_share(adaptive->pool, groups, GROUPS_OF_TASK, list_places, &exchange);
-        for (size_t i = 0; i < search->asked.count; i++) {
-            uint32_t place[2];
-            seam_asks(&tree->seams.data[search->asked.data[i]], place);
-            places[cut + i] = (SamplePlace){place[0], place[1]};
-        }
-        ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
-    }
+    ScanLines *lines = &adaptive->lines;
+    const size_t end = lines->lines.count;
+    places->count = 0;
+    if (!list_places(adaptive, places, error))
+        return false;
+    const uint32_t count = (uint32_t)places->count;
+    SampleData *samples = memory_raw(count, sizeof *samples, error), *next = samples;
+    const SampleList list = {places->data, samples, count, 0};
+    bool ok = samples != NULL &&
+              sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
     if (ok && is_whole(adaptive)) {
-        thread_pool_share(adaptive->pool, groups, GROUPS_OF_TASK, take_samples, &exchange);
         adaptive->samples += count;
-        ok = seam_search_take(search, tree, samples + cut, error) &&
-             seam_search_open(tree, first, error);
-    } else {
-        refine_tree_uncut(tree, first);
+        next += lines->gaps.count;
+        ok = scan_lines_split_gaps(lines, samples, error);
+        while (ok && lines->opened < end) {
+            uint32_t taken;
+            ok = open_line(adaptive, next, most, &taken, error);
+            next += taken;
+        }
     }
-    free(places);
     free(samples);
     return ok;
 }
 
-// Lists the pixels of one row of blocks.
-static void list_pixels(void *context, uint32_t first, uint32_t end)
+// Returns the line of the neighbor that is nearest to the pixel. Instead of a neighbor without such
+// lines, returns the line through its center with its mean color.
+static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel, Side side)
 {
-    (void)end;
-    const Exchange *exchange = context;
-    const RefineTree *tree = exchange->tree;
-    const uint32_t half = REFINE_GRID / 2;
-    SamplePlace *places = exchange->places + refine_tree_place(tree, 0, first);
-    for (uint32_t left = 0; left < tree->columns * PACKET_SIDE; left += PACKET_SIDE)
-        for (uint32_t i = 0; i < PACKET_SIDE * PACKET_SIDE; i++) {
-            const uint32_t x = left + i % PACKET_SIDE, y = first + i / PACKET_SIDE;
-            const bool is_there = x < tree->width && y < tree->height;
-            *places++ =
-                (SamplePlace){is_there ? REFINE_GRID * x + half : NOTHING, REFINE_GRID * y + half};
-        }
+    const ScanLines *lines = &adaptive->lines;
+    const int shift = side == SIDE_LEFT || side == SIDE_ABOVE ? -REFINE_GRID : REFINE_GRID;
+    uint32_t neighbor, nearest = 0;
+    const bool is_there = centers_have_neighbor(&adaptive->centers, pixel->pixel, side, &neighbor);
+    const RefinedPixel *refined = &lines->pixels.data[is_there ? adaptive->refined[neighbor] : 0];
+    LineMean mean = {.middle = REFINE_GRID / 2};
+    float color[3];
+    if (refined->lines != 0 && refined->has_columns == pixel->has_columns) {
+        for (uint32_t i = refined->lines; i != 0; i = lines->lines.data[i].next)
+            if (i < lines->opened &&
+                (nearest == 0 ||
+                 (lines->lines.data[i].middle > lines->lines.data[nearest].middle) == (shift < 0)))
+                nearest = i;
+        mean = scan_line_mean(&lines->lines.data[nearest]);
+    } else {
+        if (refined->lines == 0 || !scan_lines_color(lines, refined, color))
+            memcpy(color, centers_beside(&adaptive->centers, pixel->pixel, side)->color,
+                   sizeof color);
+        for (int channel = 0; channel < 3; channel++)
+            mean.color[channel] = (double)color[channel];
+    }
+    mean.middle += shift;
+    return mean;
 }
 
-// Takes one sample per pixel.
-static bool trace_pixels(Adaptive *adaptive, const RenderObserver *observer, Error *error)
+// Divides the pixels of the lines from *first on, which have no open gaps.
+static bool divide(Adaptive *adaptive, uint32_t *first, uint32_t round, Error *error)
 {
-    RefineTree *tree = &adaptive->tree;
-    const uint32_t count = refine_tree_places(tree);
-    SamplePlace *places = memory_raw(count, sizeof *places, error);
-    const SampleList list = {places, tree->pixels, count, 0};
-    if (places == NULL)
-        return false;
-    Exchange exchange = {.tree = tree, .places = places};
-    thread_pool_share(adaptive->pool, tree->height, PACKET_SIDE, list_pixels, &exchange);
-    const bool ok = sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
-    adaptive->samples = (uint64_t)tree->width * tree->height;
-    free(places);
-    return ok;
-}
-
-// Traces new groups and listed seams, pass by pass, until neither groups nor seams remain.
-static bool refine(Adaptive *adaptive, SeamSearch *search, float threshold,
-                   const RenderObserver *observer, Error *error)
-{
-    RefineTree *tree = &adaptive->tree;
-    const CutRule rule = {&adaptive->thin_parts, threshold};
-    uint32_t first = (uint32_t)tree->groups.count;
-    bool ok = contrast_cut_pixels(tree, &rule, adaptive->pool, error);
-    while (ok && (first < tree->groups.count || search->asked.count > 0)) {
-        const uint32_t end = (uint32_t)tree->groups.count;
-        ok = trace_pass(adaptive, first, search, observer, error);
-        if (!ok || !is_whole(adaptive))
-            break;
-        ok = contrast_cut_groups(tree, &rule, first, adaptive->pool, error) &&
-             seam_search_ask(search, tree, SEAM_PART * threshold, error);
-        first = end;
+    ScanLines *lines = &adaptive->lines;
+    const uint32_t end = lines->opened;
+    bool ok = true;
+    for (; ok && *first < end; ++*first) {
+        const uint32_t number = lines->lines.data[*first].pixel;
+        if (lines->pixels.data[number].round == round)
+            continue;
+        RefinedPixel *pixel = &lines->pixels.data[number];
+        const Side before = pixel->has_columns ? SIDE_LEFT : SIDE_ABOVE;
+        const LineMean beyond[2] = {line_beside(adaptive, pixel, before),
+                                    line_beside(adaptive, pixel, (Side)(before + 1))};
+        pixel->round = round;
+        ok = scan_lines_divide(lines, number, beyond, error);
     }
     return ok;
+}
+
+#define ROWS_OF_TASK 16
+
+// The work of threads on rows of pixels.
+typedef struct {
+    Adaptive *adaptive;
+    float most; // color difference between pixels that are not refined
+    Framebuffer *framebuffer;
+} RowWork;
+
+// Marks the pixels of some rows that differ from a neighbor, or that a thin part touches.
+static void mark_rows(void *context, uint32_t first, uint32_t end)
+{
+    const RowWork *work = context;
+    Adaptive *adaptive = work->adaptive;
+    for (uint32_t pixel = first * adaptive->frame.width; pixel < end * adaptive->frame.width;
+         pixel++) {
+        const SampleData *center = centers_at(&adaptive->centers, pixel);
+        bool is_refined = adaptive->thin_parts.axes[pixel] != THIN_NONE;
+        for (int side = 0; side < 4 && !is_refined; side++)
+            is_refined = sample_difference(center, centers_beside(&adaptive->centers, pixel,
+                                                                  (Side)side)) > work->most;
+        adaptive->refined[pixel] = is_refined;
+    }
+}
+
+// Adds the marked pixels block by block, so that consecutive samples are near each other.
+static bool add_marked(Adaptive *adaptive, Error *error)
+{
+    const uint32_t width = adaptive->frame.width, height = adaptive->frame.height;
+    for (uint32_t top = 0; top < height; top += PACKET_SIDE)
+        for (uint32_t left = 0; left < width; left += PACKET_SIDE)
+            for (uint32_t y = top; y < height && y < top + PACKET_SIDE; y++)
+                for (uint32_t x = left; x < width && x < left + PACKET_SIDE; x++)
+                    if (adaptive->refined[y * width + x] != 0 &&
+                        !add_pixel(adaptive, y * width + x, error))
+                        return false;
+    return true;
 }
 
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error)
 {
-    SeamSearch search = {.seen = 1};
-    const bool ok = !is_whole(adaptive) || refine(adaptive, &search, threshold, observer, error);
-    seam_search_free(&search);
+    // Differences of whole pixels count twice, because different surfaces may have similar colors
+    // by chance.
+    RowWork work = {.adaptive = adaptive, .most = threshold / 2};
+    ScanLines *lines = &adaptive->lines;
+    PlaceList places = {0};
+    uint32_t divided = 1;
+    if (!is_whole(adaptive))
+        return true;
+    lines->threshold = GAP_PART * threshold;
+    lines->bend = BEND_PART * threshold;
+    thread_pool_share(adaptive->pool, adaptive->frame.height, ROWS_OF_TASK, mark_rows, &work);
+    bool ok = add_marked(adaptive, error);
+    for (uint32_t round = 1; ok && is_whole(adaptive); round++) {
+        if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
+            ok = divide(adaptive, &divided, round, error);
+        if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
+            break;
+        ok = ok && trace_pass(adaptive, &places, work.most, observer, error);
+    }
+    free(places.data);
     return ok;
 }
-
-#define ROWS_OF_TASK 16
 
 bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
                    Error *error)
@@ -171,40 +307,56 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
                            .pool = setup->pool,
                            .frame = renderer_frame(renderer, setup->camera)};
     FrameData *frame = &adaptive->frame;
+    const size_t pixels = (size_t)frame->width * frame->height;
     frame->samples = REFINE_GRID;
     renderer->progress = (RenderProgress){0};
+    if (pixels > PIXELS_MOST)
+        return error_set(error, "a picture of %u x %u pixels is too large to be refined",
+                         frame->width, frame->height);
     const ThinSource thin = {frame,       setup->scene, setup->normalization, setup->flat->spheres,
-                             setup->pool, REFINE_LEVELS};
-    const bool ok = refine_tree_make(&adaptive->tree, frame->width, frame->height, error) &&
+                             setup->pool, true};
+    adaptive->refined = memory_zeroed(pixels, sizeof *adaptive->refined, error);
+    const bool ok = adaptive->refined != NULL && scan_lines_make(&adaptive->lines, error) &&
                     thin_parts_make(&adaptive->thin_parts, &thin, error) &&
-                    trace_pixels(adaptive, observer, error);
+                    centers_trace(&adaptive->centers, renderer, frame, observer, error);
+    adaptive->samples = pixels;
     if (!ok)
         adaptive_close(adaptive);
     return ok;
 }
 
-typedef struct {
-    const RefineTree *tree;
-    Framebuffer *framebuffer;
-} MeanStoring;
-
 static void store_rows(void *context, uint32_t first, uint32_t end)
 {
-    const MeanStoring *storing = context;
-    const RefineTree *tree = storing->tree;
-    for (uint32_t y = first; y < end; y++)
-        refine_tree_store_row(tree, y, &storing->framebuffer->pixels[(size_t)y * tree->width]);
+    const RowWork *work = context;
+    const Adaptive *adaptive = work->adaptive;
+    const uint32_t width = adaptive->frame.width;
+    for (uint32_t pixel = first * width; pixel < end * width; pixel++) {
+        const uint32_t number = adaptive->refined[pixel];
+        float *color = work->framebuffer->pixels[pixel];
+        if (number == 0 ||
+            !scan_lines_color(&adaptive->lines, &adaptive->lines.pixels.data[number], color))
+            memcpy(color, centers_at(&adaptive->centers, pixel)->color, 3 * sizeof *color);
+    }
 }
 
-void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer)
+void adaptive_store(Adaptive *adaptive, Framebuffer *framebuffer)
 {
-    MeanStoring storing = {&adaptive->tree, framebuffer};
-    thread_pool_share(adaptive->pool, adaptive->tree.height, ROWS_OF_TASK, store_rows, &storing);
+    RowWork work = {.adaptive = adaptive, .framebuffer = framebuffer};
+    scan_lines_close_gaps(&adaptive->lines);
+    thread_pool_share(adaptive->pool, adaptive->frame.height, ROWS_OF_TASK, store_rows, &work);
+}
+
+uint32_t adaptive_pixel_samples(const Adaptive *adaptive, size_t pixel)
+{
+    const uint32_t number = adaptive->refined[pixel];
+    return number == 0 ? 1 : adaptive->lines.pixels.data[number].samples;
 }
 
 void adaptive_close(Adaptive *adaptive)
 {
     thin_parts_free(&adaptive->thin_parts);
-    refine_tree_free(&adaptive->tree);
+    scan_lines_free(&adaptive->lines);
+    centers_free(&adaptive->centers);
+    free(adaptive->refined);
     *adaptive = (Adaptive){0};
 }

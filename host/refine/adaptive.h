@@ -2,12 +2,12 @@
 // Adaptive anti-aliasing takes one sample per pixel, and then more where neighbors differ or parts
 // are thin. The idea is from Whitted, "An improved illumination model for shaded display", 1980.
 //
-// Each pixel is the root of a tree of cells (refine_tree.h). A cell is subdivided if its color
-// differs too much from a neighbor's (contrast.h). It is also subdivided if it touches a triangle
-// or sphere that samples may miss (thin_parts.h). Inside subdivided pixels, bisection locates edges
-// with fewer samples than further subdivision (seam.h).
+// A pixel is refined if its color differs too much from a neighbor's, or if it touches a triangle
+// or sphere that samples may miss (thin_parts.h). Refined pixels have samples on scan lines
+// (scan_lines.h). If samples near a pixel's border differ from the neighbor, the neighbor is
+// refined too.
 //
-// A pass selects all its cells before it traces any of them, so that the samples form one large
+// A pass selects all its places before it traces any of them, so that the samples form one large
 // list for the device.
 //
 // Invariant: the selection depends only on finished samples and not on the order of work. The bits
@@ -16,16 +16,19 @@
 
 #include "base/thread_pool.h"
 #include "image/framebuffer.h"
+#include "refine/centers.h"
+#include "refine/scan_lines.h"
 #include "refine/thin_parts.h"
-#include "render/sampler.h"
 
 typedef struct {
     Renderer *renderer; // with sample_entry; borrowed
     ThreadPool *pool;   // borrowed
     FrameData frame;
-    RefineTree tree;
-    ThinParts thin_parts; // cells that are always subdivided
-    uint64_t samples;     // taken so far
+    Centers centers;
+    uint32_t *refined; // by pixel: index in lines.pixels; 0 if the pixel has one sample
+    ThinParts thin_parts;
+    ScanLines lines;
+    uint64_t samples; // taken so far
 } Adaptive;
 
 // The inputs of adaptive anti-aliasing.
@@ -38,16 +41,19 @@ typedef struct {
     const Normalization *normalization;
 } AdaptiveSetup;
 
-// Makes a picture with one sample per pixel.
+// Makes a picture with one sample per pixel. Fails if the picture has more than 2^31 pixels.
 bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
                    Error *error);
 
-// Subdivides cells whose contrast exceeds the threshold, and cells with thin parts, down to the
-// last level. Stops when the observer returns false. The caller may call this function only once.
+// Refines pixels whose contrast exceeds the threshold, and pixels with thin parts. Stops when the
+// observer returns false. The caller may call this function only once.
 bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
                      Error *error);
 
 // Stores the picture in its current state.
-void adaptive_store(const Adaptive *adaptive, Framebuffer *framebuffer);
+void adaptive_store(Adaptive *adaptive, Framebuffer *framebuffer);
+
+// Returns the number of samples taken in a pixel.
+uint32_t adaptive_pixel_samples(const Adaptive *adaptive, size_t pixel);
 
 void adaptive_close(Adaptive *adaptive);

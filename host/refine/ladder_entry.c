@@ -180,8 +180,8 @@ static void enter_row(const Entering *entering, const Area *area, uint32_t row, 
         strata[x] = (uint8_t)numbers[x];
     for (uint32_t x = 0; x < count; x++)
         places[x].feature = bends[x] * bends[x];
-    for (uint32_t x = 0; x < count && parts->count > 0; x++)
-        if (thin_parts_touch(parts, y * width + area->left + x))
+    for (uint32_t x = 0; x < count && parts->touched > 0; x++)
+        if (parts->axes[y * width + area->left + x] != THIN_NONE)
             strata[x] = (uint8_t)strata_of_bend(bends[x], nearby[x], true);
     count_pixels(ladder, area->left, y, count, entries);
 }
@@ -231,7 +231,7 @@ static bool find_thin_parts(ThinParts *parts, const LadderSetup *setup, Error *e
         frame.camera.down_step[axis] *= (float)LADDER_GRID / REFINE_GRID;
     }
     const ThinSource source = {
-        &frame, setup->scene, setup->normalization, setup->flat->spheres, setup->pool, 1};
+        &frame, setup->scene, setup->normalization, setup->flat->spheres, setup->pool, false};
     return thin_parts_make(parts, &source, error);
 }
 

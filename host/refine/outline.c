@@ -4,7 +4,7 @@
 // consecutive cells, from its smallest to its largest x between the row's edges.
 #include "refine/outline.h"
 
-#include "refine/refine_tree.h"
+#include "refine/probe.h"
 
 #include <math.h>
 #include <stdlib.h>

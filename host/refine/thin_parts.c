@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Finds the cells around thin spheres, and adds the cells that thin_triangles.c finds.
+// Finds the places on thin spheres, and adds the places that thin_triangles.c finds.
 #include "refine/thin_parts.h"
 
-#include "refine/thin_cells.h"
 #include "refine/thin_triangles.h"
 #include "scene/camera.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// A disk contains the center of a cell if its diameter is at least the cells' diagonal. At the last
-// level, this diagonal is a 57th of a pixel. Samples may miss smaller spheres.
-
-#define HALF_DIAGONAL 0.70710678
-
-// A sphere's projection, in cells of the last level.
+// A sphere's projection, which is almost an ellipse around the projected center. Points at (x, y)
+// from its center are inside if form[0] x^2 + 2 form[1] x y + form[2] y^2 is at most the squared
+// radius. The unit of length is a place.
 typedef struct {
-    OutlineBox box;  // around the outline
-    double diameter; // of a disk inside the outline
+    OutlineBox box; // around the outline
+    double middle[2];
+    double radius; // the shorter radius
+    double form[3];
 } SphereOutline;
 
 // Projects a sphere. Returns false unless the whole sphere is in front of the eye.
@@ -34,15 +32,20 @@ static bool project(const FrameData *frame, const SphereData *sphere, SphereOutl
     const double x = vec3_dot(seen, right) / (reduction * step * step);
     const double y = vec3_dot(seen, down) / (reduction * step * step);
     const double radius = sphere->radius / (reduction * step) / 2;
-    const double tangent = camera->orthographic != 0 ? 0 : sqrt(x * x + y * y) * step;
-    const double outer = radius * sqrt(1 + tangent * tangent) * 1.001;
-    const double middle[2] = {(x + (double)frame->width * REFINE_GRID) / 2,
-                              (y + (double)frame->height * REFINE_GRID) / 2};
+    const double slant = camera->orthographic != 0 ? 0 : step;
+    const double tangents[2] = {x * slant, y * slant};
+    const double square = 1 + tangents[0] * tangents[0] + tangents[1] * tangents[1];
+    const double outer = radius * sqrt(square) * 1.001;
+    outline->middle[0] = (x + (double)frame->width * REFINE_GRID) / 2;
+    outline->middle[1] = (y + (double)frame->height * REFINE_GRID) / 2;
     for (int axis = 0; axis < 2; axis++) {
-        outline->box.low[axis] = middle[axis] - outer;
-        outline->box.high[axis] = middle[axis] + outer;
+        outline->box.low[axis] = outline->middle[axis] - outer;
+        outline->box.high[axis] = outline->middle[axis] + outer;
     }
-    outline->diameter = 2 * radius;
+    outline->radius = radius;
+    outline->form[0] = 1 - tangents[0] * tangents[0] / square;
+    outline->form[1] = -tangents[0] * tangents[1] / square;
+    outline->form[2] = 1 - tangents[1] * tangents[1] / square;
     return true;
 }
 
@@ -55,80 +58,94 @@ static CellRange pixels_along(const FrameData *frame, const SphereOutline *outli
                          fmax(-1, fmin(most, outline->box.high[axis])), &pixels, axis);
 }
 
-// Adds the pixel's cells of a level that the outline's box touches.
-static void add_cells(ThinParts *parts, const SphereOutline *outline, uint32_t pixel,
-                      uint32_t level)
+// Returns the level of a sphere's probes. Bands are at most as high as the sphere's radius, unless
+// the level is the last.
+static uint32_t level_of(const SphereOutline *outline)
 {
-    const CellGrid cells = thin_parts_grid(parts, pixel, level, 0);
-    const CellRange rows = box_touched(&outline->box, &cells, 1);
-    const CellRange columns = box_touched(&outline->box, &cells, 0);
-    uint32_t *masks = thin_parts_rows(parts, pixel, level);
-    for (uint32_t row = rows.first; row < rows.end; row++)
-        parts->cuts[level] +=
-            thin_row_add(&masks[row], (1u << columns.end) - (1u << columns.first));
+    uint32_t level = 0;
+    while (level + 1 < REFINE_LEVELS && band_height(level) > outline->radius)
+        level++;
+    return level;
 }
 
-static bool is_thin(const SphereOutline *outline, uint32_t level)
+// Adds probes on the rows of a pixel that the sphere covers. With level 0, also adds probes on the
+// rows of level 1, which are used only if the pixel gets these rows.
+static bool add_probes(ProbeList *probes, const SphereOutline *outline, uint32_t column,
+                       uint32_t row, ProbeRun run, Error *error)
 {
-    return outline->diameter < 2 * HALF_DIAGONAL * refine_tree_cell_side(level);
+    const double *form = outline->form, radius = outline->radius;
+    const double x = outline->middle[0] - (double)column * REFINE_GRID;
+    const double y = outline->middle[1] - (double)row * REFINE_GRID;
+    const uint32_t step = band_height(run.level > 0 ? run.level : 1);
+    bool ok = true;
+    for (run.line = step / 2; ok && run.line < REFINE_GRID; run.line += step) {
+        const double off = run.line + 0.5 - y, half = form[1] * off;
+        const double square = half * half - form[0] * (form[2] * off * off - radius * radius);
+        if (square < 0)
+            continue;
+        run.first = (int)ceil(x - (half + sqrt(square)) / form[0] - 0.5);
+        run.end = (int)floor(x - (half - sqrt(square)) / form[0] - 0.5) + 1;
+        ok = run.end <= run.first || probe_list_add(probes, &run, error);
+    }
+    return ok;
 }
 
-// If `level` is negative, gives slots to the pixels that a thin sphere touches. Otherwise, adds the
-// sphere's cells of this level.
-static void visit_sphere(ThinParts *parts, const FrameData *frame, const SphereData *sphere,
-                         int level)
+// Adds the pixels that a thin sphere touches, and its probes.
+static bool add_sphere(ThinParts *parts, const ThinSource *source, const SphereData *sphere,
+                       ProbeList *probes, Error *error)
 {
     SphereOutline outline;
-    if (!project(frame, sphere, &outline) || !is_thin(&outline, level < 0 ? 0 : (uint32_t)level))
-        return;
-    const CellRange columns = pixels_along(frame, &outline, 0);
-    const CellRange rows = pixels_along(frame, &outline, 1);
-    for (uint32_t y = rows.first; y < rows.end; y++)
-        for (uint32_t x = columns.first; x < columns.end; x++) {
-            const uint32_t pixel = y * parts->width + x;
-            if (level < 0)
-                thin_parts_add_pixel(parts, pixel);
-            else
-                add_cells(parts, &outline, pixel, (uint32_t)level);
+    bool ok = true;
+    if (!project(source->frame, sphere, &outline) || 2 * outline.radius >= THIN_WIDTH)
+        return true;
+    const CellRange columns = pixels_along(source->frame, &outline, 0);
+    const CellRange rows = pixels_along(source->frame, &outline, 1);
+    for (uint32_t y = rows.first; ok && y < rows.end; y++)
+        for (uint32_t x = columns.first; ok && x < columns.end; x++) {
+            const ProbeRun run = {.pixel = y * parts->width + x, .level = level_of(&outline)};
+            thin_parts_touch(parts, run.pixel, THIN_ROWS);
+            ok = !source->has_probes || add_probes(probes, &outline, x, y, run, error);
         }
+    for (size_t i = 0; ok && i < probes->count; i++)
+        ok = thin_parts_add(parts, &probes->data[i], error);
+    probes->count = 0;
+    return ok;
 }
 
-// Adds the cells around spheres with a diameter below the cells' diagonal.
-static bool thin_spheres_find(ThinParts *parts, const ThinSource *source, Error *error)
+static int compare_pixels(const void *a, const void *b)
 {
-    const FrameData *frame = source->frame;
-    for (uint32_t i = 0; i < frame->sphere_count; i++)
-        visit_sphere(parts, frame, &source->spheres[i], -1);
-    for (uint32_t level = 0; level < thin_parts_affordable(parts); level++) {
-        if (!thin_parts_make_room(parts, level, error))
-            return false;
-        for (uint32_t i = 0; i < frame->sphere_count; i++)
-            visit_sphere(parts, frame, &source->spheres[i], (int)level);
-    }
-    return true;
+    const uint32_t one = ((const Probe *)a)->pixel, other = ((const Probe *)b)->pixel;
+    return (one > other) - (one < other);
 }
 
-// Makes room for all slots at the levels that the sample budget covers.
-static bool complete_room(ThinParts *parts, Error *error)
+// Removes the probes of levels that the sample budget does not cover, and sorts the others.
+static void finish_probes(ThinParts *parts)
 {
-    parts->levels = parts->cuts[0] > 0 ? thin_parts_affordable(parts) : 0;
-    for (uint32_t level = 0; level < parts->levels; level++)
-        if (!thin_parts_make_room(parts, level, error))
-            return false;
-    return true;
+    const uint32_t levels = thin_parts_affordable(parts);
+    size_t kept = 0;
+    for (size_t i = 0; i < parts->probes.count; i++)
+        if (parts->probes.data[i].level < levels)
+            parts->probes.data[kept++] = parts->probes.data[i];
+    parts->probes.count = kept;
+    if (kept > 0)
+        qsort(parts->probes.data, kept, sizeof *parts->probes.data, compare_pixels);
 }
 
 bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error)
 {
     const FrameData *frame = source->frame;
     const size_t pixels = (size_t)frame->width * frame->height;
-    *parts = (ThinParts){.width = frame->width, .height = frame->height, .most = source->levels};
-    parts->slots = memory_zeroed(pixels, sizeof *parts->slots, error);
-    bool ok = parts->slots != NULL;
+    *parts = (ThinParts){.width = frame->width, .height = frame->height};
+    parts->axes = memory_zeroed(pixels, sizeof *parts->axes, error);
+    ProbeList probes = {0};
+    bool ok = parts->axes != NULL;
     // With max_level 0, camera rays see only the background.
+    for (uint32_t i = 0; ok && frame->max_level > 0 && i < frame->sphere_count; i++)
+        ok = add_sphere(parts, source, &source->spheres[i], &probes, error);
+    free(probes.data);
     if (ok && frame->max_level > 0)
-        ok = thin_spheres_find(parts, source, error) && thin_triangles_find(parts, source, error);
-    ok = ok && complete_room(parts, error);
+        ok = thin_triangles_find(parts, source, error);
+    finish_probes(parts);
     if (!ok)
         thin_parts_free(parts);
     return ok;
@@ -136,8 +153,7 @@ bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error)
 
 void thin_parts_free(ThinParts *parts)
 {
-    for (uint32_t level = 0; level < REFINE_LEVELS; level++)
-        free(parts->rows[level].data);
-    free(parts->slots);
+    free(parts->axes);
+    free(parts->probes.data);
     *parts = (ThinParts){0};
 }

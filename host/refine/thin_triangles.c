@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Searches piece by piece, in three steps. Threads first record the pixels whose samples lie in the
 // piece. They then list the thin triangles of each pixel at which the piece is not wide
-// (thin_parts.h). Finally, they search these pixels level by level, with a mask of cells for each
-// row.
+// (thin_parts.h). Finally, they draw these triangles on the pixel's grid of places, and choose
+// probes level by level.
 //
 // Invariant: all results are sets, so they do not depend on the order of work.
 #include "refine/thin_triangles.h"
 
 #include "refine/mesh_pieces.h"
-#include "refine/thin_cells.h"
+#include "refine/thin_drawing.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -20,24 +20,23 @@ typedef struct {
     uint32_t pixel, triangle;
 } PixelTriangle;
 
-// The indices of the pairs of one pixel: `first` to `end` - 1.
+// The pairs of one pixel: `first` to `end` - 1.
 typedef struct {
     uint32_t first, end;
+    ThinAxis axis; // of the pixel's lines
 } PixelRun;
 
-// To save memory, a piece with too many pairs is searched only at level 0. The limit is PAIRS_MOST
-// pairs, or PAIRS_OF_PIXEL pairs per pixel of the picture if that is more. The estimate of the
-// number of pairs is AROUND for each pixel that a thin triangle touches, unless the piece is wide
-// at the pixel.
+// To save memory, a piece with too many pairs has no probes. The limit is PAIRS_MOST pairs, or
+// PAIRS_OF_PIXEL pairs per pixel of the picture if that is more.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
-#define AROUND         9
 
-// The pairs of a range of triangles, or the error that ended the search.
+// The results of a task, or the error that ended it.
 typedef struct {
     ARRAY(PixelTriangle) pairs;
+    ProbeList probes;
     Error error;
-} PairList;
+} TaskList;
 
 typedef struct {
     ThinParts *parts;
@@ -46,15 +45,20 @@ typedef struct {
     MeshPieces pieces;          // of the mesh
     uint32_t first, count;      // the piece's triangles, in the order of the pieces
     uint32_t number;            // of the piece, from 1
+    uint32_t levels;            // to search for probes
     _Atomic uint32_t *covered;  // by pixel: the latest piece that contains its sample
     _Atomic uint32_t *touched;  // by pixel: the latest piece that is thin there
-    _Atomic uint64_t nearby;    // an estimate of the number of pairs (AROUND)
-    PairList *lists;            // of each range
+    _Atomic uint64_t met;       // pairs of thin triangles and pixels that they touch
+    TaskList *lists;            // of each task
     ARRAY(PixelTriangle) pairs; // of the piece, sorted by pixel
     ARRAY(PixelRun) runs;       // of all pixels with pairs
-    uint32_t level;             // the level that is being searched
-    _Atomic uint64_t cuts;      // cells added at this level
 } ThinSearch;
+
+static uint64_t most_pairs(const ThinParts *parts)
+{
+    const uint64_t most = (uint64_t)PAIRS_OF_PIXEL * parts->width * parts->height;
+    return most > PAIRS_MOST ? most : PAIRS_MOST;
+}
 
 static uint32_t triangle_at(const ThinSearch *search, uint32_t place)
 {
@@ -109,20 +113,15 @@ static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
     return false;
 }
 
-// Computes the outline of a triangle that is thin at level 0. Returns false for other triangles.
-static bool thin_outline(const ThinSearch *search, uint32_t triangle, Outline *outline)
-{
-    return projection_outline(&search->projection, triangle, outline) && thin_at_level(outline, 0);
-}
-
-// If the piece is thin at a pixel that the triangle touches, lists the pixel, but only once per
-// piece. Adds the triangle's estimated pairs to search->nearby.
-static bool list_touched(ThinSearch *search, uint32_t triangle, PairList *list)
+// Lists the pixels at which the piece is thin and that the triangle touches. If no probes are
+// needed, or if there are too many pairs, lists a pixel only once per piece.
+static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
 {
     const CellGrid grid = pixels_of(search);
+    const uint64_t most = search->source->has_probes ? most_pairs(search->parts) : 0;
     Outline outline;
-    uint64_t nearby = 0;
-    if (!thin_outline(search, triangle, &outline))
+    if (!projection_outline(&search->projection, triangle, &outline) ||
+        !outline_is_thinner(&outline, THIN_WIDTH))
         return true;
     const CellRange rows = box_touched(&outline.box, &grid, 1);
     for (uint32_t row = rows.first; row < rows.end; row++) {
@@ -131,34 +130,10 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, PairList *list)
             const PixelTriangle pair = {row * grid.counts[0] + column, triangle};
             if (is_wide(search, column, row))
                 continue;
-            nearby += AROUND;
-            if (search->touched[pair.pixel] != search->number &&
-                atomic_exchange(&search->touched[pair.pixel], search->number) != search->number &&
-                !array_push(&list->pairs, pair, &list->error))
-                return false;
-        }
-    }
-    search->nearby += nearby;
-    return true;
-}
-
-// Adds a pair for each pixel at which the piece is thin, if the triangle touches the pixel or its
-// margin.
-static bool list_near(ThinSearch *search, uint32_t triangle, PairList *list)
-{
-    const double reach = MARGIN * (double)refine_tree_cell_side(1);
-    const CellGrid grid = pixels_of(search);
-    Outline outline;
-    if (!thin_outline(search, triangle, &outline))
-        return true;
-    const CellRange rows =
-        cells_touched(outline.box.low[1] - reach, outline.box.high[1] + reach, &grid, 1);
-    for (uint32_t row = rows.first; row < rows.end; row++) {
-        const CellRange columns = outline_near(&outline, &grid, row, reach);
-        for (uint32_t column = columns.first; column < columns.end; column++) {
-            const PixelTriangle pair = {row * grid.counts[0] + column, triangle};
-            if (search->touched[pair.pixel] == search->number &&
-                !array_push(&list->pairs, pair, &list->error))
+            const bool is_first =
+                search->touched[pair.pixel] != search->number &&
+                atomic_exchange(&search->touched[pair.pixel], search->number) != search->number;
+            if ((search->met++ < most || is_first) && !array_push(&list->pairs, pair, &list->error))
                 return false;
         }
     }
@@ -168,29 +143,41 @@ static bool list_near(ThinSearch *search, uint32_t triangle, PairList *list)
 static void list_all_touched(void *context, uint32_t first, uint32_t end)
 {
     ThinSearch *search = context;
-    PairList *list = &search->lists[first / TRIANGLES_OF_TASK];
+    TaskList *list = &search->lists[first / TRIANGLES_OF_TASK];
     for (uint32_t i = first; i < end; i++)
         if (!list_touched(search, triangle_at(search, i), list))
             return;
 }
 
-static void list_all_near(void *context, uint32_t first, uint32_t end)
-{
-    ThinSearch *search = context;
-    PairList *list = &search->lists[first / TRIANGLES_OF_TASK];
-    for (uint32_t i = first; i < end; i++)
-        if (!list_near(search, triangle_at(search, i), list))
-            return;
-}
-
-static bool append_list(ThinSearch *search, const PairList *list, Error *error)
+static bool append_list(ThinSearch *search, const TaskList *list, Error *error)
 {
     if (list->error.text[0] != '\0')
         return error_set(error, "%s", list->error.text);
     for (size_t i = 0; i < list->pairs.count; i++)
         if (!array_push(&search->pairs, list->pairs.data[i], error))
             return false;
+    for (size_t i = 0; i < list->probes.count; i++)
+        if (!thin_parts_add(search->parts, &list->probes.data[i], error))
+            return false;
     return true;
+}
+
+// Runs `work` for tasks of `part` elements, and collects the pairs and probes that it lists.
+static bool collect(ThinSearch *search, uint32_t count, uint32_t part, ThreadPoolPart *work,
+                    Error *error)
+{
+    const uint32_t tasks = range_count(count, part);
+    search->lists = memory_zeroed(tasks, sizeof *search->lists, error);
+    bool ok = search->lists != NULL;
+    if (ok)
+        thread_pool_share(search->source->pool, count, part, work, search);
+    for (uint32_t task = 0; search->lists != NULL && task < tasks; task++) {
+        ok = ok && append_list(search, &search->lists[task], error);
+        free(search->lists[task].pairs.data);
+        free(search->lists[task].probes.data);
+    }
+    free(search->lists);
+    return ok;
 }
 
 static int compare_pixels(const void *a, const void *b)
@@ -198,23 +185,6 @@ static int compare_pixels(const void *a, const void *b)
     const uint32_t one = ((const PixelTriangle *)a)->pixel;
     const uint32_t other = ((const PixelTriangle *)b)->pixel;
     return (one > other) - (one < other);
-}
-
-// Runs `list` on all triangles of the piece, and collects the pairs.
-static bool collect(ThinSearch *search, ThreadPoolPart *list, Error *error)
-{
-    const uint32_t tasks = range_count(search->count, TRIANGLES_OF_TASK);
-    search->lists = memory_zeroed(tasks, sizeof *search->lists, error);
-    search->pairs.count = 0;
-    bool ok = search->lists != NULL;
-    if (ok)
-        thread_pool_share(search->source->pool, search->count, TRIANGLES_OF_TASK, list, search);
-    for (uint32_t task = 0; search->lists != NULL && task < tasks; task++) {
-        ok = ok && append_list(search, &search->lists[task], error);
-        free(search->lists[task].pairs.data);
-    }
-    free(search->lists);
-    return ok;
 }
 
 // Sorts the pairs into runs of one pixel each.
@@ -225,7 +195,7 @@ static bool find_runs(ThinSearch *search, Error *error)
     search->runs.count = 0;
     qsort(search->pairs.data, count, sizeof *search->pairs.data, compare_pixels);
     for (uint32_t i = 0; i < count;) {
-        PixelRun run = {i, i};
+        PixelRun run = {.first = i, .end = i};
         while (run.end < count && pairs[run.end].pixel == pairs[i].pixel)
             run.end++;
         if (!array_push(&search->runs, run, error))
@@ -235,99 +205,98 @@ static bool find_runs(ThinSearch *search, Error *error)
     return true;
 }
 
-// Returns a mask of the row's cells whose parents are subdivided.
-static uint32_t allowed_cells(const uint32_t *parents, uint32_t row, uint32_t scale)
+// Chooses the lines that the pixel's triangles cross, unless an earlier part has chosen.
+static ThinAxis axis_of(const ThinSearch *search, const PixelRun *run)
 {
-    uint32_t allowed = 0;
-    for (uint32_t column = 0; column < scale; column++)
-        allowed |= (parents[row / GROUP_SIDE] >> column / GROUP_SIDE & 1) << column;
-    return allowed;
-}
-
-static bool any_cell(const uint32_t *rows, uint32_t count)
-{
-    uint32_t any = 0;
-    for (uint32_t row = 0; row < count; row++)
-        any |= rows[row];
-    return any != 0;
-}
-
-// Adds the cells to subdivide in one pixel.
-static void search_pixel(ThinSearch *search, uint32_t run)
-{
-    const uint32_t level = search->level, scale = thin_parts_scale(level);
-    const PixelRun *pairs = &search->runs.data[run];
-    const uint32_t pixel = search->pairs.data[pairs->first].pixel;
-    const CellGrid grid = thin_parts_grid(search->parts, pixel, level, MARGIN);
-    LocalCells cells = {0};
-    const uint32_t *parents = thin_parts_rows(search->parts, pixel, level - 1);
-    if (!any_cell(parents, scale / GROUP_SIDE))
-        return;
-    for (uint32_t i = pairs->first; i < pairs->end; i++) {
+    const uint32_t pixel = search->pairs.data[run->first].pixel;
+    double height = 0, width = 0;
+    if (search->parts->axes[pixel] != THIN_NONE)
+        return (ThinAxis)search->parts->axes[pixel];
+    for (uint32_t i = run->first; i < run->end; i++) {
         Outline outline;
-        if (projection_outline(&search->projection, search->pairs.data[i].triangle, &outline))
-            local_cells_add(&cells, &outline, &grid, level);
+        if (!projection_outline(&search->projection, search->pairs.data[i].triangle, &outline))
+            continue;
+        width += outline.box.high[0] - outline.box.low[0];
+        height += outline.box.high[1] - outline.box.low[1];
     }
-    uint32_t *rows = thin_parts_rows(search->parts, pixel, level);
-    for (uint32_t row = 0; row < scale; row++)
-        search->cuts += thin_row_add(&rows[row], (uint32_t)(cells.touched[row + MARGIN] >> MARGIN) &
-                                                     ~local_cells_wide(&cells, row) &
-                                                     allowed_cells(parents, row, scale));
+    return height >= width ? THIN_ROWS : THIN_COLUMNS;
 }
 
-static void search_pixels(void *context, uint32_t first, uint32_t end)
+static void exchange_axes(Outline *outline)
 {
-    for (uint32_t run = first; run < end; run++)
-        search_pixel(context, run);
-}
-
-// Adds the pixels at which the piece is thin.
-static bool add_pixels(ThinSearch *search, Error *error)
-{
-    ThinParts *parts = search->parts;
-    search->nearby = 0;
-    if (!collect(search, list_all_touched, error))
-        return false;
-    for (size_t i = 0; i < search->pairs.count; i++)
-        thin_parts_add_pixel(parts, search->pairs.data[i].pixel);
-    if (!thin_parts_make_room(parts, 0, error))
-        return false;
-    for (size_t i = 0; i < search->pairs.count; i++)
-        parts->cuts[0] += thin_row_add(thin_parts_rows(parts, search->pairs.data[i].pixel, 0), 1);
-    return true;
-}
-
-// Adds smaller cells, level by level, in the pixels at which the piece is thin.
-static bool add_cells(ThinSearch *search, Error *error)
-{
-    ThinParts *parts = search->parts;
-    bool ok = collect(search, list_all_near, error) && find_runs(search, error);
-    for (search->level = 1; ok && search->level < thin_parts_affordable(parts); search->level++) {
-        ok = thin_parts_make_room(parts, search->level, error);
-        search->cuts = 0;
-        if (ok)
-            thread_pool_share(search->source->pool, (uint32_t)search->runs.count, RUNS_OF_TASK,
-                              search_pixels, search);
-        parts->cuts[search->level] += search->cuts;
+    for (uint32_t i = 0; i < outline->count; i++) {
+        const double x = outline->corners[i][0];
+        outline->corners[i][0] = outline->corners[i][1];
+        outline->corners[i][1] = x;
     }
-    return ok;
+    outline_complete(outline);
 }
 
-static uint64_t most_pairs(const ThinParts *parts)
+// Draws the pixel's triangles: marks the places whose middles they contain.
+static void draw_triangles(const ThinSearch *search, const PixelRun *run, CellGrid grid,
+                           ThinDrawing drawing)
 {
-    const uint64_t most = (uint64_t)PAIRS_OF_PIXEL * parts->width * parts->height;
-    return most > PAIRS_MOST ? most : PAIRS_MOST;
+    if (run->axis == THIN_COLUMNS) {
+        const double x = grid.origin[0];
+        grid.origin[0] = grid.origin[1];
+        grid.origin[1] = x;
+    }
+    for (uint32_t i = run->first; i < run->end; i++) {
+        Outline outline;
+        if (!projection_outline(&search->projection, search->pairs.data[i].triangle, &outline))
+            continue;
+        if (run->axis == THIN_COLUMNS)
+            exchange_axes(&outline);
+        const CellRange lines = box_sampled(&outline.box, &grid, 1);
+        for (uint32_t line = lines.first; line < lines.end; line++) {
+            const CellRange places = outline_sampled(&outline, &grid, line);
+            for (uint32_t place = places.first; place < places.end; place++)
+                drawing[line][place] = PLACE_DRAWN;
+        }
+    }
+}
+
+// Adds the probes of some pixels.
+static void probe_pixels(void *context, uint32_t first, uint32_t end)
+{
+    ThinSearch *search = context;
+    TaskList *list = &search->lists[first / RUNS_OF_TASK];
+    const uint32_t width = search->parts->width;
+    for (; first < end; first++) {
+        PixelRun *run = &search->runs.data[first];
+        const uint32_t pixel = search->pairs.data[run->first].pixel;
+        const CellGrid grid = {
+            1,
+            1,
+            {REFINE_GRID, REFINE_GRID},
+            {(double)(pixel % width) * REFINE_GRID, (double)(pixel / width) * REFINE_GRID}};
+        ThinDrawing drawing = {{PLACE_EMPTY}};
+        run->axis = axis_of(search, run);
+        draw_triangles(search, run, grid, drawing);
+        if (!thin_drawing_probe(drawing, pixel, search->levels, &list->probes, &list->error))
+            return;
+    }
 }
 
 static bool search_piece(ThinSearch *search, uint32_t end, Error *error)
 {
-    const uint64_t most = most_pairs(search->parts);
+    ThinParts *parts = search->parts;
     search->count = end - search->first;
     search->number++;
+    search->met = 0;
+    search->pairs.count = 0;
+    search->runs.count = 0;
+    search->levels = thin_parts_affordable(parts);
     thread_pool_share(search->source->pool, search->count, TRIANGLES_OF_TASK, cover_pixels, search);
-    const bool ok = add_pixels(search, error) &&
-                    (search->pairs.count == 0 || search->nearby > most ||
-                     thin_parts_affordable(search->parts) < 2 || add_cells(search, error));
+    bool ok = collect(search, search->count, TRIANGLES_OF_TASK, list_all_touched, error);
+    if (ok && search->source->has_probes && search->met <= most_pairs(parts))
+        ok = find_runs(search, error) &&
+             collect(search, (uint32_t)search->runs.count, RUNS_OF_TASK, probe_pixels, error);
+    for (size_t i = 0; ok && i < search->runs.count; i++)
+        thin_parts_touch(parts, search->pairs.data[search->runs.data[i].first].pixel,
+                         search->runs.data[i].axis);
+    for (size_t i = 0; ok && i < search->pairs.count; i++)
+        thin_parts_touch(parts, search->pairs.data[i].pixel, THIN_ROWS);
     search->first = end;
     return ok;
 }

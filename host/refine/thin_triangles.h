@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Meshes -> the cells around their thin parts (thin_parts.h).
+// Meshes -> the pixels that their thin parts touch, and probes (thin_parts.h).
 #pragma once
 
-#include "refine/thin_cells.h"
+#include "refine/thin_places.h"
 
 bool thin_triangles_find(ThinParts *parts, const ThinSource *source, Error *error);

@@ -105,19 +105,11 @@ static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
         drawing->result->truncated = renderer_truncation(renderer, samples);
 }
 
-static void count_tree(uint32_t *samples, const RefineTree *tree)
+// Counts only the first lines of a pixel, because later samples are not spread evenly.
+static double adaptive_feature(const Adaptive *adaptive, size_t pixels)
 {
-    for (uint32_t y = 0; y < tree->height; y++)
-        for (uint32_t x = 0; x < tree->width; x++)
-            samples[(size_t)y * tree->width + x] = refine_tree_count(tree, x, y);
-}
-
-// Counts only the first subdivision of a pixel, because later samples are not spread evenly.
-static double tree_feature(const RefineTree *tree)
-{
-    SampleShare shares[2] = {{.samples = 1}, {.samples = GROUP_CELLS}};
-    for (size_t i = 0; i < (size_t)tree->width * tree->height; i++)
-        shares[tree->pixel_groups[i] != 0].pixels++;
+    const uint64_t refined = adaptive->lines.pixels.count - 1;
+    const SampleShare shares[2] = {{1, pixels - refined}, {FIRST_SAMPLES + 1, refined}};
     return feature_smallest(shares, 2);
 }
 
@@ -151,10 +143,10 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
     ok = ok && adaptive_refine(&adaptive, contrast, drawing->observer, error);
     if (ok)
         adaptive_store(&adaptive, drawing->framebuffer);
-    if (ok && result->pixel_samples != NULL)
-        count_tree(result->pixel_samples, &adaptive.tree);
+    for (size_t i = 0; ok && result->pixel_samples != NULL && i < result->pixels; i++)
+        result->pixel_samples[i] = adaptive_pixel_samples(&adaptive, i);
     if (ok)
-        result->feature = tree_feature(&adaptive.tree);
+        result->feature = adaptive_feature(&adaptive, result->pixels);
     result->samples = adaptive.samples;
     adaptive_close(&adaptive);
     return ok;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests which cells are subdivided for thin parts, even if the parts are many or hard to project.
+// Tests which pixels thin parts touch, and where they request samples, even if the parts are many
+// or hard to project.
 #include "refine/mesh_pieces.h"
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
@@ -66,7 +67,7 @@ static void search(World *world, uint32_t threads)
     world->frame.camera = camera_make(&viewpoint, &world->normalization, SIDE, SIDE, REFINE_GRID);
     ThreadPool *pool = thread_pool_open(threads);
     const ThinSource source = {&world->frame,  &world->scene, &world->normalization,
-                               &world->sphere, pool,          REFINE_LEVELS};
+                               &world->sphere, pool,          true};
     Error error;
     assert_true(thin_parts_make(&world->parts, &source, &error));
     thread_pool_close(pool);
@@ -79,30 +80,44 @@ static void close_world(World *world)
     free(world->triangles);
 }
 
-static bool is_cut(const World *world, uint32_t column, uint32_t row, uint32_t level)
+// Returns whether a thin part touches the pixel.
+static bool is_touched(const World *world, uint32_t column, uint32_t row)
 {
-    const uint32_t side = refine_tree_cell_side(level);
-    const uint32_t place[2] = {column * side + side / 2, row * side + side / 2};
-    return thin_parts_cut(&world->parts, place, level);
+    return world->parts.axes[row * SIDE + column] != THIN_NONE;
 }
 
-static uint64_t count_cuts(const World *world, uint32_t level)
+static uint64_t count_touched(const World *world)
 {
     uint64_t count = 0;
-    const uint32_t cells = SIDE * REFINE_GRID / refine_tree_cell_side(level);
-    for (uint32_t row = 0; row < cells; row++)
-        for (uint32_t column = 0; column < cells; column++)
-            count += is_cut(world, column, row, level);
+    for (uint32_t pixel = 0; pixel < SIDE * SIDE; pixel++)
+        count += world->parts.axes[pixel] != THIN_NONE;
+    assert_int_equal(count, world->parts.touched);
     return count;
 }
 
-static uint64_t cuts_of_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided)
+// Returns the number of probes in a rectangle. The corners are in pixels.
+static size_t probes_in(const World *world, double left, double top, double right, double bottom)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < world->parts.probes.count; i++) {
+        const Probe *probe = &world->parts.probes.data[i];
+        const bool has_rows = world->parts.axes[probe->pixel] == THIN_ROWS;
+        const double along = (probe->place + 0.5) / REFINE_GRID;
+        const double across = (probe->line + 0.5) / REFINE_GRID;
+        const double x = probe->pixel % SIDE + (has_rows ? along : across);
+        const double y = probe->pixel / SIDE + (has_rows ? across : along);
+        count += x >= left && x <= right && y >= top && y <= bottom;
+    }
+    return count;
+}
+
+static uint64_t pixels_of_triangle(Vec3 a, Vec3 b, Vec3 c, bool two_sided)
 {
     FREED_BY(close_world) World world = world_of(1);
     world.object.two_sided = two_sided;
     add_triangle(&world, a, b, c);
     search(&world, 1);
-    const uint64_t count = count_cuts(&world, 0);
+    const uint64_t count = count_touched(&world);
     return count;
 }
 
@@ -112,21 +127,19 @@ static Vec3 point_at(double x, double y, double depth)
     return vec3((x - SIDE / 2.0) / FOCUS * depth, depth, (SIDE / 2.0 - y) / FOCUS * depth);
 }
 
-TEST(a_small_triangle_is_cut_where_it_appears_down_to_its_size)
+TEST(a_small_triangle_has_probes_where_it_appears)
 {
     FREED_BY(close_world) World world = world_of(1);
     add_triangle(&world, point_at(40.1, 70.9, 5), point_at(40.4, 70.8, 6), point_at(40.3, 70.7, 7));
     search(&world, 1);
-    assert_true(is_cut(&world, 40, 70, 0));
-    assert_true(is_cut(&world, 40 * 3, 70 * 3 + 2, 1));
-    assert_false(is_cut(&world, 40 * 3, 70 * 3, 1));
-    assert_true(is_cut(&world, 40 * 9 + 2, 70 * 9 + 7, 2));
-    assert_int_equal(count_cuts(&world, 0), 1);
-    assert_int_equal(count_cuts(&world, 1), 2);
+    assert_true(is_touched(&world, 40, 70));
+    assert_int_equal(count_touched(&world), 1);
+    assert_true(probes_in(&world, 40.1, 70.7, 40.4, 70.9) > 0);
+    assert_int_equal(probes_in(&world, 40.0, 70.6, 40.5, 71.0), world.parts.probes.count);
 }
 
 // The position in an orthographic picture does not depend on the depth.
-TEST(small_parts_of_orthographic_pictures_are_cut_where_they_appear)
+TEST(small_parts_of_orthographic_pictures_have_probes_where_they_appear)
 {
     FREED_BY(close_world) World world = world_of(1);
     world.height = SIDE;
@@ -134,12 +147,12 @@ TEST(small_parts_of_orthographic_pictures_are_cut_where_they_appear)
                  vec3(40.4 - SIDE / 2, 60, SIDE / 2 - 70.8),
                  vec3(40.3 - SIDE / 2, 700, SIDE / 2 - 70.7));
     search(&world, 1);
-    assert_true(is_cut(&world, 40, 70, 0));
-    assert_int_equal(count_cuts(&world, 0), 1);
-    assert_int_equal(count_cuts(&world, 1), 2);
+    assert_true(is_touched(&world, 40, 70));
+    assert_int_equal(count_touched(&world), 1);
+    assert_true(probes_in(&world, 40.1, 70.7, 40.4, 70.9) > 0);
 }
 
-TEST(small_spheres_of_orthographic_pictures_are_cut_where_they_appear)
+TEST(small_spheres_of_orthographic_pictures_have_probes_where_they_appear)
 {
     FREED_BY(close_world) World world = world_of(1);
     world.height = 1;
@@ -147,52 +160,56 @@ TEST(small_spheres_of_orthographic_pictures_are_cut_where_they_appear)
         (SphereData){.center = {(40.5f - SIDE / 2) / SIDE, 0.9f, (SIDE / 2 - 70.5f) / SIDE},
                      .radius = 0.1f / SIDE};
     search(&world, 1);
-    assert_true(is_cut(&world, 40, 70, 0));
-    assert_int_equal(count_cuts(&world, 0), 1);
+    assert_true(is_touched(&world, 40, 70));
+    assert_int_equal(count_touched(&world), 1);
+    assert_true(probes_in(&world, 40.4, 70.4, 40.6, 70.6) > 1);
 }
 
-TEST(a_triangle_is_cut_from_either_side_only_if_it_has_two)
+TEST(a_triangle_is_thin_from_either_side_only_if_it_has_two)
 {
     const Vec3 a = point_at(40.1, 70.9, 5), b = point_at(40.4, 70.8, 6),
                c = point_at(40.3, 70.7, 7);
-    assert_int_equal(cuts_of_triangle(a, b, c, false), 1);
-    assert_int_equal(cuts_of_triangle(a, c, b, false), 0);
-    assert_int_equal(cuts_of_triangle(a, c, b, true), 1);
+    assert_int_equal(pixels_of_triangle(a, b, c, false), 1);
+    assert_int_equal(pixels_of_triangle(a, c, b, false), 0);
+    assert_int_equal(pixels_of_triangle(a, c, b, true), 1);
 }
 
-TEST(triangles_edge_on_behind_or_beside_are_not_cut)
+TEST(triangles_edge_on_behind_or_beside_touch_no_pixels)
 {
-    assert_int_equal(cuts_of_triangle(vec3(0, 5, 0), vec3(0, 9, 0), vec3(0, 7, 1e-300), true), 0);
-    assert_int_equal(cuts_of_triangle(vec3(0, -5, 0), vec3(0.01, -5, 0), vec3(0, -5, 0.01), true),
+    assert_int_equal(pixels_of_triangle(vec3(0, 5, 0), vec3(0, 9, 0), vec3(0, 7, 1e-300), true), 0);
+    assert_int_equal(pixels_of_triangle(vec3(0, -5, 0), vec3(0.01, -5, 0), vec3(0, -5, 0.01), true),
                      0);
-    assert_int_equal(cuts_of_triangle(vec3(9, 5, 0), vec3(9.01, 5, 0), vec3(9, 5, 0.01), true), 0);
-    assert_int_equal(cuts_of_triangle(vec3(0, 0, 0), vec3(0, 0, 0), vec3(0, 0, 0), true), 0);
+    assert_int_equal(pixels_of_triangle(vec3(9, 5, 0), vec3(9.01, 5, 0), vec3(9, 5, 0.01), true),
+                     0);
+    assert_int_equal(pixels_of_triangle(vec3(0, 0, 0), vec3(0, 0, 0), vec3(0, 0, 0), true), 0);
 }
 
 // The sliver is below the eye and starts behind it, so it appears from the picture's lower edge
 // upward.
-TEST(a_sliver_through_the_plane_of_the_eye_is_cut_in_front_of_the_eye)
+TEST(a_sliver_through_the_plane_of_the_eye_touches_pixels_in_front_of_the_eye)
 {
     const double side = 0.5 / FOCUS, far = 1000, end = 1 / ((70.5 - SIDE / 2.0) / FOCUS);
     FREED_BY(close_world) World world = world_of(2);
     add_triangle(&world, vec3(side, -far, -1), vec3(side * 1.01, -far, -1), vec3(side, end, -1));
     search(&world, 1);
     for (uint32_t row = 0; row < SIDE; row++) {
-        bool cut = false;
+        bool touched = false;
         for (uint32_t column = 0; column < SIDE; column++)
-            cut = cut || is_cut(&world, column, row, 0);
-        assert_int_equal(cut, row >= 70);
+            touched = touched || is_touched(&world, column, row);
+        assert_int_equal(touched, row >= 70);
     }
 }
 
-TEST(a_sliver_of_a_thousand_scenes_length_is_cut_in_the_picture)
+TEST(a_sliver_of_a_thousand_scenes_length_has_probes_in_the_picture)
 {
     FREED_BY(close_world) World world = world_of(1);
     add_triangle(&world, vec3(0.005, 1, -1e9), vec3(0.006, 1, -1e9), vec3(0.0055, 1, 1e9));
     search(&world, 1);
-    for (uint32_t row = 0; row < SIDE; row++)
-        assert_true(is_cut(&world, 60, row, 0));
-    assert_int_equal(count_cuts(&world, 0), SIDE);
+    for (uint32_t row = 0; row < SIDE; row++) {
+        assert_true(is_touched(&world, 60, row));
+        assert_true(probes_in(&world, 60.4, row, 60.7, row + 1) >= 3);
+    }
+    assert_int_equal(count_touched(&world), SIDE);
 }
 
 // Adds slivers across the picture in all directions.
@@ -211,20 +228,26 @@ static void add_slivers(World *world, int count, double thickness)
     }
 }
 
-TEST(too_many_slivers_take_no_more_samples_than_there_are)
+TEST(too_many_slivers_request_no_more_samples_than_there_are)
 {
     FREED_BY(close_world) World world = world_of(20000);
     world.object.two_sided = true;
     add_slivers(&world, 20000, 0.001);
     search(&world, 2);
-    uint64_t samples = 0;
-    for (uint32_t level = 0; level < REFINE_LEVELS; level++)
-        samples += (GROUP_CELLS - 1) * count_cuts(&world, level);
-    assert_true(100 * count_cuts(&world, 0) > 99 * SIDE * SIDE);
-    assert_true(samples <= (uint64_t)THIN_SAMPLES * SIDE * SIDE);
+    assert_true(100 * count_touched(&world) > 99 * SIDE * SIDE);
+    assert_true(world.parts.probes.count <= (size_t)THIN_SAMPLES * SIDE * SIDE);
 }
 
-TEST(any_threads_find_the_same_cells)
+static int compare_probes(const void *a, const void *b)
+{
+    const Probe *one = a, *other = b;
+    const uint64_t keys[2] = {
+        (((uint64_t)one->pixel * 256 + one->line) * 256 + one->place) * 256 + one->level,
+        (((uint64_t)other->pixel * 256 + other->line) * 256 + other->place) * 256 + other->level};
+    return (keys[0] > keys[1]) - (keys[0] < keys[1]);
+}
+
+TEST(any_threads_find_the_same_places)
 {
     World worlds[4];
     for (uint32_t i = 0; i < 4; i++) {
@@ -232,15 +255,18 @@ TEST(any_threads_find_the_same_cells)
         worlds[i].object.two_sided = true;
         add_slivers(&worlds[i], 10, 0.3);
         search(&worlds[i], i + 1);
+        qsort(worlds[i].parts.probes.data, worlds[i].parts.probes.count, sizeof(Probe),
+              compare_probes);
     }
-    for (uint32_t level = 0; level < REFINE_LEVELS; level++)
-        for (uint32_t row = 0; row < SIDE * REFINE_GRID / refine_tree_cell_side(level); row++)
-            for (uint32_t column = 0; column < SIDE * REFINE_GRID / refine_tree_cell_side(level);
-                 column++)
-                for (int i = 1; i < 4; i++)
-                    assert_int_equal(is_cut(&worlds[i], column, row, level),
-                                     is_cut(&worlds[0], column, row, level));
-    assert_true(count_cuts(&worlds[0], 2) > 0);
+    assert_true(worlds[0].parts.probes.count > SIDE);
+    for (int i = 1; i < 4; i++) {
+        assert_memory_equal(worlds[i].parts.axes, worlds[0].parts.axes, SIDE * SIDE);
+        assert_int_equal(worlds[i].parts.probes.count, worlds[0].parts.probes.count);
+        for (size_t k = 0; k < worlds[0].parts.probes.count; k++)
+            assert_int_equal(
+                compare_probes(&worlds[i].parts.probes.data[k], &worlds[0].parts.probes.data[k]),
+                0);
+    }
     for (int i = 0; i < 4; i++)
         close_world(&worlds[i]);
 }
@@ -254,13 +280,13 @@ static void add_strip(World *world, double left, double right)
                  point_at(right, 10.1, 4));
 }
 
-TEST(a_wide_part_made_of_thin_ones_is_not_cut)
+TEST(a_wide_part_made_of_thin_ones_touches_no_pixels)
 {
     FREED_BY(close_world) World world = world_of(400);
     for (int i = 0; i < 200; i++)
         add_strip(&world, 50 + 0.1 * i, 50 + 0.1 * (i + 1));
     search(&world, 1);
-    assert_int_equal(count_cuts(&world, 0), 0);
+    assert_int_equal(count_touched(&world), 0);
 }
 
 // Adds a strip of triangles that form one piece of the mesh.
@@ -285,25 +311,41 @@ static void add_joined_strip(World *world, double left, double right)
     }
 }
 
-TEST(a_thin_piece_is_cut_before_a_wide_one_of_the_same_mesh)
+TEST(a_thin_piece_is_found_before_a_wide_one_of_the_same_mesh)
 {
     FREED_BY(close_world) World world = world_of(2 * PIECE_TRIANGLES);
     add_joined_strip(&world, 20, 90);
     add_joined_strip(&world, 50.2, 50.5);
     search(&world, 1);
     for (uint32_t row = 0; row < SIDE; row++)
-        assert_int_equal(is_cut(&world, 50, row, 0), row >= 10 && row < 110);
+        assert_int_equal(is_touched(&world, 50, row), row >= 10 && row < 110);
 }
 
 // Both strips cover the tested pixels. The search starts with the broader strip.
-TEST(a_thin_piece_is_cut_to_its_size_before_a_broader_one_of_the_same_pixels)
+TEST(a_thin_piece_has_probes_before_a_broader_one_of_the_same_pixels)
 {
     FREED_BY(close_world) World world = world_of(2 * PIECE_TRIANGLES);
     add_joined_strip(&world, 50.05, 50.95);
     add_joined_strip(&world, 50.45, 50.55);
     search(&world, 1);
-    for (uint32_t row = 30; row < 90; row++) {
-        assert_true(is_cut(&world, 3 * 50 + 1, 3 * row, 1));
-        assert_true(is_cut(&world, 9 * 50 + 4, 9 * row, 2));
-    }
+    for (uint32_t row = 30; row < 90; row++)
+        for (uint32_t third = 0; third < 3; third++)
+            assert_true(
+                probes_in(&world, 50.45, row + third / 3.0, 50.55, row + (third + 1) / 3.0) >= 2);
+}
+
+// Like a tube of slivers, which together are as broad as a third of a pixel.
+TEST(slivers_of_one_piece_request_no_more_samples_than_their_union)
+{
+    FREED_BY(close_world) World world = world_of(400);
+    for (int i = 0; i < 100; i++)
+        add_strip(&world, 50.3 + 0.003 * i, 50.3 + 0.003 * (i + 1));
+    search(&world, 1);
+    for (uint32_t row = 30; row < 90; row++)
+        for (uint32_t third = 0; third < 3; third++) {
+            assert_true(probes_in(&world, 50.3, row + third / 3.0, 50.6, row + (third + 1) / 3.0) >=
+                        2);
+            assert_true(probes_in(&world, 50, row + third / 3.0, 51, row + (third + 1) / 3.0) <=
+                        16);
+        }
 }

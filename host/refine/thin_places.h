@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The pixels that thin parts touch, and the probes in these pixels (thin_parts.h).
+#pragma once
+
+#include "base/array.h"
+#include "base/thread_pool.h"
+#include "refine/outline.h"
+#include "refine/probe.h"
+#include "scene/normalize.h"
+
+#define THIN_SAMPLES 16
+
+// The width of the thickest thin part, in places: a pixel's diagonal.
+#define THIN_WIDTH (1.41421356 * REFINE_GRID)
+
+// The axis of a pixel's lines that thin parts cross.
+typedef enum { THIN_NONE, THIN_ROWS, THIN_COLUMNS } ThinAxis;
+
+typedef ARRAY(Probe) ProbeList;
+
+typedef struct {
+    uint32_t width, height;
+    uint8_t *axes;                  // ThinAxis by pixel; THIN_NONE: no thin part touches the pixel
+    uint64_t touched;               // pixels that thin parts touch
+    ProbeList probes;               // sorted by pixel
+    uint64_t counts[REFINE_LEVELS]; // of probes on lines of their level, by level
+} ThinParts;
+
+// The input of the search.
+typedef struct {
+    const FrameData *frame; // its camera is made for REFINE_GRID samples
+    const Scene *scene;
+    const Normalization *normalization; // of the scene
+    const SphereData *spheres;          // of the frame
+    ThreadPool *pool;                   // threads for the work, NULL for none
+    bool has_probes;                    // otherwise, only the axes are needed
+} ThinSource;
+
+// Records that a thin part touches a pixel. The first part decides the axis.
+void thin_parts_touch(ThinParts *parts, uint32_t pixel, ThinAxis axis);
+
+// The places `first` to `end` - 1 of a line, which a thin part covers. They may be outside of the
+// pixel.
+typedef struct {
+    uint32_t pixel, line, level;
+    int first, end;
+} ProbeRun;
+
+// Adds probes of the first and the last place, and of the places beside the run.
+bool probe_list_add(ProbeList *probes, const ProbeRun *run, Error *error);
+
+// Adds a probe to the result.
+bool thin_parts_add(ThinParts *parts, const Probe *probe, Error *error);
+
+// Returns the number of levels that the sample budget covers.
+uint32_t thin_parts_affordable(const ThinParts *parts);
+
+// Returns the index of the first probe that is not before the pixel.
+size_t thin_parts_first_probe(const ThinParts *parts, uint32_t pixel);
