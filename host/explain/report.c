@@ -11,29 +11,6 @@
 // Brief reports omit rays whose weight is below this, because they hardly change an 8-bit color.
 #define BRIEF_WEIGHT (1 / 255.0)
 
-// A primitive's name for users: a sphere's number in the scene, or a triangle's mesh file and
-// number in that file.
-typedef struct {
-    bool is_sphere;
-    size_t number;    // spheres from 1, triangles from 0
-    const char *path; // of the triangle's mesh; NULL for a sphere
-} PrimitiveName;
-
-// Returns the name of a primitive. Spheres have the first ids. The triangles follow, mesh by mesh.
-static PrimitiveName name_primitive(const Scene *scene, uint32_t id)
-{
-    if (id < scene->spheres.count)
-        return (PrimitiveName){.is_sphere = true, .number = (size_t)id + 1};
-    size_t number = id - scene->spheres.count, object = 0;
-    while (number >= scene->objects.data[object].mesh.triangle_count) {
-        number -= scene->objects.data[object++].mesh.triangle_count;
-        assert(object < scene->objects.count);
-    }
-    const MeshObject *found = &scene->objects.data[object];
-    return (PrimitiveName){.number = number_in_file(found, number),
-                           .path = scene->inputs.data[found->input]};
-}
-
 // Returns the name of a defined or imported material, or the number of a predefined material.
 static const char *name_material(const Scene *scene, uint32_t material)
 {
@@ -55,11 +32,21 @@ static json_t *color_json(Vec3 color)
     return json_pack("[f, f, f]", color.x, color.y, color.z);
 }
 
+// Returns a sphere's number in the scene, or a triangle's mesh file and number in that file.
+// Spheres have the first ids. The triangles follow, mesh by mesh.
 static json_t *primitive_json(const Scene *scene, uint32_t id)
 {
-    const PrimitiveName name = name_primitive(scene, id);
-    return JSON(FIELD("kind", name.is_sphere ? "sphere" : "triangle"), FIELD("number", name.number),
-                FIELD("file", name.path), FIELD("id", id));
+    if (id < scene->spheres.count)
+        return JSON(FIELD("kind", "sphere"), FIELD("number", id + 1), FIELD("file", json_null()),
+                    FIELD("id", id));
+    size_t number = id - scene->spheres.count, object = 0;
+    while (number >= scene->objects.data[object].mesh.triangle_count) {
+        number -= scene->objects.data[object++].mesh.triangle_count;
+        assert(object < scene->objects.count);
+    }
+    const MeshObject *found = &scene->objects.data[object];
+    return JSON(FIELD("kind", "triangle"), FIELD("number", number_in_file(found, number)),
+                FIELD("file", scene->inputs.data[found->input]), FIELD("id", id));
 }
 
 static bool is_white(const double color[3])
