@@ -29,13 +29,6 @@
 // exceeds rounding errors.
 #define BEYOND 0x1p-14
 
-// The members of Aim that are accumulated over the triangles around an aim.
-typedef struct {
-    Vec3 outward;
-    double facing, size;
-    uint32_t triangle;
-} Star;
-
 typedef struct {
     const AimSource *source;
     Aims *aims;
@@ -97,11 +90,7 @@ static bool is_chosen(AimBuilder *builder)
 
 static void keep(AimBuilder *builder, Vec3 point, const Star *star)
 {
-    builder->aims->aims[builder->aims->count++] = (Aim){.point = point,
-                                                        .outward = star->outward,
-                                                        .facing = star->facing,
-                                                        .size = star->size,
-                                                        .triangle = star->triangle};
+    builder->aims->aims[builder->aims->count++] = (Aim){.point = point, .star = *star};
 }
 
 static void sum_stars(const AimBuilder *builder)
@@ -253,9 +242,10 @@ static Vec3 rounded(Vec3 v)
 // positive result is a valid bound.
 static double facing_from(const Aim *aim, Vec3 direction)
 {
-    const double off = vec3_dot(aim->outward, direction);
-    const double sines = (1 - fmin(off * off, 1)) * (1 - fmin(aim->facing * aim->facing, 1));
-    return aim->facing * off - sqrt(sines);
+    const double off = vec3_dot(aim->star.outward, direction);
+    const double sines =
+        (1 - fmin(off * off, 1)) * (1 - fmin(aim->star.facing * aim->star.facing, 1));
+    return aim->star.facing * off - sqrt(sines);
 }
 
 static double error_at(const Aim *aim, double distance)
@@ -271,7 +261,7 @@ static bool shoot(Aim *aim, Vec3 origin, double least_facing, RayData *ray)
     const double distance = length_of(back);
     const double error = error_at(aim, distance);
     const double facing = facing_from(aim, vec3_scale(back, 1 / distance));
-    if (!(facing >= least_facing) || !(aim->size * facing > 4 * error))
+    if (!(facing >= least_facing) || !(aim->star.size * facing > 4 * error))
         return false;
     const Vec3 direction = vec3_scale(back, -1);
     *ray = (RayData){.origin = {(float)origin.x, (float)origin.y, (float)origin.z},
@@ -290,7 +280,7 @@ static uint32_t best_eye(const Aim *aim, const Vec3 eyes[EYES])
     double squarest = -1;
     for (uint32_t eye = 0; eye < EYES; eye++) {
         const Vec3 back = vec3_sub(eyes[eye], aim->point);
-        const double along = vec3_dot(back, aim->outward);
+        const double along = vec3_dot(back, aim->star.outward);
         const double square = along * fabs(along) / vec3_dot(back, back);
         if (square > squarest) {
             squarest = square;
@@ -319,7 +309,8 @@ size_t aims_shoot_from_close(Aims *aims, RayData *rays, uint32_t *targets)
     size_t count = 0;
     for (size_t i = 0; i < aims->count; i++) {
         Aim *aim = &aims->aims[i];
-        const Vec3 origin = rounded(vec3_add(aim->point, vec3_scale(aim->outward, aim->size)));
+        const Vec3 origin =
+            rounded(vec3_add(aim->point, vec3_scale(aim->star.outward, aim->star.size)));
         if ((aim->state == AIM_UNTRIED || aim->state == AIM_HIDDEN) &&
             shoot(aim, origin, FACING_FROM_CLOSE, &rays[count]))
             targets[count++] = (uint32_t)i;

@@ -22,13 +22,18 @@ typedef enum {
     AIM_LEAKED  // the ray passed through the mesh at the aim
 } AimState;
 
+// The triangles around an aim.
 typedef struct {
-    Vec3 point;        // in normalized coordinates
-    Vec3 outward;      // mean of the normals around the aim; unit length
-    double facing;     // least cosine between outward and a normal around the aim
-    double size;       // each triangle around the aim reaches at least this far from the aim
-    uint32_t triangle; // one of the triangles around the aim
-    float tolerance;   // error bound of t for the latest ray
+    Vec3 outward;      // mean of the normals; unit length
+    double facing;     // least cosine between outward and a normal
+    double size;       // each triangle reaches at least this far from the aim
+    uint32_t triangle; // one of the triangles
+} Star;
+
+typedef struct {
+    Vec3 point; // in normalized coordinates
+    Star star;
+    float tolerance; // error bound of t for the latest ray
     AimState state;
 } Aim;
 

@@ -55,9 +55,9 @@ TEST(every_edge_and_point_is_aimed_at_once)
     assert_int_equal(all.aims.total, 6 + 4);
     assert_int_equal(all.aims.count, 6 + 4);
     for (size_t i = 0; i < 4; i++)
-        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 1.7);
+        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].star.outward) > 1.7);
     for (size_t i = 4; i < 10; i++)
-        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
+        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].star.outward) > 0.9);
 }
 
 TEST(a_mesh_turned_inside_out_is_aimed_at_from_outside_too)
@@ -65,7 +65,7 @@ TEST(a_mesh_turned_inside_out_is_aimed_at_from_outside_too)
     uint32_t turned[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     FREED_BY(release) Fixture all = aimed(turned, 4, 64, true);
     for (size_t i = 0; i < 10; i++)
-        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].outward) > 0.9);
+        assert_true(vec3_dot(all.aims.aims[i].point, all.aims.aims[i].star.outward) > 0.9);
 }
 
 TEST(an_open_edge_is_aimed_at_beyond_it_too)
@@ -99,7 +99,7 @@ TEST(rays_from_afar_start_outside_and_end_at_their_aims)
         const Vec3 direction = vec3((double)d[0], (double)d[1], (double)d[2]);
         assert_true(vec3_dot(origin, origin) > 3 * 1.5 * 1.5);
         assert_true(vec3_extent(vec3_sub(vec3_add(origin, direction), aim->point)) < 1e-6);
-        assert_true(vec3_dot(direction, aim->outward) < 0);
+        assert_true(vec3_dot(direction, aim->star.outward) < 0);
         assert_true(aim->tolerance > 0 && aim->tolerance < 1e-3f);
     }
 }
