@@ -63,7 +63,8 @@ bool viewer_adopt_model(Viewer *viewer, Error *error)
     if (!is_first)
         (viewer->model->path == before ? state_adopt : state_open)(&viewer->state, &viewer->scene);
     viewer->request.subject++;
-    return views_load(&viewer->views, viewer->model, error) && viewer_watch_files(viewer, error);
+    views_load(&viewer->views, viewer->model);
+    return viewer_watch_files(viewer, error);
 }
 
 bool viewer_follow_worker(Viewer *viewer, Error *error)
@@ -122,8 +123,10 @@ bool viewer_recover(Viewer *viewer, Error *error)
     views_close(&viewer->views);
     window_close(&viewer->window);
     viewer->title[0] = '\0';
-    return window_open(&viewer->window, "clrt", viewer->request.width, viewer->request.height,
-                       error) &&
-           views_open(&viewer->views, &viewer->failure, error) &&
-           views_load(&viewer->views, viewer->model, error);
+    if (!window_open(&viewer->window, "clrt", viewer->request.width, viewer->request.height,
+                     error) ||
+        !views_open(&viewer->views, &viewer->failure, error))
+        return false;
+    views_load(&viewer->views, viewer->model);
+    return true;
 }

@@ -32,10 +32,10 @@ void views_close(Views *views)
     *views = (Views){0};
 }
 
-bool views_load(Views *views, const Model *model, Error *error)
+void views_load(Views *views, const Model *model)
 {
     views->has_boxes = views->has_normals = false;
-    return triangle_view_load(&views->triangles, model, error);
+    triangle_view_load(&views->triangles, model);
 }
 
 static bool load_boxes(Views *views, const Frame *frame, Error *error)

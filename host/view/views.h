@@ -35,7 +35,7 @@ bool views_open(Views *views, Error *no_font, Error *error);
 void views_close(Views *views);
 
 // Copies another model into the OpenGL objects.
-bool views_load(Views *views, const Model *model, Error *error);
+void views_load(Views *views, const Model *model);
 
 // Draws the frame without text, and copies it to the window.
 bool views_draw(Views *views, const Frame *frame, Error *error);

@@ -6,41 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The following functions draw triangles. Triangles share vertices as in the meshes, and each
-// object takes one draw call. If any mesh has colors, the colors of all vertices follow the
-// vertices in buffer 0. A mesh without colors is drawn in its material's color.
+// The following functions draw triangles. Buffer 0 has the points of all meshes, then their
+// normals, and then their colors if any mesh has colors. Triangles share vertices as in the meshes,
+// and each object takes one draw call. A mesh without colors is drawn in its material's color.
 
-typedef struct {
-    float position[3];
-    float normal[3]; // zero for none
-} DrawnVertex;
+enum { POINT, NORMAL, TINT }; // the numbers of the attributes
 
-#define TINT 2 // the number of the color attribute
+#define VECTOR (3 * sizeof(float))
 
 bool triangle_view_open(Drawing *view, Error *error)
 {
     static const DrawingLayout layout = {
-        shader_triangles, false, {{"position", 3}, {"normal", 3}, [TINT] = {"tint", 0}}};
+        shader_triangles, false, {{"position", 0}, {"normal", 0}, {"tint", 0}}};
     return drawing_open(view, &layout, error);
-}
-
-static void store_vertex(DrawnVertex *vertex, const float point[4], const float *normal)
-{
-    for (int axis = 0; axis < 3; axis++)
-        vertex->position[axis] = point[axis];
-    vec3_store(vertex->normal,
-               normal == NULL ? vec3(0, 0, 0) : vec3_normalize(vec3_of_floats(normal)));
-}
-
-static void store_vertices(DrawnVertex *vertices, const Model *model)
-{
-    size_t place = 0;
-    for (size_t i = 0; i < model->scene.objects.count; i++) {
-        const Mesh *mesh = &model->scene.objects.data[i].mesh;
-        for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++, place++)
-            store_vertex(&vertices[place], model->stages.triangles.points[place],
-                         mesh->normals == NULL ? NULL : mesh->normals[vertex]);
-    }
 }
 
 static bool has_colors(const Scene *scene)
@@ -51,35 +29,40 @@ static bool has_colors(const Scene *scene)
     return found;
 }
 
-static void store_colors(float (*colors)[3], const Scene *scene)
+// Copies vectors to the current buffer, unless the mesh has none of this kind.
+static void fill_vectors(size_t offset, const void *vectors, size_t count)
 {
-    for (size_t i = 0; i < scene->objects.count; i++) {
-        const Mesh *mesh = &scene->objects.data[i].mesh;
-        if (mesh->colors != NULL)
-            memcpy(colors, mesh->colors, mesh->vertex_count * sizeof *colors);
-        colors += mesh->vertex_count;
-    }
+    if (vectors != NULL)
+        glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)offset, (GLsizeiptr)(count * VECTOR), vectors);
 }
 
-bool triangle_view_load(const Drawing *view, const Model *model, Error *error)
+void triangle_view_load(const Drawing *view, const Model *model)
 {
+    const Scene *scene = &model->scene;
     const Triangles *triangles = &model->stages.triangles;
     const size_t count = triangles->point_count;
-    const bool is_colored = has_colors(&model->scene);
-    const size_t size = sizeof(DrawnVertex) + (is_colored ? 3 * sizeof(float) : 0);
-    DrawnVertex *vertices = memory_zeroed(count, size, error);
-    if (vertices == NULL)
-        return false;
-    store_vertices(vertices, model);
-    if (is_colored)
-        store_colors((float(*)[3])(void *)(vertices + count), &model->scene);
+    const size_t normals = count * sizeof *triangles->points, colors = normals + count * VECTOR;
     glBindVertexArray(view->array);
-    drawing_fill(view, 0, vertices, count * size);
-    glVertexAttribPointer(TINT, 3, GL_FLOAT, GL_FALSE, 0, (void *)(count * sizeof *vertices));
+    drawing_fill(view, 0, NULL, colors + (has_colors(scene) ? count * VECTOR : 0));
+    glVertexAttribPointer(POINT, 3, GL_FLOAT, GL_FALSE, sizeof *triangles->points, NULL);
+    glVertexAttribPointer(NORMAL, 3, GL_FLOAT, GL_FALSE, 0, (void *)normals);
+    glVertexAttribPointer(TINT, 3, GL_FLOAT, GL_FALSE, 0, (void *)colors);
+    glEnableVertexAttribArray(POINT);
     glBindVertexArray(0);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)normals, triangles->points);
+    for (size_t i = 0, first = 0; i < scene->objects.count; i++) {
+        const Mesh *mesh = &scene->objects.data[i].mesh;
+        fill_vectors(normals + first * VECTOR, mesh->normals, mesh->vertex_count);
+        fill_vectors(colors + first * VECTOR, mesh->colors, mesh->vertex_count);
+        first += mesh->vertex_count;
+    }
     drawing_fill(view, 1, triangles->corners, triangles->count * sizeof *triangles->corners);
-    free(vertices);
-    return true;
+}
+
+// Draws the next object with these vectors or, if it has none, with one value for all vertices.
+static void use_vectors(GLuint attribute, const void *vectors)
+{
+    (vectors != NULL ? glEnableVertexAttribArray : glDisableVertexAttribArray)(attribute);
 }
 
 // Sets the material of an object. An object with vertex colors has no checker.
@@ -105,12 +88,13 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, view->buffers[1]);
     lens_apply(lens, view->program);
     light_apply(scene, &model->normalization, tone, view->program);
+    glVertexAttrib3f(NORMAL, 0, 0, 0);
     for (size_t i = 0; i < scene->objects.count; i++) {
         const MeshObject *object = &scene->objects.data[i];
         (object->two_sided ? glDisable : glEnable)(GL_CULL_FACE);
         set_material(view->program, model, object);
-        (object->mesh.colors != NULL ? glEnableVertexAttribArray
-                                     : glDisableVertexAttribArray)(TINT);
+        use_vectors(NORMAL, object->mesh.normals);
+        use_vectors(TINT, object->mesh.colors);
         glDrawElements(GL_TRIANGLES, (GLsizei)(3 * object->mesh.triangle_count), GL_UNSIGNED_INT,
                        (void *)(3 * first * sizeof(GLuint)));
         first += object->mesh.triangle_count;

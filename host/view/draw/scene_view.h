@@ -9,7 +9,7 @@
 bool triangle_view_open(Drawing *view, Error *error);
 
 // Copies the model's triangles into the OpenGL buffers, in place of the previous triangles.
-bool triangle_view_load(const Drawing *view, const Model *model, Error *error);
+void triangle_view_load(const Drawing *view, const Model *model);
 
 // Draws the triangles as seen through lens, with colors converted by tone.
 void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens,

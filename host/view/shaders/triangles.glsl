@@ -9,7 +9,9 @@ out vec3 place, bend, paint;
 void main()
 {
     place = position;
-    bend = normal;
+    vec3 sizes = abs(normal); // dividing by the largest prevents overflow
+    float largest = max(max(sizes.x, sizes.y), sizes.z);
+    bend = largest > 0.0 ? normalize(normal / largest) : normal;
     paint = tint;
     gl_Position = projected(position - eye);
 }
