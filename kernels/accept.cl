@@ -11,6 +11,7 @@
 // best hit so far. The best of several triangles does not depend on the order of the tests.
 #ifndef CLRT_ACCEPT_CL
 #define CLRT_ACCEPT_CL
+#include "crossings.cl"
 #include "order.cl"
 
 // The lanes in which another triangle certainly has a corner in front of a triangle's plane, and
@@ -72,9 +73,14 @@ static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask 
 }
 
 // In each lane of `candidates`, makes the triangle the best hit if it precedes the best hit so far.
-// Returns the lanes whose hits changed. A tie can change a hit's t and keep its id.
+// Returns the lanes whose hits changed. A tie can change a hit's t and keep its id. If all hits
+// count, adds crossings instead.
 static inline Mask accept_triangle(const Search *search, Mask candidates, Hit *triangle, Hit *best)
 {
+    if (CLRT_ALL_HITS) {
+        add_crossings(search->tracer, search->ray, candidates, triangle, best->t);
+        return 0;
+    }
     const Mask close = candidates && is_close(search, triangle->t, best);
     Mask precedes = candidates && hit_precedes(triangle->t, triangle->id, best), changed = 0;
     if (any_lane(close)) {

@@ -16,8 +16,10 @@ static inline Real sphere_offset(const Tracer *tracer, Real3 origin, uint own)
 
 // Returns the cone of a caller's ray. The host has rounded each component of the ray's direction,
 // with a relative error of at most 2^-24.
-static inline RayCone given_cone(const Tracer *tracer, global const RayData *data, uint kind)
+static inline RayCone given_cone(const Tracer *tracer, global const RayData *data)
 {
+    const bool starts = data->own_index != NOTHING;
+    const bool on_triangle = starts && data->own >= tracer->frame->sphere_count;
     const Real3 origin = load3(data->origin), along = unit_vector(load3(data->direction));
     const Real around = data->doubt + sphere_offset(tracer, origin, data->own);
     RayCone cone = {.origin = origin,
@@ -26,46 +28,42 @@ static inline RayCone given_cone(const Tracer *tracer, global const RayData *dat
                     .length = INFINITY,
                     .u = 0x1p-24f,
                     .own = data->own,
-                    .own_index = data->own_index,
-                    .kind = (RayKind)kind,
+                    .own_index = on_triangle ? data->own_index : NOTHING,
+                    .kind = starts ? RAY_REFLECTED : RAY_CAMERA,
                     .start = {origin, along, 0.0f, around}};
     set_axis(&cone, along);
     return cone;
 }
 
-// Returns whether the ray's hit is certain, which means that rounding cannot change it. Stores the
-// hit's id. The hit is uncertain if it is within rounding of the ray's end, or if `kind` is
-// RAY_CAMERA and data->own is a sphere.
-static NOT_INLINE bool certify_ray(const Tracer *tracer, global const RayData *data, uint kind,
-                                   uint *id)
+// Returns whether `hit` is certain, which means that rounding cannot change the ray's hit. The hit
+// is uncertain if it is within rounding of the ray's end, or if the ray skips a sphere on which it
+// does not start.
+static NOT_INLINE bool certify_ray(const Tracer *tracer, global const RayData *data, uint hit)
 {
-    *id = NOTHING;
     if (data->limit < 0.0f)
         return data->doubt < 0x1p-5f;
-    const RayCone ray = given_cone(tracer, data, kind);
-    if (!is_usable(&ray) || (kind == RAY_CAMERA && data->own < tracer->frame->sphere_count))
+    const RayCone ray = given_cone(tracer, data);
+    if (!is_usable(&ray) || (ray.kind == RAY_CAMERA && data->own < tracer->frame->sphere_count))
         return false;
     const Nearest nearest = certify_nearest_hit(tracer, &ray);
     const Real end = data->limit * length_of(load3(data->direction));
     const Real doubt = 0x1p-21f * end + 2.0f * ray.around;
     if (min(nearest.low, nearest.other) > end + doubt)
-        return true;
-    *id = nearest.id;
-    return nearest_is_certain(&nearest) &&
-           (nearest.id == NOTHING || end == INFINITY || nearest.high < end - doubt);
+        return hit == NOTHING;
+    return nearest_is_certain(&nearest) && nearest.id == hit &&
+           (hit == NOTHING || end == INFINITY || nearest.high < end - doubt);
 }
 
-// Stores the result for ray i in hits[i]. For a certain hit, t is 0, and id is the primitive that
-// the ray hits, or NOTHING. For an uncertain hit, t is INFINITY. trace_rays has the same arguments.
-kernel void certify_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
-                         global HitData *hits)
+// Stores in counts[i] whether hits[i], the result of trace_rays for ray i, is certain. Both kernels
+// have the same arguments.
+kernel void certify_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kinds,
+                         uint room, global const HitData *hits, global uint *counts)
 {
+    (void)kinds, (void)room;
     const uint place = (uint)get_global_id(0);
     if (place >= count)
         return;
     Tally tally = {0};
     const Tracer tracer = TRACER(&tally);
-    uint id;
-    const bool is_certain = certify_ray(&tracer, &rays[place], kind, &id);
-    hits[place] = (HitData){is_certain ? 0.0f : INFINITY, id};
+    counts[place] = certify_ray(&tracer, &rays[place], hits[place].id);
 }

@@ -51,6 +51,9 @@
 #ifndef CLRT_RAYS
 #define CLRT_RAYS 0 // the program traces arrays of rays (rays.cl)
 #endif
+#ifndef CLRT_ALL_HITS
+#define CLRT_ALL_HITS 0 // the program finds all hits of a ray (crossings.cl)
+#endif
 #ifndef CLRT_GPU
 #define CLRT_GPU 0 // fp32 on a device that is not a CPU: single rays keep their state in registers
 #endif

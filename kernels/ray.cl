@@ -26,6 +26,9 @@ typedef struct {
     UInt own_index; // index of that primitive if it is a triangle, else NOTHING
     RayKind kind;
     Mask active; // lanes that have a ray
+#if CLRT_ALL_HITS
+    UInt number; // in the array of rays
+#endif
 } Ray;
 
 // Returns the uncertainty of the ray's origin, in units of rounding.
@@ -39,6 +42,14 @@ static inline float length_of_ray(const Ray *ray)
     return ray->kind == RAY_SHADOW ? 1.0f : INFINITY;
 }
 
+// The lists of hits in programs that find all hits. Each ray has `room` entries for its nearest
+// hits.
+typedef struct {
+    global HitData *hits;
+    global uint *counts; // of all hits of each ray
+    uint room;
+} HitLists;
+
 typedef struct {
     uint camera_rays, shadow_rays, reflected_rays, shaded_points, camera_hits;
     uint triangle_tests, box_tests, sphere_tests;
@@ -47,6 +58,9 @@ typedef struct {
 #endif
 #if CLRT_SIGNATURES
     UInt signatures[PACKETS]; // hashes, as in SampleData
+#endif
+#if CLRT_ALL_HITS
+    HitLists lists;
 #endif
 } Tally;
 

@@ -4,19 +4,54 @@
 // they are therefore traced ray by ray. The file is compiled after render.cl, and only if
 // requested.
 
-// Reads CLRT_LANES rays from index `start` on, one per lane. Lanes past the array's end are
-// inactive, and so are rays with a limit below 0.
-static inline Ray ray_at(global const RayData *rays, uint start, uint count, uint kind, Hit *limit)
+// The arguments of trace_rays.
+typedef struct {
+    global const RayData *rays;
+    uint count, kinds;
+    HitLists lists;
+} RayArray;
+
+#if CLRT_ALL_HITS
+// Adds the crossings of rays in `starts` with the far walls of the spheres on which they start.
+static inline void cross_own_spheres(const Tracer *tracer, const Ray *ray, Mask starts, Real limit)
 {
-    const UInt place = start + LANE_Y * PACKET_WIDTH + LANE_X;
-    const Record record = record_at(rays, min(place, (UInt)(count - 1)) * WORDS(RayData));
-    *limit = (Hit){record_real(&record, 3), NOTHING, NOTHING};
-    return (Ray){record_real3(&record, 0, 1),
-                 record_real3(&record, 4, 1),
-                 record_word(&record, 7),
-                 record_word(&record, 8),
-                 kind,
-                 place < count && limit->t >= 0.0f};
+    const Mask own = ray->active && starts && ray->own < tracer->frame->sphere_count;
+    if (!any_lane(own))
+        return;
+    Ray leaving = *ray;
+    leaving.kind = RAY_REFLECTED;
+    const Sphere sphere = fetch_sphere(tracer, own ? ray->own : (UInt)(0));
+    const Hit far = {own_sphere_distance(&sphere, &leaving, own), ray->own, NOTHING};
+    add_crossings(tracer, ray, own, &far, limit);
+}
+#endif
+
+// Reads CLRT_LANES rays from index `first` on, one per lane. Lanes past the array's end are
+// inactive, and so are rays with a limit below 0. *starts receives the rays that start on a
+// primitive. If all hits count, these rays only skip the primitive.
+static inline Ray ray_at(const Tracer *tracer, const RayArray *array, uint first, Hit *hit,
+                         Mask *starts)
+{
+    const UInt place = first + LANE_Y * PACKET_WIDTH + LANE_X;
+    const Record record =
+        record_at(array->rays, min(place, (UInt)(array->count - 1)) * WORDS(RayData));
+    const UInt own = record_word(&record, 7), index = record_word(&record, 8);
+    const Mask leaves =
+        CLRT_ALL_HITS ? (Mask)(0) : index != NOTHING && own >= tracer->frame->sphere_count;
+    *starts = index != NOTHING;
+    *hit = (Hit){record_real(&record, 3), NOTHING, NOTHING};
+    Ray ray = {record_real3(&record, 0, 1),
+               record_real3(&record, 4, 1),
+               own,
+               leaves ? index : (UInt)(NOTHING),
+               RAY_CAMERA,
+               place < array->count && hit->t >= 0.0f};
+#if CLRT_ALL_HITS
+    ray.number = place;
+    cross_own_spheres(tracer, &ray, *starts, hit->t);
+    *starts = 0;
+#endif
+    return ray;
 }
 
 // Finds the nearest sphere before hit->t, unless the search finds it. Returns the lanes that then
@@ -27,11 +62,16 @@ static inline Mask begin_search(const Tracer *tracer, const Ray *ray, Hit *hit)
     return ends_at_any_hit(ray->kind) ? searching && hit->id == NOTHING : searching;
 }
 
-static inline void search_rays(const Tracer *tracer, const Ray packets[PACKETS], Hit hits[PACKETS])
+// Finds the hits of the active rays, which all have one kind.
+static inline void search_rays(const Tracer *tracer, uint kind, const Mask active[PACKETS],
+                               Ray packets[PACKETS], Hit hits[PACKETS])
 {
     Mask searching[PACKETS];
-    for (uint i = 0; i < PACKETS; i++)
+    for (uint i = 0; i < PACKETS; i++) {
+        packets[i].kind = (RayKind)kind;
+        packets[i].active = active[i];
         searching[i] = begin_search(tracer, &packets[i], &hits[i]);
+    }
     if (has_search(tracer))
         intersect_search(tracer, packets, searching, PACKETS, hits);
 }
@@ -45,38 +85,51 @@ static inline void store_hits(global HitData *hits, uint left, const Hit *found)
     }
 }
 
-// The arguments of trace_rays.
-typedef struct {
-    global const RayData *rays;
-    uint count, kind;
-    global HitData *hits;
-} RayArray;
-
-// Traces PACKETS packets of consecutive rays. PoCL compiles a kernel's own code three times, but
-// this function once.
-static NOT_INLINE void trace_packets(const Tracer *tracer, const RayArray *array, uint start)
+// Traces PACKETS packets of consecutive rays, first the rays that start on no primitive. PoCL
+// compiles a kernel's own code three times, but this function once.
+static NOT_INLINE void trace_packets(const Tracer *tracer, const RayArray *array, uint first)
 {
-    const uint count = array->count;
     Ray packets[PACKETS];
     Hit found[PACKETS];
-    for (uint i = 0; i < PACKETS; i++)
-        packets[i] = ray_at(array->rays, start + i * CLRT_LANES, count, array->kind, &found[i]);
-    search_rays(tracer, packets, found);
-    for (uint i = 0; i < PACKETS && start + i * CLRT_LANES < count; i++)
-        store_hits(array->hits + start + i * CLRT_LANES, count - start - i * CLRT_LANES, &found[i]);
+    Mask active[2][PACKETS], starts;
+    for (uint i = 0; i < PACKETS; i++) {
+        packets[i] = ray_at(tracer, array, first + i * CLRT_LANES, &found[i], &starts);
+        active[0][i] = packets[i].active && !starts;
+        active[1][i] = packets[i].active && starts;
+    }
+    for (uint kind = array->kinds & ~RAY_ON_SURFACE; kind <= array->kinds; kind++)
+        search_rays(tracer, kind, active[kind & RAY_ON_SURFACE], packets, found);
+    for (uint i = 0; !CLRT_ALL_HITS && i < PACKETS; i++, first += CLRT_LANES)
+        if (first < array->count)
+            store_hits(array->lists.hits + first, array->count - first, &found[i]);
 }
 
-// Finds the nearest hits of `count` rays, or any hits if `kind` has RAY_ANY_HIT. All rays have the
-// same kind (RayKind). A work-item takes BLOCK * BLOCK consecutive rays, regardless of the number
-// of lanes. If many work-items had no rays, PoCL would give all rays to one thread.
-kernel void trace_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kind,
-                       global HitData *hits)
+// Empties the lists of rays.
+static inline void clear_lists(const HitLists *lists, uint first, uint end)
 {
-    const uint begin = BLOCK * BLOCK * (uint)get_global_id(0);
+    for (uint ray = first; ray < end; ray++)
+        lists->counts[ray] = 0;
+    for (size_t entry = (size_t)first * lists->room; entry < (size_t)end * lists->room; entry++)
+        lists->hits[entry] = (HitData){INFINITY, NOTHING};
+}
+
+// Finds the nearest hits of `count` rays. With CLRT_ALL_HITS, finds the nearest `room` hits of each
+// ray and the number of all hits. Otherwise, `room` is 1, and any hits suffice if `kinds` has
+// RAY_ANY_HIT. If rays start on primitives, `kinds` has RAY_ON_SURFACE. A work-item
+// takes BLOCK * BLOCK consecutive rays, regardless of the number of lanes. If many work-items had
+// no rays, PoCL would give all rays to one thread.
+kernel void trace_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kinds,
+                       uint room, global HitData *hits, global uint *counts)
+{
+    const RayArray array = {rays, count, kinds, {hits, counts, room}};
+    uint first = BLOCK * BLOCK * (uint)get_global_id(0);
+    const uint end = min(first + BLOCK * BLOCK, count);
     Tally tally = {0};
+#if CLRT_ALL_HITS
+    tally.lists = array.lists;
+    clear_lists(&array.lists, first, end);
+#endif
     const Tracer tracer = TRACER(&tally);
-    const RayArray array = {rays, count, kind, hits};
-    for (uint start = begin; start < min(begin + BLOCK * BLOCK, count);
-         start += PACKETS * CLRT_LANES)
-        trace_packets(&tracer, &array, start);
+    for (; first < end; first += PACKETS * CLRT_LANES)
+        trace_packets(&tracer, &array, first);
 }

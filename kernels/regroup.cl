@@ -84,6 +84,9 @@ enum {
     WORD_T,
     WORD_ID,
     WORD_INDEX,
+#if CLRT_ALL_HITS
+    WORD_NUMBER,
+#endif
     RAY_WORDS
 };
 
@@ -127,6 +130,9 @@ static inline void list_append(RayList *list, const Ray *ray, const Hit *hit, ui
     list_write(list, WORD_T, list->count, compressed(as_bits(hit->t), bits));
     list_write(list, WORD_ID, list->count, compressed(hit->id, bits));
     list_write(list, WORD_INDEX, list->count, compressed(hit->index, bits));
+#if CLRT_ALL_HITS
+    list_write(list, WORD_NUMBER, list->count, compressed(ray->number, bits));
+#endif
     list->count += popcount(bits);
 }
 
@@ -142,12 +148,16 @@ static inline Ray list_ray(const RayList *list, uint place, RayKind kind)
 {
     const uint left = list->count - place;
     const uint bits = left < CLRT_LANES ? (1u << left) - 1 : ALL_LANES;
-    return (Ray){list_read3(list, WORD_ORIGIN, place),
-                 list_read3(list, WORD_DIRECTION, place),
-                 list_read(list, WORD_OWN, place),
-                 list_read(list, WORD_OWN_INDEX, place),
-                 kind,
-                 lanes_of(bits)};
+    Ray ray = {list_read3(list, WORD_ORIGIN, place),
+               list_read3(list, WORD_DIRECTION, place),
+               list_read(list, WORD_OWN, place),
+               list_read(list, WORD_OWN_INDEX, place),
+               kind,
+               lanes_of(bits)};
+#if CLRT_ALL_HITS
+    ray.number = list_read(list, WORD_NUMBER, place);
+#endif
+    return ray;
 }
 
 static inline Hit list_hit(const RayList *list, uint place)

@@ -317,14 +317,15 @@ typedef struct {
     float origin[3];
     float limit; // the largest t of a hit; below 0 for no ray
     float direction[3];
-    uint own;       // id of the primitive on which the ray starts, or NOTHING
-    uint own_index; // index of that primitive if it is a triangle, else NOTHING
+    uint own;       // id of the primitive that the ray skips, or NOTHING
+    uint own_index; // index of that primitive if the ray starts on it, else NOTHING
     float doubt;    // for certify_rays.cl: bound on the distance from origin to the exact start
 } RayData;
 CLRT_SAME_SIZE(RayData, 40)
 
-// Rays whose kind has this bit end at any hit.
-#define RAY_ANY_HIT 4
+// Bits of the kinds of rays.
+#define RAY_ON_SURFACE 1 // some rays start on primitives; equals RAY_REFLECTED
+#define RAY_ANY_HIT    4 // the rays end at any hit
 
 typedef struct {
     float t; // INFINITY without a hit

@@ -222,9 +222,12 @@ static inline Mask may_meet_before(const Sphere *bound, Real3 origin, Real3 d, R
     return is_near && !(ahead > 0.0f && ahead * ahead > 1.01f * reach * dd);
 }
 
-// Returns the smallest t > 0 at which origin + t * direction hits the sphere, and INFINITY if the
-// ray misses. A ray from inside hits the far wall.
-static inline Real exact_sphere_distance(const Sphere *sphere, Real3 origin, Real3 d)
+// The distances at which a ray's line enters and leaves a sphere, or INFINITY if it misses.
+typedef struct {
+    Real near, far;
+} SphereWalls;
+
+static inline SphereWalls exact_sphere_walls(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const TwoFloat3 f = sphere_to_origin(sphere, origin);
     const TwoFloat rr = two_square(sphere->radius);
@@ -236,21 +239,35 @@ static inline Real exact_sphere_distance(const Sphere *sphere, Real3 origin, Rea
     const Real one = c / q, other = q / dd;
     const Real near = one < other ? one : other;
     const Real far = one < other ? other : one;
-    const Real first = far > 0.0f ? far : INFINITY;
-    const Real t = near > 0.0f ? near : first;
-    return discriminant >= 0.0f ? t : INFINITY;
+    const Mask is_hit = discriminant >= 0.0f;
+    return (SphereWalls){is_hit ? near : INFINITY, is_hit ? far : INFINITY};
 }
 
-// Returns exact_sphere_distance in the wanted lanes, and INFINITY in the others. Most spheres need
-// no two-float test.
-static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
+// Returns the smallest t > 0 at which origin + t * direction hits the sphere, and INFINITY if the
+// ray misses. A ray from inside hits the far wall.
+static inline Real exact_sphere_distance(const Sphere *sphere, Real3 origin, Real3 d)
+{
+    const SphereWalls walls = exact_sphere_walls(sphere, origin, d);
+    const Real first = walls.far > 0.0f ? walls.far : INFINITY;
+    return walls.near > 0.0f ? walls.near : first;
+}
+
+// Returns the wanted lanes, unless plain Reals prove that the ray misses. Most spheres then need no
+// two-float test.
+static inline Mask sphere_is_near(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
 {
     if (!any_lane(wanted))
-        return INFINITY;
-    Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
+        return 0;
+    const Mask is_near = wanted && !sphere_is_passed(sphere, origin, d);
     if (!any_lane(is_near))
-        return INFINITY;
-    is_near = is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
+        return 0;
+    return is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
+}
+
+// Returns exact_sphere_distance in the wanted lanes, and INFINITY in the others.
+static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
+{
+    const Mask is_near = sphere_is_near(sphere, origin, d, wanted);
     if (!any_lane(is_near))
         return INFINITY;
     const Real t = exact_sphere_distance(sphere, origin, d);

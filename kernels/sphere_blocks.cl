@@ -119,6 +119,20 @@ static inline void accept_pair(SpherePairs *pairs, uint number, Real t, uint id)
     pairs->changed[packet] |= (lane_uint(&best->id, lane) == id ? 1u : 0u) << lane;
 }
 
+// Adds the crossings of the given pairs.
+static inline void cross_pairs(const SpherePairs *pairs, UInt number, UInt ids, Mask given,
+                               const SphereWalls *walls)
+{
+    for (uint bits = lane_bits(given); bits != 0; bits &= bits - 1) {
+        const uint i = lowest_bit(bits), ray = lane_uint(&number, i);
+        Ray alone = pairs->rays[ray / CLRT_LANES];
+        alone.active = lanes_of(1u << ray % CLRT_LANES);
+        const SphereWalls both = {lane_real(&walls->near, i), lane_real(&walls->far, i)};
+        cross_walls(pairs->tracer, &alone, &both, lane_uint(&ids, i),
+                    pairs->hits[ray / CLRT_LANES].t);
+    }
+}
+
 // Tests and removes the last CLRT_LANES pairs, or all if there are fewer.
 static NOT_INLINE void test_pairs(SpherePairs *pairs)
 {
@@ -132,6 +146,11 @@ static NOT_INLINE void test_pairs(SpherePairs *pairs)
     const UInt ids = gather(words + 8 * WIDE, place);
     const Ray ray = gathered_rays(pairs->rays, number, valid);
     const Mask is_own = valid && ray.own == ids;
+    if (CLRT_ALL_HITS) {
+        const SphereWalls walls = exact_sphere_walls(&spheres, ray.origin, ray.direction);
+        cross_pairs(pairs, number, ids, valid && !is_own, &walls);
+        return;
+    }
     const Real other = exact_sphere_distance(&spheres, ray.origin, ray.direction);
     const Real t = is_own ? own_sphere_distance(&spheres, &ray, is_own) : other;
     for (uint found = lane_bits(valid && t < INFINITY); found != 0; found &= found - 1) {

@@ -7,7 +7,7 @@
 // therefore the same for every tree and without a tree.
 #ifndef CLRT_SPHERES_CL
 #define CLRT_SPHERES_CL
-#include "ray.cl"
+#include "crossings.cl"
 #include "sphere.cl"
 
 // Returns the distance to the sphere on which the ray starts. A reflected or refracted ray can hit
@@ -36,6 +36,28 @@ static ALWAYS_INLINE Real sphere_ray_distance(const Sphere *sphere, const Ray *r
     return is_own ? own_sphere_distance(sphere, ray, is_own) : other;
 }
 
+// Adds the active rays' crossings of a sphere's walls, up to `limit`.
+static inline void cross_walls(const Tracer *tracer, const Ray *ray, const SphereWalls *walls,
+                               uint id, Real limit)
+{
+    const Hit near = {walls->near, (UInt)(id), NOTHING}, far = {walls->far, (UInt)(id), NOTHING};
+    add_crossings(tracer, ray, ray->active && near.t > 0.0f, &near, limit);
+    add_crossings(tracer, ray, ray->active && far.t > 0.0f, &far, limit);
+}
+
+// Adds the active rays' crossings of a sphere. Only programs that find all hits call this function.
+static NOT_INLINE void cross_sphere(const Tracer *tracer, const Ray *ray, const Sphere *sphere,
+                                    uint id, Real limit)
+{
+    Ray near = *ray;
+    near.active =
+        sphere_is_near(sphere, ray->origin, ray->direction, ray->active && ray->own != id);
+    if (!any_lane(near.active))
+        return;
+    const SphereWalls walls = exact_sphere_walls(sphere, ray->origin, ray->direction);
+    cross_walls(tracer, &near, &walls, id, limit);
+}
+
 // Makes the sphere the best hit in each lane where it precedes the best hit so far.
 static inline void accept_sphere(Real t, uint id, Hit *best)
 {
@@ -49,7 +71,10 @@ static inline void accept_sphere(Real t, uint id, Hit *best)
 static inline void intersect_sphere(const Tracer *tracer, const Ray *ray, const Sphere *sphere,
                                     uint id, Hit *best)
 {
-    accept_sphere(sphere_ray_distance(sphere, ray, (UInt)(id)), id, best);
+    if (CLRT_ALL_HITS)
+        cross_sphere(tracer, ray, sphere, id, best->t);
+    else
+        accept_sphere(sphere_ray_distance(sphere, ray, (UInt)(id)), id, best);
     if (CLRT_STATISTICS)
         tracer->tally->sphere_tests += lane_count(ray->active);
 }

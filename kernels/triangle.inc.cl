@@ -70,7 +70,7 @@ static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
     return edge > 0.0f || (edge == 0.0f && beside);
 }
 
-// Returns whether the triangle owns the ray and counts as crossed. crossings.cl has the invariant.
+// Returns whether the triangle owns the ray (crossings.cl).
 static inline Mask OVERLOAD edges_own(const Corners *sheared, const Edges *edges)
 {
     const Real3 a = sheared->a, b = sheared->b, c = sheared->c;
@@ -125,7 +125,8 @@ static inline TriangleTest OVERLOAD triangle_test(const Corners *relative, const
     test.shear = *shear;
     test.sheared = corners_sheared(relative, shear);
     test.edges = edges_of(&test.sheared);
-    test.inside = edges_contain(&test.edges);
+    test.inside =
+        CLRT_ALL_HITS ? edges_own(&test.sheared, &test.edges) : edges_contain(&test.edges);
     return test;
 }
 
@@ -142,7 +143,7 @@ typedef struct {
 // triangles' flags. One-sided triangles do not stop rays on their inner side. For rays that leave a
 // surface, surface_ray_distance decides about all triangles ahead up to `reach`, and about
 // triangles within rounding of the start. For rays from the eye, it decides only about triangles
-// within rounding of the eye.
+// within rounding of the eye. If all hits count, it decides about none.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {
@@ -157,6 +158,11 @@ static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt m
         return met;
     met.t = triangle_depth(&test->sheared, &test->edges) * shear->inverse_z;
     const Mask at_origin = triangle_is_at_origin(met.t, shear);
+    if (CLRT_ALL_HITS) {
+        met.clear = met.near && met.t >= 0.0f ? met.t : INFINITY;
+        met.near = 0;
+        return met;
+    }
     if (from_eye)
         met.clear = met.near && met.t > 0.0f ? met.t : INFINITY;
     met.near = met.near && met.t <= reach && (at_origin || (!from_eye && met.t > 0.0f));

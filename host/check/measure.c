@@ -64,10 +64,13 @@ static bool trace_aims(StagedMesh *staged, MeshCensus *census, const RayCaster *
     for (int from = 0; ok && from < 2; from++) {
         const size_t rays = make_rays[from](aims, batch.rays, batch.targets);
         for (size_t first = 0; ok && first < rays; first += CAST_RAYS) {
-            const RayCast cast = {.scene = &staged->form.buffers,
+            const RayCast cast = {.query = RAYS_NEAREST,
+                                  .scene = &staged->form.buffers,
                                   .rays = batch.rays + first,
-                                  .count = rays - first < CAST_RAYS ? rays - first : CAST_RAYS};
-            ok = ray_caster_cast(caster, &cast, batch.hits + first, NULL, error);
+                                  .count = rays - first < CAST_RAYS ? rays - first : CAST_RAYS,
+                                  .room = 1,
+                                  .hits = batch.hits + first};
+            ok = ray_caster_cast(caster, &cast, error);
         }
         if (ok)
             aims_judge(aims, batch.targets, batch.hits, rays);
@@ -105,7 +108,7 @@ static bool count_mesh_leaks(MeshCensus *census, RayCaster *caster, const MeshOb
     SceneForm *form = &staged.form;
     const FlatSource source = {.scene = &staged.scene,
                                .normalization = normalization,
-                               .layout = caster->kernel->choice.nodes,
+                               .layout = caster->kernels[RAYS_NEAREST]->choice.nodes,
                                .has_tree = session->settings.wanted.tree != CLRT_TREE_NONE};
     bool ok = scene_init(&staged.scene, error) &&
               array_push(&staged.scene.objects, object, error) &&

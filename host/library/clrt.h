@@ -445,7 +445,7 @@ typedef struct {
     uint8_t *fronts;      // 1 if the ray comes from the front
 
     // Only for clrt_trace_all.
-    uint32_t *counts; // number of triangles that the ray crosses, which may exceed room
+    uint32_t *counts; // number of surfaces that the ray crosses, which may exceed room
     size_t room;      // entries per ray in the other arrays, at most 1048576
 
     // Only for clrt_trace, on devices with doubles.
@@ -470,20 +470,21 @@ typedef struct {
 CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                          const ClrtHits *hits, ClrtError *error);
 
-// Finds all triangles that each ray crosses, and stores the nearest hits->room of them, ordered by
+// Finds all surfaces that each ray crosses, and stores the nearest hits->room of them, ordered by
 // distance and then by id. The results of ray i start at entry i * room. CLRT_NOTHING fills unused
 // entries. A ray that enters or leaves a closed mesh through an edge or vertex crosses an odd
 // number of triangles there, usually one. A ray that only touches the surface crosses an even
-// number. A ray whose origin is in a triangle crosses the triangle, unless `starts` names it.
-// Spheres are ignored.
+// number. A ray whose origin is in a triangle crosses the triangle, unless `starts` names it. A ray
+// crosses a sphere where it enters the sphere and where it leaves the sphere, each with this
+// sphere's id. If `starts` names the sphere, the ray crosses only its far wall, as in clrt_trace.
 CLRT_API bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                              const ClrtHits *hits, ClrtError *error);
 
-// Stores in inside[i] whether the ray's origin is inside the meshes. Spheres are ignored. The
-// meshes must be closed. The call does not verify this, and its results are meaningless for open
-// meshes; clrt_check finds these. An origin is inside if its ray crosses an odd number of
-// triangles. The direction has no effect, unless the origin is so close to a surface that rounding
-// decides. NULL directions are fastest.
+// Stores in inside[i] whether the ray's origin is inside the meshes and spheres. The meshes must be
+// closed. The call does not verify this, and its results are meaningless for open meshes;
+// clrt_check finds these. An origin is inside if its ray crosses an odd number of surfaces. In a
+// sphere inside a mesh, it is therefore outside. The direction has no effect, unless the origin is
+// so close to a surface that rounding decides. NULL directions are fastest.
 CLRT_API bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,
                             uint8_t *inside, ClrtError *error);
 

@@ -7,7 +7,6 @@
 #include "scene/scene.h"
 #include "session/picture.h"
 #include "session/ray_caster.h"
-#include "session/ray_scene.h"
 
 #include <stdatomic.h>
 
@@ -56,19 +55,11 @@ bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *e
 
 struct ClrtRenderer {
     Session session;
-    RayCaster casters[RAY_QUERIES]; // open after the first rays that need them
-    RayScene rays[2];               // by NodeLayout; empty until rays are cast
-    void *ray_memory;               // owned; of a batch of rays, kept because new pages cost time
-    size_t ray_memory_size;         // bytes
-    atomic_bool is_busy;            // true while a call uses the renderer
-    uint64_t state;                 // ClrtScene::state of the session's scene; 0 without a scene
+    RayCaster caster;       // empty until rays are cast
+    struct RayBatch *batch; // owned; NULL until rays are cast; kept because new pages cost time
+    atomic_bool is_busy;    // true while a call uses the renderer
+    uint64_t state;         // ClrtScene::state of the session's scene; 0 without a scene
 };
-
-// Returns the scene in the layout of the query's kernel. The query's caster must be open.
-static inline RayScene *renderer_handle_rays(ClrtRenderer *renderer, RayQuery query)
-{
-    return &renderer->rays[renderer->casters[query].kernel->choice.nodes];
-}
 
 // Checks the arguments and marks the renderer as busy. On success, the caller must call
 // renderer_handle_end later.

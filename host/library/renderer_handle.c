@@ -65,21 +65,13 @@ ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *erro
     return NULL;
 }
 
-static void free_rays(ClrtRenderer *renderer)
-{
-    for (int layout = 0; layout < 2; layout++)
-        ray_scene_free(&renderer->rays[layout]);
-}
-
 void clrt_renderer_free(ClrtRenderer *renderer)
 {
     if (renderer == NULL)
         return;
-    free_rays(renderer);
-    for (int query = 0; query < RAY_QUERIES; query++)
-        ray_caster_close(&renderer->casters[query]);
+    ray_caster_close(&renderer->caster);
     session_close(&renderer->session);
-    free(renderer->ray_memory);
+    free(renderer->batch);
     free(renderer);
 }
 
@@ -104,7 +96,7 @@ bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtEr
     if (renderer->state == scene->state)
         return true;
     renderer->state = 0;
-    free_rays(renderer);
+    ray_caster_free_scenes(&renderer->caster);
     if (!session_take(session, &scene->scene, &cause))
         return check_fail_for(error, CLRT_SCENE, &cause);
     renderer->state = scene->state;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays -> hits, computed by the search that renders pictures.
+// Rays -> hits, computed by the searches that render pictures.
 #pragma once
 
 #include "session/session.h"
@@ -7,39 +7,61 @@
 // The kernels that trace arrays of rays.
 typedef enum {
     RAYS_NEAREST, // kernels/rays.cl: the nearest hit, or whether there is one
-    RAYS_CROSSED, // kernels/crossings.cl: the number of crossings, and the nearest ones in order
-    RAYS_CERTAIN, // kernels/certify_rays.cl: the hits that rounding cannot change; needs pair nodes
+    RAYS_ALL,     // kernels/rays.cl: the number of hits, and the nearest ones in order
+    RAYS_CERTAIN, // kernels/certify_rays.cl: whether rounding cannot change RAYS_NEAREST's hits
     RAY_QUERIES
 } RayQuery;
 
 typedef struct {
-    const Kernel *kernel;
-    cl_mem rays, hits, counts; // room for one cast; counts is NULL unless RAYS_CROSSED
+    uint32_t index;  // in the device's arrays
+    uint32_t mesh;   // number of the mesh
+    uint32_t number; // in the mesh as given, counting the triangles that clrt drops
+} TrianglePlace;
+
+// A scene for rays, in device buffers that kernels search and as triangles on the host.
+typedef struct {
+    SceneForm form; // its triangles are as traced, in the order of their ids
+    Normalization frame;
+    TrianglePlace *places; // of the triangles
+    bool is_loaded, one_sided;
+} RayScene;
+
+// {0} has no kernels, buffers and scenes.
+typedef struct {
+    const Kernel *kernels[RAY_QUERIES];
+    cl_mem rays, hits, counts; // room for one cast
+    RayScene scenes[NODE_LAYOUTS];
 } RayCaster;
 
-// Compiles the query's kernel. Fails for RAYS_CERTAIN if certifier_check_device rejects the device.
+// Compiles the query's kernel and makes the buffers, unless the caster has them. Fails for
+// RAYS_CERTAIN if certifier_check_device rejects the device.
 bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, Error *error);
 void ray_caster_close(RayCaster *caster);
 
-// Where rays start. The values equal RAY_CAMERA and RAY_REFLECTED of the kernels' RayKind.
-typedef enum {
-    RAYS_FREE,      // anywhere
-    RAYS_ON_SURFACE // on the primitives that the rays name
-} RayStart;
+// Opens the query and returns the session's scene in the node layout of its kernel, or NULL on
+// failure. Compiles the scene unless the caster has it with this value of one_sided. If one_sided
+// is false, rays hit all triangles from both sides.
+const RayScene *ray_caster_scene(RayCaster *caster, Session *session, RayQuery query,
+                                 bool one_sided, Error *error);
+
+// Releases the scenes. The session's scene may change afterwards.
+void ray_caster_free_scenes(RayCaster *caster);
 
 typedef struct {
-    const SceneBuffers *scene; // in the node layout of the caster's kernel
+    RayQuery query;
+    const SceneBuffers *scene; // in the node layout of the query's kernel
     const RayData *rays;
-    size_t count; // in [1, CAST_RAYS]
-    RayStart start;
-    bool any;      // for RAYS_NEAREST: any hit suffices
-    uint32_t room; // for RAYS_CROSSED: hits stored for each ray; at most CROSSINGS_MAX / count
+    size_t count;     // in [1, CAST_RAYS]
+    bool on_surfaces; // only for RAYS_NEAREST: some rays start on primitives
+    bool any;         // only for RAYS_NEAREST: any hit suffices
+    cl_uint room;     // hits stored for each ray: 1, or for RAYS_ALL at most HITS_MAX / count
+    HitData *hits;    // may be NULL for RAYS_CERTAIN
+    uint32_t *counts; // may be NULL for RAYS_NEAREST
 } RayCast;
 
-#define CAST_RAYS     262144
-#define CROSSINGS_MAX 1048576
+#define CAST_RAYS 262144
+#define HITS_MAX  1048576
 
-// Stores the hits of the rays. For RAYS_CROSSED, stores the numbers of crossings in `counts`, and
-// `hits` may be NULL if room is 0. For other queries, `counts` may be NULL.
-bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, HitData *hits, uint32_t *counts,
-                     Error *error);
+// Stores the hits and, for RAYS_ALL, the numbers of hits. For RAYS_CERTAIN, stores in counts which
+// hits of the preceding cast are certain. It must have been RAYS_NEAREST with the same rays.
+bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, Error *error);

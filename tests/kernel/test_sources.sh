@@ -15,12 +15,13 @@ accepts() {
     -include render.cl "$source"
 }
 
-sources="tile.cl rays.cl crossings.cl samples.cl ladder.cl aov.cl explain.cl"
+sources="tile.cl rays.cl samples.cl ladder.cl aov.cl explain.cl"
 no_fp64="-Xclang -cl-ext=-cl_khr_fp64"
 for form in "0 -DCLRT_PACKET=0" "0 -DCLRT_GPU=1" "1 -DCLRT_PACKET=0" "1 -DCLRT_PACKET=1"; do
   for source in $sources; do
     accepts "$source" $no_fp64 -DCLRT_SIGNATURES=1 -DCLRT_WIDE_NODES=$form
   done
+  accepts rays.cl $no_fp64 -DCLRT_RAYS=1 -DCLRT_ALL_HITS=1 -DCLRT_WIDE_NODES=$form
   # Among these seven sets of the scene's switches, any two switches have all four combinations
   # (Kleitman and Spencer, "Families of k-independent sets", 1973).
   for bits in 11111111 11110000 10001110 01001001 00100101 00010010 00000000; do

@@ -242,7 +242,7 @@ static void trace_aims(size_t first, size_t count, Results *results)
     assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
 }
 
-// clrt traces rows of rays in blocks (ray_grid.h). Batches of 20 rays are too small for blocks.
+// clrt traces rows of rays in blocks (ray_batch.c). Batches of 20 rays are too small for blocks.
 TEST(rays_in_rows_have_the_hits_of_rays_in_small_batches)
 {
     static const size_t widths[] = {16, 100, 133, 3000, 9999};

@@ -69,9 +69,11 @@ static void aim(double origin[3], double direction[3])
         direction[axis] += miss / sqrt(size) * aside[axis];
 }
 
+#define ROOM 4
+
 typedef struct {
-    double distances[RAYS];
-    uint32_t primitives[RAYS];
+    double distances[RAYS], crossed[RAYS][ROOM];
+    uint32_t primitives[RAYS], crossings[RAYS][ROOM], counts[RAYS];
     uint8_t occluded[RAYS];
 } Found;
 
@@ -82,8 +84,14 @@ static void trace(const ClrtScene *scene, const ClrtSettings *settings, Found *f
         .size = sizeof rays, .count = RAYS, .origins = origins[0], .directions = directions[0]};
     const ClrtHits hits = {
         .size = sizeof hits, .distances = found->distances, .primitives = found->primitives};
+    const ClrtHits all = {.size = sizeof all,
+                          .distances = found->crossed[0],
+                          .primitives = found->crossings[0],
+                          .counts = found->counts,
+                          .room = ROOM};
     assert_non_null(renderer);
     assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
+    assert_true(clrt_trace_all(renderer, scene, &rays, &all, NULL));
     assert_true(clrt_occluded(renderer, scene, &rays, found->occluded, NULL));
     clrt_renderer_free(renderer);
 }
@@ -105,8 +113,11 @@ TEST(a_tree_over_spheres_changes_no_hit)
             aim(origins[i], directions[i]);
         trace(scene, &all, &expected);
         size_t hits = 0;
-        for (int i = 0; i < RAYS; i++)
+        for (int i = 0; i < RAYS; i++) {
             hits += expected.primitives[i] != CLRT_NOTHING;
+            assert_int_equal(expected.crossings[i][0], expected.primitives[i]);
+            assert_true(expected.crossed[i][0] == expected.distances[i]);
+        }
         assert_in_range(hits, RAYS / 10, RAYS - RAYS / 100);
         for (size_t form = 0; form < sizeof forms / sizeof *forms; form++) {
             memset(&found, 0x55, sizeof found);

@@ -165,10 +165,5 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(clrt.ArgumentError, "0 origins, but 2 directions"):
             renderer.trace(scene, [], [(0, 0, 1)] * 2)
 
-    def test_spheres_contain_nothing(self):
-        scene = clrt.Scene()
-        scene.sphere((0, 0, 0), 1)
-        self.assertEqual(clrt.Renderer().contains(scene, [(0, 0, 0)]).tolist(), [False])
-
 
 unittest.main(argv=sys.argv[:1])

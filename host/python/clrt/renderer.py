@@ -87,10 +87,10 @@ class Renderer:
     def trace_all(self, scene: Scene, origins: ArrayLike, directions: ArrayLike, *,
                   results: Iterable[str] = RESULTS, progress: Progress = None,
                   **limits: Any) -> Hits:
-        """Finds all faces, but no spheres, that rays cross. Orders Hits by ray, then by distance.
+        """Finds all faces and spheres that rays cross. Orders Hits by ray, then by distance.
 
         A ray that enters or leaves a closed mesh through an edge or vertex crosses an odd number of
-        faces there, usually one.
+        faces there, usually one. A ray crosses a sphere where it enters and where it leaves.
         """
         given, results = rays(origins, directions, **limits), choices(RESULTS, results, "a result")
         counts = np.zeros(given.count, np.uint32)
@@ -108,7 +108,7 @@ class Renderer:
         return self._flags("occluded", scene, rays(origins, directions, **limits), progress)
 
     def contains(self, scene: Scene, points: ArrayLike, *, progress: Progress = None) -> np.ndarray:
-        """Whether each point is inside of the scene's meshes, as bools. Spheres do not count.
+        """Whether each point is inside of an odd number of meshes and spheres, as bools.
 
         The meshes must be closed. Results for open meshes are meaningless; `check` finds these.
         """

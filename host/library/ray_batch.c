@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: MIT
+// Callers pass rays and read hits in fp64 and in scene coordinates. The device receives rays and
+// returns hits in float and in normalized coordinates. A ray's direction is scaled by a power of
+// two so that its largest component is in [1, 2). The device's t then stays in float's range. A far
+// origin first advances to a cube around the scene, because rounding it to float would move the ray
+// too far. An origin is far if a coordinate exceeds the cube's side in magnitude.
+//
+// Rays that form rows are reordered so that beams of 64 rays trace them faster. Programs list the
+// rays of a picture row by row, but 64 rays of a square share more nodes than 64 rays of a row.
+//
+// The threads of a pool share the conversions, because a single thread would limit a device with
+// many cores to about 50 million rays per second.
+//
+// Invariant: each conversion depends only on the ray and the scene, so a ray has the same hit in
+// every batch.
+#include "library/ray_batch.h"
+
+#include "base/thread_pool.h"
+
+#include <math.h>
+#include <string.h>
+
+// The number of entries that a thread converts at once.
+#define RANGE_ENTRIES 1024
+
+// The smallest value of RayBatch::cube. All triangles are within [-1, 1] on each axis.
+#define LEAST_CUBE 2.0
+
+// The largest distance of a ray's start from the plane of its triangle.
+#define OFF_PLANE 0x1p-15
+
+// Rays that start beyond this distance from the normalized origin hit nothing (intersect.cl). Only
+// rays that miss the scene's cube start there. The limits of spheres (normalize.h) keep every such
+// cube within this distance.
+#define FARTHEST 0x1p45
+
+// The most rays in a beam, the most rows in a block, and the limits of the rays in a row.
+#define BEAM_RAYS   64
+#define BLOCK_ROWS  8
+#define LEAST_WIDTH 16
+#define MOST_WIDTH  8192
+
+// A ray of the caller's arrays.
+typedef struct {
+    Vec3 origin, direction;
+    double near, far;
+    uint32_t own;
+} GivenRay;
+
+static Vec3 given_vector(const double *vectors, size_t stride, size_t index)
+{
+    const size_t bytes = index * (stride != 0 ? stride : 3 * sizeof(double));
+    return vec3_of_doubles((const double *)(const void *)((const char *)vectors + bytes));
+}
+
+static GivenRay given_ray(const ClrtRays *rays, size_t index)
+{
+    return (GivenRay){given_vector(rays->origins, rays->origin_stride, index),
+                      rays->directions != NULL
+                          ? given_vector(rays->directions, rays->direction_stride, index)
+                          : vec3(0, 0, 1),
+                      rays->nears != NULL ? rays->nears[index] : 0,
+                      rays->fars != NULL ? rays->fars[index] : INFINITY,
+                      rays->starts != NULL ? rays->starts[index] : CLRT_NOTHING};
+}
+
+// Returns the vector from a ray's point at t = 1 to the next ray's.
+static Vec3 step_after(const ClrtRays *rays, size_t index)
+{
+    const GivenRay a = given_ray(rays, index), b = given_ray(rays, index + 1);
+    return vec3_sub(vec3_add(b.origin, b.direction), vec3_add(a.origin, a.direction));
+}
+
+size_t ray_batch_width(const ClrtRays *rays)
+{
+    const size_t most = rays->count / 2 < MOST_WIDTH ? rays->count / 2 : MOST_WIDTH;
+    if (most < LEAST_WIDTH)
+        return 0;
+    const Vec3 step = step_after(rays, 0);
+    size_t width = 1;
+    while (width < most && !(vec3_dot(step_after(rays, width - 1), step) < 0))
+        width++;
+    const bool is_grid =
+        width >= LEAST_WIDTH && width < most && vec3_dot(step_after(rays, 2 * width - 1), step) < 0;
+    return is_grid ? width : 0;
+}
+
+void ray_batch_order(RayBatch *batch, size_t width)
+{
+    size_t filled = 0, height = width > 0 ? BLOCK_ROWS : 0;
+    while (height * width > batch->count)
+        height /= 2;
+    const size_t side = height > 0 ? BEAM_RAYS / height : 0;
+    for (size_t top = 0; height > 0 && (top + height) * width <= batch->count; top += height)
+        for (size_t left = 0; left < width; left += side)
+            for (size_t y = top; y < top + height; y++)
+                for (size_t x = left; x < left + side && x < width; x++)
+                    batch->order[filled++] = (uint32_t)(y * width + x);
+    for (; filled < batch->count; filled++)
+        batch->order[filled] = (uint32_t)filled;
+}
+
+typedef struct {
+    Vec3 at[3];
+} FaceCorners;
+
+static FaceCorners corners_of(const RayScene *scene, uint32_t id)
+{
+    const Triangles *triangles = &scene->form.stages.triangles;
+    const size_t triangle = id - scene->form.flat.sphere_count;
+    return (FaceCorners){{vec3_of_floats(triangles_corner(triangles, triangle, 0)),
+                          vec3_of_floats(triangles_corner(triangles, triangle, 1)),
+                          vec3_of_floats(triangles_corner(triangles, triangle, 2))}};
+}
+
+static Vec3 normal_of(const FaceCorners *corners)
+{
+    const Vec3 *at = corners->at;
+    return vec3_normalize(vec3_cross(vec3_sub(at[1], at[0]), vec3_sub(at[2], at[0])));
+}
+
+static double entry_of_axis(double cube, double origin, double direction)
+{
+    return direction == 0 ? -INFINITY : (-copysign(cube, direction) - origin) / direction;
+}
+
+// Returns the t at which the ray's line enters the cube, if the line hits it.
+static double cube_entry(double cube, Vec3 origin, Vec3 direction)
+{
+    return fmax(fmax(entry_of_axis(cube, origin.x, direction.x),
+                     entry_of_axis(cube, origin.y, direction.y)),
+                entry_of_axis(cube, origin.z, direction.z));
+}
+
+// Returns half the side of a cube that is about twice as large as the scene.
+static double cube_around(const FlatScene *flat)
+{
+    double cube = LEAST_CUBE;
+    for (int axis = 0; axis < 3 && flat->sphere_count > 0; axis++)
+        cube = fmax(cube, 2 * fmax(fabs((double)flat->bounds.low[axis]),
+                                   fabs((double)flat->bounds.high[axis])));
+    return cube;
+}
+
+// Returns a NaN if a component is a NaN.
+static double sum_of(Vec3 v)
+{
+    return fabs(v.x) + fabs(v.y) + fabs(v.z);
+}
+
+// Returns the power of two that scales a size from [1e-300, 1e300] into [1, 2). The bit operations
+// replace ilogb and scalbn. These two functions and fmax took 15 % of a call's processor time.
+static double power_to_one(double size)
+{
+    uint64_t bits;
+    double power;
+    memcpy(&bits, &size, sizeof bits);
+    bits = (UINT64_C(2046) << 52) - (bits & UINT64_C(0x7ff) << 52);
+    memcpy(&power, &bits, sizeof power);
+    return power;
+}
+
+static Vec3 point_at(Vec3 origin, Vec3 direction, double t)
+{
+    return vec3_add(origin, vec3_scale(direction, t));
+}
+
+// Stores a ray's direction, limit, scale and doubt. The doubt bounds the errors of fp64 arithmetic,
+// which are at most 2^-52 of the coordinates of the origin and of the start.
+// Returns the ray's start in normalized coordinates: the point at `near`, advanced to the scene's
+// cube if it is far away. A ray that can hit nothing gets a limit below 0.
+static Vec3 convert_line(RayBatch *batch, size_t entry, const GivenRay *given)
+{
+    const Normalization *frame = &batch->scene->frame;
+    const double largest = vec3_extent(given->direction);
+    const bool is_usable = largest >= 1e-300 && sum_of(given->direction) <= 1e300;
+    const double shrink = is_usable ? power_to_one(largest) : 0, unit = shrink * batch->unit;
+    const Vec3 direction = vec3_scale(given->direction, shrink);
+    // Calling normalize_point would make calls for camera rays 4 % slower.
+    const Vec3 origin = vec3_scale(vec3_sub(given->origin, frame->center), frame->scale);
+    double start = given->near != 0 ? given->near / unit : 0;
+    Vec3 from = start != 0 ? point_at(origin, direction, start) : origin;
+    if (vec3_extent(from) > 2 * batch->cube) {
+        start = fmax(start, cube_entry(batch->cube, origin, direction));
+        from = point_at(origin, direction, start);
+    }
+    const double limit = given->far != INFINITY ? given->far / unit - start : INFINITY;
+    const bool is_ray = is_usable && sum_of(from) < FARTHEST;
+    RayData *ray = &batch->data[entry];
+    ray->doubt = is_ray ? (float)(0x1p-50 * (sum_of(origin) + sum_of(from))) : INFINITY;
+    ray->limit = !is_ray || !(limit >= 0) ? -1 : limit < 0x1p127 ? (float)limit : INFINITY;
+    vec3_store(ray->direction, direction);
+    batch->scales[entry] = (RayScale){start, unit};
+    return from;
+}
+
+// Moves the start of a ray onto the plane of its triangle. Returns the former distance of the start
+// from the plane.
+static double move_to_plane(Vec3 *origin, const FaceCorners *corners)
+{
+    const Vec3 normal = normal_of(corners);
+    const double off = vec3_dot(normal, vec3_sub(*origin, corners->at[0]));
+    *origin = vec3_sub(*origin, vec3_scale(normal, off));
+    return fabs(off);
+}
+
+static uint64_t primitive_count(const RayScene *scene)
+{
+    return (uint64_t)scene->form.flat.sphere_count + scene->form.flat.triangle_count;
+}
+
+// Converts a ray. Returns the distance of the ray's start from the plane of its triangle, or
+// INFINITY if the ray's primitive does not exist. A ray whose near is not 0 does not start on its
+// primitive, but only skips the primitive.
+static double convert(RayBatch *batch, size_t entry)
+{
+    RayData *ray = &batch->data[entry];
+    const RayScene *scene = batch->scene;
+    const uint32_t spheres = scene->form.flat.sphere_count;
+    const GivenRay given = given_ray(&batch->rays, batch->first + batch->order[entry]);
+    double off = 0;
+    Vec3 origin = convert_line(batch, entry, &given);
+    ray->own = given.own;
+    ray->own_index = NOTHING;
+    if (given.own != NOTHING && given.own >= primitive_count(scene))
+        return INFINITY;
+    if (given.own != NOTHING && given.near == 0)
+        ray->own_index = given.own < spheres ? given.own : scene->places[given.own - spheres].index;
+    if (ray->own_index != NOTHING && given.own >= spheres && ray->limit >= 0) {
+        const FaceCorners corners = corners_of(scene, given.own);
+        off = move_to_plane(&origin, &corners);
+    }
+    vec3_store(ray->origin, origin);
+    ray->doubt += (float)(1.01 * off + 1.01 * 0x1p-24 * sum_of(origin));
+    return off;
+}
+
+static void convert_range(void *context, uint32_t first, uint32_t end)
+{
+    RayBatch *batch = context;
+    for (uint32_t entry = first; entry < end; entry++)
+        if (convert(batch, entry) > OFF_PLANE)
+            atomic_store(&batch->is_faulty, true);
+}
+
+static bool report_fault(RayBatch *batch, ClrtError *error)
+{
+    const RayScene *scene = batch->scene;
+    double off = 0;
+    size_t entry = 0;
+    while ((off = convert(batch, entry)) <= OFF_PLANE)
+        entry++;
+    const size_t number = batch->first + batch->order[entry];
+    const uint32_t own = batch->data[entry].own;
+    if (off == INFINITY)
+        return check_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu", number,
+                          own, (unsigned long long)primitive_count(scene));
+    return check_fail(error, CLRT_ARGUMENT,
+                      "ray %zu should start on primitive %u, but starts %.3g from its plane; at "
+                      "most %.3g are allowed",
+                      number, own, off * batch->unit, OFF_PLANE * batch->unit);
+}
+
+bool ray_batch_convert(RayBatch *batch, const RayScene *scene, ClrtError *error)
+{
+    batch->scene = scene;
+    batch->unit = 1 / scene->frame.scale;
+    batch->cube = cube_around(&scene->form.flat);
+    atomic_init(&batch->is_faulty, false);
+    thread_pool_share(batch->pool, (uint32_t)batch->count, RANGE_ENTRIES, convert_range, batch);
+    return !atomic_load(&batch->is_faulty) || report_fault(batch, error);
+}
+
+// Stores the weights of the second and third corner at the point where the ray's line crosses the
+// triangle's plane (Moeller and Trumbore, JGT 2(1) 1997). If the point is outside the triangle, the
+// weights are clamped to the triangle.
+static void weights_at(double weights[2], const FaceCorners *corners, Vec3 origin, Vec3 direction)
+{
+    const Vec3 ab = vec3_sub(corners->at[1], corners->at[0]);
+    const Vec3 ac = vec3_sub(corners->at[2], corners->at[0]);
+    const Vec3 from = vec3_sub(origin, corners->at[0]), across = vec3_cross(direction, ac);
+    const double determinant = vec3_dot(ab, across);
+    if (determinant == 0)
+        return;
+    const double second = vec3_dot(from, across) / determinant;
+    const double third = vec3_dot(direction, vec3_cross(from, ab)) / determinant;
+    weights[0] = fmin(fmax(second, 0), 1);
+    weights[1] = fmin(fmax(third, 0), 1 - weights[0]);
+}
+
+static Vec3 sphere_normal(const SphereData *sphere, Vec3 point)
+{
+    const Vec3 center =
+        vec3_add(vec3_of_floats(sphere->center), vec3_of_floats(sphere->center_low));
+    return vec3_normalize(vec3_sub(point, center));
+}
+
+// These functions store results of an entry's hit in element `result` of the caller's arrays.
+typedef void StoreHit(const RayBatch *batch, size_t entry, HitData hit, size_t result);
+
+static void store_distance(const RayBatch *batch, size_t entry, HitData hit, size_t result)
+{
+    const RayScale *scale = &batch->scales[entry];
+    batch->results.hits.distances[result] =
+        hit.id == NOTHING ? INFINITY : (scale->start + (double)hit.t) * scale->unit;
+}
+
+static void store_primitive(const RayBatch *batch, size_t entry, HitData hit, size_t result)
+{
+    (void)entry;
+    batch->results.hits.primitives[result] = hit.id;
+}
+
+// Stores the number of a triangle's mesh and the triangle's number in that mesh.
+static void store_place(const RayBatch *batch, size_t entry, HitData hit, size_t result)
+{
+    static const TrianglePlace nowhere = {NOTHING, NOTHING, NOTHING};
+    const ClrtHits *hits = &batch->results.hits;
+    const uint32_t spheres = batch->scene->form.flat.sphere_count;
+    const TrianglePlace *place =
+        hit.id != NOTHING && hit.id >= spheres ? &batch->scene->places[hit.id - spheres] : &nowhere;
+    (void)entry;
+    if (hits->meshes != NULL)
+        hits->meshes[result] = place->mesh;
+    if (hits->triangles != NULL)
+        hits->triangles[result] = place->number;
+}
+
+static void store_surface(const RayBatch *batch, size_t entry, HitData hit, size_t result)
+{
+    const ClrtHits *hits = &batch->results.hits;
+    const RayData *ray = &batch->data[entry];
+    const FlatScene *flat = &batch->scene->form.flat;
+    const Vec3 origin = vec3_of_floats(ray->origin), direction = vec3_of_floats(ray->direction);
+    double weights[2] = {0, 0};
+    Vec3 normal = {0, 0, 0};
+    if (hit.id != NOTHING && hit.id < flat->sphere_count) {
+        normal = sphere_normal(&flat->spheres[hit.id], point_at(origin, direction, (double)hit.t));
+    } else if (hit.id != NOTHING) {
+        const FaceCorners corners = corners_of(batch->scene, hit.id);
+        weights_at(weights, &corners, origin, direction);
+        normal = normal_of(&corners);
+    }
+    if (hits->weights != NULL)
+        memcpy(hits->weights + 2 * result, weights, sizeof weights);
+    if (hits->normals != NULL)
+        vec3_store_doubles(hits->normals + 3 * result, normal);
+    if (hits->fronts != NULL)
+        hits->fronts[result] = hit.id != NOTHING && vec3_dot(normal, direction) <= 0;
+}
+
+// Stores a result of all hits in a range of entries.
+static inline void store_hits(const RayBatch *batch, uint32_t first, uint32_t end, StoreHit *store)
+{
+    const size_t room = batch->results.hits.room;
+    for (size_t entry = first; entry < end; entry++)
+        for (size_t i = 0; i < room; i++)
+            store(batch, entry, batch->found[entry * room + i],
+                  (batch->first + batch->order[entry]) * room + i);
+}
+
+// Stores the results that have one element per ray.
+static void store_rays(const RayBatch *batch, uint32_t first, uint32_t end)
+{
+    const RayResults *results = &batch->results;
+    const bool all = results->query == RAYS_ALL;
+    for (size_t entry = first; entry < end; entry++) {
+        const size_t ray = batch->first + batch->order[entry];
+        if (results->flags != NULL)
+            results->flags[ray] =
+                all ? (batch->counts[entry] & 1) != 0 : batch->found[entry].id != NOTHING;
+        else if (all)
+            results->hits.counts[ray] = batch->counts[entry];
+    }
+}
+
+// Separate loops take half the time of a single loop that checks for each hit which arrays to fill.
+static void store_range(void *context, uint32_t first, uint32_t end)
+{
+    const RayBatch *batch = context;
+    const RayResults *results = &batch->results;
+    const ClrtHits *hits = &results->hits;
+    if (hits->distances != NULL)
+        store_hits(batch, first, end, store_distance);
+    if (hits->primitives != NULL)
+        store_hits(batch, first, end, store_primitive);
+    if (hits->meshes != NULL || hits->triangles != NULL)
+        store_hits(batch, first, end, store_place);
+    if (hits->weights != NULL || hits->normals != NULL || hits->fronts != NULL)
+        store_hits(batch, first, end, store_surface);
+    if (results->flags != NULL || (results->query == RAYS_ALL && hits->counts != NULL))
+        store_rays(batch, first, end);
+}
+
+void ray_batch_store(RayBatch *batch)
+{
+    thread_pool_share(batch->pool, (uint32_t)batch->count, RANGE_ENTRIES, store_range, batch);
+}
