@@ -67,12 +67,11 @@ static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
                 distance_to_spheres(scene, viewpoint->eye));
 }
 
-// Returns the center of a scene without triangles. A sphere is stored as sums of two floats, but an
-// eye as floats, so only eyes need a center that is near.
-static Vec3 center_of(const Scene *scene, const BoundingBox *box)
+// Returns the center of a scene without triangles, whose box has the given center. A sphere is
+// stored as sums of two floats, but an eye as floats, so only eyes need a center that is near.
+static Vec3 center_of(const Scene *scene, Vec3 center)
 {
-    const Vec3 center = bounding_box_center(box);
-    const double extent = extent_of(box);
+    const double extent = scene_extent(scene);
     BoundingBox eyes = bounding_box_empty();
     double reach = INFINITY;
     for (size_t i = 0; i < scene->viewpoints.count; i++) {
@@ -85,15 +84,21 @@ static Vec3 center_of(const Scene *scene, const BoundingBox *box)
     return vec3_extent(vec3_sub(between, center)) <= extent ? between : center;
 }
 
-Normalization normalization_of(const Scene *scene)
+Normalization normalization_of_primitives(const Scene *scene)
 {
     const BoundingBox box = box_of(scene);
     const double extent = extent_of(&box);
     if (extent < 0)
         return (Normalization){{0, 0, 0}, 1};
-    const bool has_triangles = scene_triangle_count(scene) > 0;
-    return (Normalization){has_triangles ? bounding_box_center(&box) : center_of(scene, &box),
-                           extent > 0 ? scalbn(1, -ilogb(extent)) : 1};
+    return (Normalization){bounding_box_center(&box), extent > 0 ? scalbn(1, -ilogb(extent)) : 1};
+}
+
+Normalization normalization_of(const Scene *scene)
+{
+    Normalization made = normalization_of_primitives(scene);
+    if (scene_triangle_count(scene) == 0)
+        made.center = center_of(scene, made.center);
+    return made;
 }
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point)

@@ -21,8 +21,12 @@ typedef struct {
 
 // Returns the normalization that centers the triangles' bounding box and scales its longest side
 // into [1, 2). Spheres count only in scenes without triangles, because a ground sphere of radius
-// 1e9 would leave too few bits for a mesh. If the box around the spheres is thousands of times as
-// large as the cameras' reach (normalize.c), the center is between the cameras' eyes.
+// 1e9 would leave too few bits for a mesh. Rays of the library use this normalization.
+Normalization normalization_of_primitives(const Scene *scene);
+
+// Returns the normalization for pictures. It differs in scenes of spheres alone, if the box around
+// the spheres is thousands of times as large as the cameras' reach (normalize.c). The center is
+// then between the cameras' eyes.
 Normalization normalization_of(const Scene *scene);
 
 // Returns the longest side of the box that normalization_of scales, or a negative number if the box

@@ -69,7 +69,7 @@ static bool compile(RayScene *scene, const Session *session, NodeLayout layout, 
 {
     const bool has_tree =
         session->settings.wanted.tree != CLRT_TREE_NONE && session_wants_tree(session, layout);
-    scene->frame = session->scene.normalization;
+    scene->frame = normalization_of_primitives(session->scene.scene);
     const FlatSource source = {.scene = session->scene.scene,
                                .normalization = &scene->frame,
                                .layout = layout,

@@ -20,8 +20,8 @@ typedef struct {
 
 // A scene for rays, in device buffers that kernels search and as triangles on the host.
 typedef struct {
-    SceneForm form; // its triangles are as traced, in the order of their ids
-    Normalization frame;
+    SceneForm form;        // its triangles are as traced, in the order of their ids
+    Normalization frame;   // of the primitives alone, so that rays do not depend on cameras
     TrianglePlace *places; // of the triangles
     bool is_loaded, one_sided;
 } RayScene;

@@ -121,6 +121,20 @@ class Spheres(unittest.TestCase):
             nearest = self.renderer.trace(scene, points, ways, **given)
             self.assertEqual(nearest.distance[inward].tolist(), hits.distance.tolist())
 
+    def test_cameras_change_no_ray(self):
+        hits = []
+        for cameras in (0, 1):
+            scene = clrt.Scene()
+            scene.sphere((0, 0, 1), 1)
+            scene.sphere((1e7, 0.3, 0.2), 1e3)
+            for _ in range(cameras):
+                scene.camera((3, -6, 3), (0, 0, 1))
+            origins = np.random.default_rng(1).normal(size=(1000, 3)) + (0, -4, 0)
+            found = self.renderer.trace(scene, origins, (0, 0, 1) - origins)
+            self.assertGreater(found.hit.mean(), 0.5)
+            hits.append(np.column_stack([found.distance, found.normal]))
+        self.assertTrue((hits[0] == hits[1]).all())
+
 
 if __name__ == "__main__":
     unittest.main()
