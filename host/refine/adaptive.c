@@ -55,8 +55,8 @@ static bool add_pixel(Adaptive *adaptive, uint32_t pixel, Error *error)
                                       (uint8_t)band_height(end > first ? 1 : REFINE_LEVELS - 1),
                                   .has_columns = has_columns(adaptive, pixel)};
     adaptive->refined[pixel] = (uint32_t)adaptive->lines.pixels.count;
-    return scan_lines_add(&adaptive->lines, &refined, parts->probes.data + first, end - first,
-                          error);
+    return scan_lines_add(&adaptive->lines, &refined,
+                          end > first ? &parts->probes.data[first] : NULL, end - first, error);
 }
 
 // Fills in the places at which a new line is sampled, in ascending order. Returns their number.

@@ -151,7 +151,7 @@ bool scan_lines_split_gaps(ScanLines *scan, const SampleData *samples, Error *er
         scan->pixels.data[scan->lines.data[gap.line].pixel].samples++;
         ok = split_gap(scan, &gap, &samples[i], error);
     }
-    if (ok) {
+    if (ok && count > 0) {
         scan->gaps.count -= count;
         memmove(scan->gaps.data, scan->gaps.data + count, scan->gaps.count * sizeof(Gap));
     }

@@ -193,7 +193,8 @@ static bool find_runs(ThinSearch *search, Error *error)
     const PixelTriangle *pairs = search->pairs.data;
     const uint32_t count = (uint32_t)search->pairs.count;
     search->runs.count = 0;
-    qsort(search->pairs.data, count, sizeof *search->pairs.data, compare_pixels);
+    if (count > 0)
+        qsort(search->pairs.data, count, sizeof *search->pairs.data, compare_pixels);
     for (uint32_t i = 0; i < count;) {
         PixelRun run = {.first = i, .end = i};
         while (run.end < count && pairs[run.end].pixel == pairs[i].pixel)
