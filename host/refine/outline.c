@@ -94,20 +94,14 @@ static bool find_extent(const Outline *outline, double low, double high, double 
     return extent[0] <= extent[1];
 }
 
-CellRange outline_near(const Outline *outline, const CellGrid *grid, uint32_t row, double reach)
+CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row)
 {
     double extent[2] = {outline->box.low[0], outline->box.high[0]};
-    const double top = grid->origin[1] + row * grid->side - reach;
-    const double bottom = top + grid->side + 2 * reach;
+    const double top = grid->origin[1] + row * grid->side, bottom = top + grid->side;
     const bool is_all = outline->box.low[1] >= top && outline->box.high[1] <= bottom;
     if (!is_all && !find_extent(outline, top, bottom, extent))
         return (CellRange){0, 0};
-    return cells_touched(extent[0] - reach, extent[1] + reach, grid, 0);
-}
-
-CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row)
-{
-    return outline_near(outline, grid, row, 0);
+    return cells_touched(extent[0], extent[1], grid, 0);
 }
 
 CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row)

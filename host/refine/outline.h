@@ -87,11 +87,9 @@ double outline_signed_area(const Outline *outline);
 // three corners, the result may also be true although a disk of up to twice this diameter fits.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
-// outline_touched returns the cells of a row that the polygon touches. outline_near does the same
-// for cells enlarged by `reach` on each side. outline_sampled returns the cells whose centers the
-// polygon contains.
+// outline_touched returns the cells of a row that the polygon touches. outline_sampled returns the
+// cells whose centers the polygon contains.
 CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row);
-CellRange outline_near(const Outline *outline, const CellGrid *grid, uint32_t row, double reach);
 CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row);
 
 // The following declarations project a mesh into the picture. Triangles are clipped to the picture
