@@ -87,28 +87,38 @@ static void close_gap(ScanLines *scan, const Gap *gap)
         add_color(&scan->lines.data[gap->line], &gap->ends[end], gap->to - gap->from);
 }
 
-// Returns whether a gap's possible error is too large. The errors of a pixel's lines are
-// independent, so that a line's limit shrinks with the square root of its height.
-static bool is_large(const ScanLines *scan, const Gap *gap)
+// Returns the error of the pixel if a color that differs by `contrast` fills the gap. The errors of
+// a pixel's lines are independent, so that a line counts by the square root of its height.
+static float gap_error(const ScanLines *scan, const Gap *gap, float contrast)
 {
     const float height = (float)(scan->lines.data[gap->line].height * band_height(0));
-    const float area = (float)(gap->to - gap->from) * sqrtf(height);
-    return gap->to - gap->from > 1 &&
-           sample_difference(&gap->ends[0], &gap->ends[1]) * area > scan->threshold * GRID_AREA;
+    return contrast * (float)(gap->to - gap->from) * sqrtf(height) / GRID_AREA;
 }
 
-// Keeps the gap open if it is large and the color change is abrupt. Otherwise, closes the gap.
+// Keeps the gap open if its error is large and the color change is abrupt. Otherwise, closes it.
 static bool keep_gap(ScanLines *scan, const Gap *gap, bool is_abrupt, Error *error)
 {
-    if (is_large(scan, gap) && (is_abrupt || gap->ends[0].signature != gap->ends[1].signature))
+    const float contrast = sample_difference(&gap->ends[0], &gap->ends[1]);
+    if (gap->to - gap->from > 1 && gap_error(scan, gap, contrast) > scan->threshold &&
+        (is_abrupt || gap->ends[0].signature != gap->ends[1].signature))
         return array_push(&scan->gaps, *gap, error);
     close_gap(scan, gap);
     return true;
 }
 
+// Returns the largest color difference between neighboring samples.
+static float line_contrast(const LineSample *samples, uint32_t count)
+{
+    float most = 0;
+    for (uint32_t i = 0; i + 1 < count; i++)
+        most = fmaxf(most, sample_difference(&samples[i].data, &samples[i + 1].data));
+    return most;
+}
+
 bool scan_lines_open(ScanLines *scan, const LineSample *samples, uint32_t count, Error *error)
 {
     ScanLine *line = &scan->lines.data[scan->opened];
+    const float contrast = line_contrast(samples, count);
     bool ok = true;
     add_color(line, &samples[0].data, 2 * samples[0].place + 1);
     add_color(line, &samples[count - 1].data, 2 * (REFINE_GRID - 1 - samples[count - 1].place) + 1);
@@ -117,7 +127,8 @@ bool scan_lines_open(ScanLines *scan, const LineSample *samples, uint32_t count,
                          .line = scan->opened,
                          .from = (uint8_t)samples[i].place,
                          .to = (uint8_t)samples[i + 1].place};
-        ok = keep_gap(scan, &gap, true, error);
+        ok = gap_error(scan, &gap, contrast) > scan->doubt ? array_push(&scan->gaps, gap, error)
+                                                           : keep_gap(scan, &gap, true, error);
     }
     scan->opened++;
     return ok;

@@ -46,8 +46,9 @@ typedef struct {
 } RefinedPixel;
 
 typedef struct {
-    float threshold; // a gap's contrast times its fraction of the pixel that needs no sample
-    float bend;      // an error of a band that needs no further lines
+    float threshold; // error of a gap that needs no sample
+    float doubt;     // error of a new gap that needs no sample if other gaps have contrast
+    float bend;      // error of a band that needs no further lines
     ARRAY(RefinedPixel) pixels; // from index 1
     ARRAY(ScanLine) lines;      // from index 1
     ARRAY(Gap) gaps;            // open

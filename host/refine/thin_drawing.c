@@ -18,6 +18,8 @@ static bool is_near_drawn(const uint8_t line[REFINE_GRID], const ProbeRun *run, 
 static void spread_probed(const uint8_t before[REFINE_GRID], uint8_t line[REFINE_GRID])
 {
     uint32_t i;
+    if (memchr(line, PLACE_DRAWN, REFINE_GRID) == NULL)
+        return;
     for (i = 0; i < REFINE_GRID; i++)
         if (line[i] == PLACE_DRAWN &&
             (before[i] == PLACE_PROBED || (i > 0 && before[i - 1] == PLACE_PROBED) ||
@@ -97,7 +99,8 @@ static bool probe_between(ThinDrawing drawing, uint32_t pixel, ProbeList *probes
 bool thin_drawing_probe(ThinDrawing drawing, uint32_t pixel, uint32_t levels, ProbeList *probes,
                         Error *error)
 {
-    for (uint32_t level = 0; level < levels; level++)
+    for (uint32_t level = 0;
+         level < levels && memchr(drawing, PLACE_DRAWN, sizeof(ThinDrawing)) != NULL; level++)
         if (!probe_level(drawing, pixel, level, probes, error))
             return false;
     return probe_between(drawing, pixel, probes, error);

@@ -53,7 +53,7 @@ static uint32_t close_gaps(ScanLines *scan, Shape *shape, uint32_t number)
 static ScanLines lines_of(const Probe *probes, size_t count)
 {
     Error error;
-    ScanLines scan = {.threshold = 1e-4f, .bend = 1e-3f};
+    ScanLines scan = {.threshold = 1e-4f, .doubt = 1, .bend = 1e-3f};
     const RefinedPixel pixel = {.least = 1};
     assert_true(scan_lines_make(&scan, &error));
     assert_true(scan_lines_add(&scan, &pixel, probes, count, &error));
@@ -110,6 +110,23 @@ TEST(a_third_surface_in_a_gap_is_found_by_its_middle)
     open_lines(&scan, three_surfaces, 53, 0);
     close_gaps(&scan, three_surfaces, 53);
     const double expected = (0.25 * 53 + 12 + 0.5 * 16) / REFINE_GRID;
+    assert_true(fabs(color_of(&scan) - expected) < 1e-6);
+}
+
+// A stripe between two samples of equal color. The last third is of a third color.
+static float stripe(uint32_t place, uint32_t line, uint32_t number)
+{
+    (void)line;
+    return place > 60 ? 1 : place >= number && place < number + 8 ? 0.75f : 0.25f;
+}
+
+TEST(gaps_between_equal_samples_are_searched_if_there_is_contrast_beside_them)
+{
+    FREED_BY(scan_lines_free) ScanLines scan = lines_of(NULL, 0);
+    scan.doubt = 0.05f;
+    open_lines(&scan, stripe, 16, 0);
+    close_gaps(&scan, stripe, 16);
+    const double expected = (0.25 * 53 + 0.75 * 8 + 20) / REFINE_GRID;
     assert_true(fabs(color_of(&scan) - expected) < 1e-6);
 }
 
