@@ -26,7 +26,8 @@ typedef ARRAY(SamplePlace) PlaceList;
 
 static bool is_whole(const Adaptive *adaptive)
 {
-    return adaptive->renderer->progress.tiles_done == adaptive->renderer->progress.tiles;
+    return adaptive->setup.renderer->progress.tiles_done ==
+           adaptive->setup.renderer->progress.tiles;
 }
 
 // Returns whether lines of the pixel are columns: colors change more along columns, or a thin part
@@ -161,8 +162,7 @@ static bool open_line(Adaptive *adaptive, const SampleData *data, float most, ui
 }
 
 // Traces the samples of open gaps and new lines. If the observer stops the pass, drops its samples.
-static bool trace_pass(Adaptive *adaptive, PlaceList *places, float most,
-                       const RenderObserver *observer, Error *error)
+static bool trace_pass(Adaptive *adaptive, PlaceList *places, float most, Error *error)
 {
     ScanLines *lines = &adaptive->lines;
     const size_t end = lines->lines.count;
@@ -172,8 +172,8 @@ static bool trace_pass(Adaptive *adaptive, PlaceList *places, float most,
     const uint32_t count = (uint32_t)places->count;
     SampleData *samples = memory_raw(count, sizeof *samples, error), *next = samples;
     const SampleList list = {places->data, samples, count, 0};
-    bool ok = samples != NULL &&
-              sampler_trace(adaptive->renderer, &adaptive->frame, &list, observer, error);
+    bool ok = samples != NULL && sampler_trace(adaptive->setup.renderer, &adaptive->frame, &list,
+                                               adaptive->setup.observer, error);
     if (ok && is_whole(adaptive)) {
         adaptive->samples += count;
         next += lines->gaps.count;
@@ -243,7 +243,6 @@ static bool divide(Adaptive *adaptive, uint32_t *first, uint32_t round, Error *e
 typedef struct {
     Adaptive *adaptive;
     float most; // color difference between pixels that are not refined
-    Framebuffer *framebuffer;
 } RowWork;
 
 // Marks the pixels of some rows that differ from a neighbor, or that a thin part touches.
@@ -276,8 +275,7 @@ static bool add_marked(Adaptive *adaptive, Error *error)
     return true;
 }
 
-bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
-                     Error *error)
+bool adaptive_refine(Adaptive *adaptive, float threshold, Error *error)
 {
     // Differences of whole pixels count twice, because different surfaces may have similar colors
     // by chance.
@@ -290,26 +288,23 @@ bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *
     lines->threshold = GAP_PART * threshold;
     lines->bend = BEND_PART * threshold;
     lines->doubt = DOUBT_PART * threshold;
-    thread_pool_share(adaptive->pool, adaptive->frame.height, ROWS_OF_TASK, mark_rows, &work);
+    thread_pool_share(adaptive->setup.pool, adaptive->frame.height, ROWS_OF_TASK, mark_rows, &work);
     bool ok = add_marked(adaptive, error);
     for (uint32_t round = 1; ok && is_whole(adaptive); round++) {
         if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
             ok = divide(adaptive, &divided, round, error);
         if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
             break;
-        ok = ok && trace_pass(adaptive, &places, work.most, observer, error);
+        ok = ok && trace_pass(adaptive, &places, work.most, error);
     }
     free(places.data);
     return ok;
 }
 
-bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
-                   Error *error)
+bool adaptive_open(Adaptive *adaptive, const RefineSetup *setup, Error *error)
 {
     Renderer *renderer = setup->renderer;
-    *adaptive = (Adaptive){.renderer = renderer,
-                           .pool = setup->pool,
-                           .frame = renderer_frame(renderer, setup->camera)};
+    *adaptive = (Adaptive){.setup = *setup, .frame = renderer_frame(renderer, setup->camera)};
     FrameData *frame = &adaptive->frame;
     const size_t pixels = (size_t)frame->width * frame->height;
     frame->samples = REFINE_GRID;
@@ -322,7 +317,7 @@ bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderO
     adaptive->refined = memory_zeroed(pixels, sizeof *adaptive->refined, error);
     const bool ok = adaptive->refined != NULL && scan_lines_make(&adaptive->lines, error) &&
                     thin_parts_make(&adaptive->thin_parts, &thin, error) &&
-                    centers_trace(&adaptive->centers, renderer, frame, observer, error);
+                    centers_trace(&adaptive->centers, renderer, frame, setup->observer, error);
     adaptive->samples = pixels;
     if (!ok)
         adaptive_close(adaptive);
@@ -336,18 +331,19 @@ static void store_rows(void *context, uint32_t first, uint32_t end)
     const uint32_t width = adaptive->frame.width;
     for (uint32_t pixel = first * width; pixel < end * width; pixel++) {
         const uint32_t number = adaptive->refined[pixel];
-        float *color = work->framebuffer->pixels[pixel];
+        float *color = adaptive->setup.picture->pixels[pixel];
         if (number == 0 ||
             !scan_lines_color(&adaptive->lines, &adaptive->lines.pixels.data[number], color))
             memcpy(color, centers_at(&adaptive->centers, pixel)->color, 3 * sizeof *color);
     }
 }
 
-void adaptive_store(Adaptive *adaptive, Framebuffer *framebuffer)
+void adaptive_store(Adaptive *adaptive)
 {
-    RowWork work = {.adaptive = adaptive, .framebuffer = framebuffer};
+    RowWork work = {.adaptive = adaptive};
     scan_lines_close_gaps(&adaptive->lines);
-    thread_pool_share(adaptive->pool, adaptive->frame.height, ROWS_OF_TASK, store_rows, &work);
+    thread_pool_share(adaptive->setup.pool, adaptive->frame.height, ROWS_OF_TASK, store_rows,
+                      &work);
 }
 
 uint32_t adaptive_pixel_samples(const Adaptive *adaptive, size_t pixel)

@@ -14,15 +14,13 @@
 // of the picture therefore do not depend on the device or on the number of threads.
 #pragma once
 
-#include "base/thread_pool.h"
-#include "image/framebuffer.h"
 #include "refine/centers.h"
+#include "refine/refine_setup.h"
 #include "refine/scan_lines.h"
 #include "refine/thin_parts.h"
 
 typedef struct {
-    Renderer *renderer; // with sample_entry; borrowed
-    ThreadPool *pool;   // borrowed
+    RefineSetup setup;
     FrameData frame;
     Centers centers;
     uint32_t *refined; // by pixel: index in lines.pixels; 0 if the pixel has one sample
@@ -31,27 +29,15 @@ typedef struct {
     uint64_t samples; // taken so far
 } Adaptive;
 
-// The inputs of adaptive anti-aliasing.
-typedef struct {
-    Renderer *renderer;       // with sample_entry
-    const FlatScene *flat;    // the renderer's scene
-    const CameraData *camera; // made for REFINE_GRID samples
-    ThreadPool *pool;         // threads for the work, NULL for none
-    const Scene *scene;       // the source of flat
-    const Normalization *normalization;
-} AdaptiveSetup;
-
-// Makes a picture with one sample per pixel. Fails if the picture has more than 2^31 pixels.
-bool adaptive_open(Adaptive *adaptive, const AdaptiveSetup *setup, const RenderObserver *observer,
-                   Error *error);
+// Takes one sample per pixel. Fails if the picture has more than 2^31 pixels.
+bool adaptive_open(Adaptive *adaptive, const RefineSetup *setup, Error *error);
 
 // Refines pixels whose contrast exceeds the threshold, and pixels with thin parts. Stops when the
 // observer returns false. The caller may call this function only once.
-bool adaptive_refine(Adaptive *adaptive, float threshold, const RenderObserver *observer,
-                     Error *error);
+bool adaptive_refine(Adaptive *adaptive, float threshold, Error *error);
 
-// Stores the picture in its current state.
-void adaptive_store(Adaptive *adaptive, Framebuffer *framebuffer);
+// Stores the current state in the setup's picture.
+void adaptive_store(Adaptive *adaptive);
 
 // Returns the number of samples taken in a pixel.
 uint32_t adaptive_pixel_samples(const Adaptive *adaptive, size_t pixel);

@@ -48,7 +48,7 @@ static bool make_arrays(Ladder *ladder, Error *error)
     return ladder->memory != NULL;
 }
 
-bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error)
+bool ladder_open(Ladder *ladder, const RefineSetup *setup, Error *error)
 {
     Renderer *renderer = setup->renderer;
     Framebuffer *picture = setup->picture;

@@ -23,7 +23,7 @@
 
 // Makes a ladder with one sample per pixel. Fails if the picture exceeds LADDER_SIDE_MOST or
 // LADDER_PIXELS_MOST.
-bool ladder_open(Ladder *ladder, const LadderSetup *setup, Error *error);
+bool ladder_open(Ladder *ladder, const RefineSetup *setup, Error *error);
 void ladder_close(Ladder *ladder);
 
 // Selects pixels by the strata's fractions, and moves each to its next rung. Stores the number of

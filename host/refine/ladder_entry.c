@@ -223,7 +223,7 @@ static void enter_all(const Entering *entering)
 }
 
 // Finds the pixels that thin parts touch.
-static bool find_thin_parts(ThinParts *parts, const LadderSetup *setup, Error *error)
+static bool find_thin_parts(ThinParts *parts, const RefineSetup *setup, Error *error)
 {
     FrameData frame = renderer_frame(setup->renderer, setup->camera);
     for (int axis = 0; axis < 3; axis++) {
@@ -235,7 +235,7 @@ static bool find_thin_parts(ThinParts *parts, const LadderSetup *setup, Error *e
     return thin_parts_make(parts, &source, error);
 }
 
-bool ladder_enter(Ladder *ladder, const LadderSetup *setup, Error *error)
+bool ladder_enter(Ladder *ladder, const RefineSetup *setup, Error *error)
 {
     const uint32_t tasks = range_count(ladder->picture->height, AREA_HEIGHT);
     Entering entering = {.ladder = ladder,

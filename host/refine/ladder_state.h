@@ -4,6 +4,7 @@
 
 #include "refine/ladder_requests.h"
 #include "refine/ladder_strata.h"
+#include "refine/refine_setup.h"
 
 // On rung 0, a pixel has a feature (ladder_strata.h). On higher rungs, it has sums of samples.
 typedef union {
@@ -40,14 +41,3 @@ static inline uint64_t *ladder_block(const Ladder *ladder, uint32_t x, uint32_t 
     const uint32_t columns = range_count(ladder->picture->width, LADDER_BLOCK);
     return &ladder->blocks[(size_t)(y / LADDER_BLOCK) * columns + x / LADDER_BLOCK];
 }
-
-typedef struct {
-    Renderer *renderer;       // with ladder_entry
-    const FlatScene *flat;    // the renderer's scene
-    const CameraData *camera; // made for LADDER_GRID samples
-    ThreadPool *pool;         // threads for the work, NULL for none
-    const Scene *scene;       // the source of flat
-    const Normalization *normalization;
-    Framebuffer *picture;           // of the renderer's size; the ladder renders into it
-    const RenderObserver *observer; // may stop the refinement; may be NULL
-} LadderSetup;

@@ -125,28 +125,35 @@ static double ladder_feature(const Ladder *ladder)
     return feature_smallest(shares, LADDER_RUNGS);
 }
 
+// Returns the inputs of a refinement with this camera.
+static RefineSetup refine_setup(const PictureDrawing *drawing, Renderer *renderer,
+                                const CameraData *camera)
+{
+    return (RefineSetup){.renderer = renderer,
+                         .flat = &drawing->form->flat,
+                         .camera = camera,
+                         .pool = drawing->pool,
+                         .scene = drawing->session->scene.scene,
+                         .normalization = &drawing->session->scene.normalization,
+                         .picture = drawing->framebuffer,
+                         .observer = drawing->observer};
+}
+
 static bool draw_adaptively(PictureDrawing *drawing, Error *error)
 {
     Adaptive adaptive;
-    const Session *session = drawing->session;
     PictureResult *result = drawing->result;
-    const CameraData camera = session_camera(session, drawing->request, REFINE_GRID);
-    const AdaptiveSetup setup = {.renderer = &drawing->renderer,
-                                 .flat = &drawing->form->flat,
-                                 .camera = &camera,
-                                 .pool = drawing->pool,
-                                 .scene = session->scene.scene,
-                                 .normalization = &session->scene.normalization};
-    const float contrast = (float)drawing->request->wanted.contrast;
-    bool ok = adaptive_open(&adaptive, &setup, drawing->observer, error);
+    const CameraData camera = session_camera(drawing->session, drawing->request, REFINE_GRID);
+    const RefineSetup setup = refine_setup(drawing, &drawing->renderer, &camera);
+    bool ok = adaptive_open(&adaptive, &setup, error);
     measure_truncation(drawing, adaptive.samples);
-    ok = ok && adaptive_refine(&adaptive, contrast, drawing->observer, error);
-    if (ok)
-        adaptive_store(&adaptive, drawing->framebuffer);
+    ok = ok && adaptive_refine(&adaptive, (float)drawing->request->wanted.contrast, error);
+    if (ok) {
+        adaptive_store(&adaptive);
+        result->feature = adaptive_feature(&adaptive, result->pixels);
+    }
     for (size_t i = 0; ok && result->pixel_samples != NULL && i < result->pixels; i++)
         result->pixel_samples[i] = adaptive_pixel_samples(&adaptive, i);
-    if (ok)
-        result->feature = adaptive_feature(&adaptive, result->pixels);
     result->samples = adaptive.samples;
     adaptive_close(&adaptive);
     return ok;
@@ -177,7 +184,7 @@ static bool needs_level(const PictureDrawing *drawing, const Ladder *ladder)
 
 // Takes a sample in each pixel. If max_level causes too much of an error goal, adds a level and
 // starts again.
-static bool open_ladder(PictureDrawing *drawing, const LadderSetup *setup, Ladder *ladder,
+static bool open_ladder(PictureDrawing *drawing, const RefineSetup *setup, Ladder *ladder,
                         Error *error)
 {
     RenderSettings *settings = &drawing->request->settings;
@@ -195,18 +202,10 @@ static bool draw_for_goal(PictureDrawing *drawing, Error *error)
 {
     Ladder ladder;
     GoalOutcome outcome = {0};
-    const Session *session = drawing->session;
     PictureResult *result = drawing->result;
     drawing->start = clock_seconds();
-    const CameraData camera = session_camera(session, drawing->request, LADDER_GRID);
-    const LadderSetup setup = {.renderer = &drawing->renderer,
-                               .flat = &drawing->form->flat,
-                               .camera = &camera,
-                               .pool = drawing->pool,
-                               .scene = session->scene.scene,
-                               .normalization = &session->scene.normalization,
-                               .picture = drawing->framebuffer,
-                               .observer = drawing->observer};
+    const CameraData camera = session_camera(drawing->session, drawing->request, LADDER_GRID);
+    const RefineSetup setup = refine_setup(drawing, &drawing->renderer, &camera);
     if (!open_ladder(drawing, &setup, &ladder, error))
         return false;
     const double truncated = drawing->request->includes_truncated ? result->truncated : 0;
