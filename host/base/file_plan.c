@@ -30,8 +30,9 @@ static char *read_link(const char *path, Error *error)
     return file_path_beside(path, target, error);
 }
 
-// Returns the path of the file that a program creates if it writes to path. This is path itself or,
-// if path is a link, the last target of the links. The caller frees the result.
+// Returns the path of the file that a program creates if it writes to path. If path is a link, the
+// result is the target of the last link in the chain. Otherwise, the result is path itself. The
+// caller frees the result.
 static char *follow_links(const char *path, Error *error)
 {
     char *end = text_copy(path, error);

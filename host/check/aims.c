@@ -22,7 +22,8 @@
 #define COORDINATE_ERROR 0x1p-22
 
 // An aim at an edge divides the edge at this fraction, measured from the point with the lower
-// index. The fraction is not 1/2, because a midpoint may need no rounding.
+// index. The fraction is not 1/2, because a midpoint may need no rounding, and points that need it
+// are the harder test.
 #define EDGE_PART 0.4
 
 // The distance between an open edge and the aim beyond it, in radii of the mesh. This distance far

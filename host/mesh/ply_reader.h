@@ -62,7 +62,7 @@ bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size);
 bool ply_reader_read_number(PlyReader *reader, PlyType type, double *value);
 bool ply_reader_read_integer(PlyReader *reader, PlyType type, int64_t *value);
 
-// Skips `count` values. In ASCII files, they may be any words.
+// Skips `count` values. In ASCII files, values may be any words.
 bool ply_reader_skip_values(PlyReader *reader, PlyType type, int64_t count);
 
 bool ply_reader_is_space(char character);

@@ -47,8 +47,8 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
     return true;
 }
 
-// Adds the model's files to the scene's inputs and hashes. The first file is the model itself. The
-// inputs name it by the caller's path.
+// Adds the model's files to the scene's inputs and hashes. The first file is the model itself. In
+// the inputs, the model has the caller's path.
 static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
 {
     if (!scene_add_input(scene, path, error))
