@@ -101,7 +101,8 @@ static void sum_stars(const AimBuilder *builder)
         const Vec3 normal = normal_of(source, triangle);
         for (int corner = 0; corner < 3; corner++) {
             Star *star =
-                &builder->stars[source->weld->points[source->mesh->triangles[triangle][corner]]];
+                &builder
+                     ->stars[source->edges->weld.points[source->mesh->triangles[triangle][corner]]];
             const double angle = angle_at(source->triangles, triangle, corner);
             star->outward = vec3_add(star->outward, vec3_scale(normal, angle));
             star->triangle = triangle;
@@ -121,7 +122,8 @@ static void bound_stars(const AimBuilder *builder)
         const Vec3 normal = normal_of(source, triangle);
         for (int corner = 0; corner < 3; corner++) {
             Star *star =
-                &builder->stars[source->weld->points[source->mesh->triangles[triangle][corner]]];
+                &builder
+                     ->stars[source->edges->weld.points[source->mesh->triangles[triangle][corner]]];
             star->facing = fmin(star->facing, vec3_dot(normal, star->outward));
             star->size = fmin(star->size, height_at(source->triangles, triangle, corner));
         }
@@ -132,7 +134,7 @@ static void aim_at_points(AimBuilder *builder)
 {
     const AimSource *source = builder->source;
     for (uint32_t point = 0; point < source->mesh->vertex_count; point++)
-        if (source->weld->points[point] == point && is_chosen(builder))
+        if (source->edges->weld.points[point] == point && is_chosen(builder))
             keep(builder, point_of(source->triangles, point), &builder->stars[point]);
 }
 
@@ -180,7 +182,7 @@ static size_t count_aims(const AimSource *source)
     size_t count = 0;
     Edge edge = {0};
     for (uint32_t point = 0; point < source->mesh->vertex_count; point++)
-        count += source->weld->points[point] == point;
+        count += source->edges->weld.points[point] == point;
     while (edges_next(source->edges, &edge))
         count += edge.count > 1 ? 1 : 2;
     return count;

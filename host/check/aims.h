@@ -48,7 +48,6 @@ typedef struct {
 typedef struct {
     const Mesh *mesh;
     const Triangles *triangles;
-    const Weld *weld;
     const Edges *edges;
     bool is_inside_out;
 } AimSource;

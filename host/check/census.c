@@ -82,12 +82,11 @@ static double signed_volume(const Mesh *mesh)
     return volume;
 }
 
-bool mesh_faults_find(MeshCensus *census, const Mesh *mesh, const Weld *weld, const Edges *edges,
-                      Error *error)
+bool mesh_faults_find(MeshCensus *census, const Mesh *mesh, const Edges *edges, Error *error)
 {
     Fans fans;
     *census = (MeshCensus){0};
-    if (!fans_make(&fans, mesh, weld, error))
+    if (!fans_make(&fans, mesh, edges, error))
         return false;
     visit_edges(census, edges, &fans);
     const bool ok = count_pinched(census, &fans, error);
@@ -205,23 +204,21 @@ static bool take_mesh(MeshCensus *census, const MeshObject *object,
                       const Normalization *normalization, Error *error)
 {
     const Mesh *mesh = &object->mesh;
-    Weld weld = {0};
     Edges edges = {0};
-    const bool ok = weld_make(&weld, mesh, error) && edges_make(&edges, mesh, &weld, error) &&
-                    mesh_faults_find(census, mesh, &weld, &edges, error);
+    const bool ok =
+        edges_make(&edges, mesh, error) && mesh_faults_find(census, mesh, &edges, error);
     const Features features = features_of(mesh, normalization);
     census->features = features;
     census->facts.triangle_count = mesh->triangle_count;
     census->facts.vertex_count = mesh->vertex_count;
-    census->facts.unused_vertices = weld.unused_count;
-    census->facts.repeated_vertices = weld.repeated_count;
+    census->facts.unused_vertices = edges.weld.unused_count;
+    census->facts.repeated_vertices = edges.weld.repeated_count;
     census->facts.shortest_edge = features.edge.size;
     census->facts.shortest_steps = features.edge.steps;
     census->facts.lowest_height = features.height.size;
     census->facts.lowest_steps = features.height.steps;
     complete_faults(census, object);
     edges_free(&edges);
-    weld_free(&weld);
     return ok;
 }
 

@@ -36,8 +36,7 @@ typedef struct {
 
 // Finds duplicate triangles and the faults after FAULT_LEAKS, counts the edges, and finds whether
 // the mesh is closed.
-bool mesh_faults_find(MeshCensus *census, const Mesh *mesh, const Weld *weld, const Edges *edges,
-                      Error *error);
+bool mesh_faults_find(MeshCensus *census, const Mesh *mesh, const Edges *edges, Error *error);
 
 typedef struct {
     MeshCensus *meshes; // by object; owned

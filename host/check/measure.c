@@ -25,17 +25,14 @@ typedef struct {
 
 static bool make_aims(StagedMesh *staged, const Mesh *mesh, bool is_inside_out, Error *error)
 {
-    Weld weld = {0};
     Edges edges = {0};
     const AimSource source = {.mesh = mesh,
                               .triangles = &staged->form.stages.triangles,
-                              .weld = &weld,
                               .edges = &edges,
                               .is_inside_out = is_inside_out};
-    const bool ok = weld_make(&weld, mesh, error) && edges_make(&edges, mesh, &weld, error) &&
-                    aims_make(&staged->aims, &source, LEAKS_AIMS, error);
+    const bool ok =
+        edges_make(&edges, mesh, error) && aims_make(&staged->aims, &source, LEAKS_AIMS, error);
     edges_free(&edges);
-    weld_free(&weld);
     return ok;
 }
 

@@ -15,6 +15,76 @@
 #define FEW_SIDES 24
 
 typedef struct {
+    uint32_t *vertices; // WELD_UNUSED in empty slots
+    size_t mask;        // slots minus one; the number of slots is a power of two
+} Table;
+
+// Copies a position for hashing. Adding 0.0 turns negative zero into zero, so that both zeros have
+// the same bits.
+static void copy_position(const Mesh *mesh, uint32_t vertex, double position[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        position[axis] = mesh->positions[vertex][axis] + 0.0;
+}
+
+static uint32_t find_or_insert(const Table *table, const Mesh *mesh, uint32_t vertex)
+{
+    double position[3], other[3];
+    copy_position(mesh, vertex, position);
+    size_t place = XXH3_64bits(position, sizeof position) & table->mask;
+    for (;; place = (place + 1) & table->mask) {
+        const uint32_t held = table->vertices[place];
+        if (held == WELD_UNUSED) {
+            table->vertices[place] = vertex;
+            return vertex;
+        }
+        copy_position(mesh, held, other);
+        if (memcmp(position, other, sizeof position) == 0)
+            return held;
+    }
+}
+
+static bool make_table(Table *table, size_t count, Error *error)
+{
+    size_t places = 16;
+    while (places < 2 * count)
+        places *= 2;
+    table->mask = places - 1;
+    table->vertices = memory_raw(places, sizeof *table->vertices, error);
+    if (table->vertices != NULL)
+        memset(table->vertices, 0xff, places * sizeof *table->vertices);
+    return table->vertices != NULL;
+}
+
+// Stores WELD_UNUSED for unused vertices, and 0 for all others.
+static void mark_used(Weld *weld, const Mesh *mesh)
+{
+    memset(weld->points, 0xff, mesh->vertex_count * sizeof *weld->points);
+    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
+        for (int corner = 0; corner < 3; corner++)
+            weld->points[mesh->triangles[triangle][corner]] = 0;
+}
+
+static bool weld_make(Weld *weld, const Mesh *mesh, Error *error)
+{
+    Table table;
+    *weld = (Weld){.points = memory_raw(mesh->vertex_count, sizeof *weld->points, error)};
+    if (weld->points == NULL || !make_table(&table, mesh->vertex_count, error))
+        return false;
+    mark_used(weld, mesh);
+    for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++) {
+        if (weld->points[vertex] == WELD_UNUSED) {
+            weld->unused_count++;
+            continue;
+        }
+        weld->points[vertex] = find_or_insert(&table, mesh, (uint32_t)vertex);
+        weld->repeated_count += weld->points[vertex] != vertex;
+    }
+    free(table.vertices);
+    return true;
+}
+
+typedef struct {
     uint32_t low;
     EdgeSide side;
 } LowSide;
@@ -66,11 +136,11 @@ static void sort_buckets(void *context, uint32_t first, uint32_t end)
 }
 
 // Sets first[point] to the end of the point's bucket.
-static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
+static void count_sides(Edges *edges, const Mesh *mesh)
 {
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)
         for (int corner = 0; corner < 3; corner++)
-            edges->first[side_of(mesh, weld, triangle, corner).low]++;
+            edges->first[side_of(mesh, &edges->weld, triangle, corner).low]++;
     uint32_t sum = 0;
     for (size_t point = 0; point <= mesh->vertex_count; point++) {
         sum += edges->first[point];
@@ -79,16 +149,16 @@ static void count_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
 }
 
 // Fills each bucket from its end. Afterwards, first[point] is the start of the point's bucket.
-static void place_sides(Edges *edges, const Mesh *mesh, const Weld *weld)
+static void place_sides(Edges *edges, const Mesh *mesh)
 {
     for (uint32_t triangle = 0; triangle < mesh->triangle_count; triangle++)
         for (int corner = 0; corner < 3; corner++) {
-            const LowSide found = side_of(mesh, weld, triangle, corner);
+            const LowSide found = side_of(mesh, &edges->weld, triangle, corner);
             edges->sides[--edges->first[found.low]] = found.side;
         }
 }
 
-bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error)
+bool edges_make(Edges *edges, const Mesh *mesh, Error *error)
 {
     *edges = (Edges){0};
     if (mesh->triangle_count > UINT32_MAX / 3)
@@ -97,12 +167,12 @@ bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error)
     edges->side_count = 3 * mesh->triangle_count;
     edges->sides = memory_raw(3 * mesh->triangle_count, sizeof *edges->sides, error);
     edges->first = memory_zeroed(mesh->vertex_count + 1, sizeof *edges->first, error);
-    if (edges->sides == NULL || edges->first == NULL) {
+    if (edges->sides == NULL || edges->first == NULL || !weld_make(&edges->weld, mesh, error)) {
         edges_free(edges);
         return false;
     }
-    count_sides(edges, mesh, weld);
-    place_sides(edges, mesh, weld);
+    count_sides(edges, mesh);
+    place_sides(edges, mesh);
     ThreadPool *pool = thread_pool_open(0);
     thread_pool_share(pool, (uint32_t)mesh->vertex_count, CHUNK_ELEMENTS, sort_buckets, edges);
     thread_pool_close(pool);
@@ -111,87 +181,10 @@ bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error)
 
 void edges_free(Edges *edges)
 {
+    free(edges->weld.points);
     free(edges->sides);
     free(edges->first);
     *edges = (Edges){0};
-}
-
-typedef struct {
-    uint32_t *vertices; // WELD_UNUSED in empty slots
-    size_t mask;        // slots minus one; the number of slots is a power of two
-} Table;
-
-// Copies a position for hashing. Adding 0.0 turns negative zero into zero, so that both zeros have
-// the same bits.
-static void copy_position(const Mesh *mesh, uint32_t vertex, double position[3])
-{
-    for (int axis = 0; axis < 3; axis++)
-        position[axis] = mesh->positions[vertex][axis] + 0.0;
-}
-
-static uint32_t find_or_insert(const Table *table, const Mesh *mesh, uint32_t vertex)
-{
-    double position[3], other[3];
-    copy_position(mesh, vertex, position);
-    size_t place = XXH3_64bits(position, sizeof position) & table->mask;
-    for (;; place = (place + 1) & table->mask) {
-        const uint32_t held = table->vertices[place];
-        if (held == WELD_UNUSED) {
-            table->vertices[place] = vertex;
-            return vertex;
-        }
-        copy_position(mesh, held, other);
-        if (memcmp(position, other, sizeof position) == 0)
-            return held;
-    }
-}
-
-static bool make_table(Table *table, size_t count, Error *error)
-{
-    size_t places = 16;
-    while (places < 2 * count)
-        places *= 2;
-    table->mask = places - 1;
-    table->vertices = memory_raw(places, sizeof *table->vertices, error);
-    if (table->vertices != NULL)
-        memset(table->vertices, 0xff, places * sizeof *table->vertices);
-    return table->vertices != NULL;
-}
-
-// Stores WELD_UNUSED for unused vertices, and 0 for all others.
-static void mark_used(Weld *weld, const Mesh *mesh)
-{
-    memset(weld->points, 0xff, mesh->vertex_count * sizeof *weld->points);
-    for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
-        for (int corner = 0; corner < 3; corner++)
-            weld->points[mesh->triangles[triangle][corner]] = 0;
-}
-
-bool weld_make(Weld *weld, const Mesh *mesh, Error *error)
-{
-    Table table;
-    *weld = (Weld){.points = memory_raw(mesh->vertex_count, sizeof *weld->points, error)};
-    if (weld->points == NULL || !make_table(&table, mesh->vertex_count, error)) {
-        weld_free(weld);
-        return false;
-    }
-    mark_used(weld, mesh);
-    for (size_t vertex = 0; vertex < mesh->vertex_count; vertex++) {
-        if (weld->points[vertex] == WELD_UNUSED) {
-            weld->unused_count++;
-            continue;
-        }
-        weld->points[vertex] = find_or_insert(&table, mesh, (uint32_t)vertex);
-        weld->repeated_count += weld->points[vertex] != vertex;
-    }
-    free(table.vertices);
-    return true;
-}
-
-void weld_free(Weld *weld)
-{
-    free(weld->points);
-    *weld = (Weld){0};
 }
 
 bool edges_next(const Edges *edges, Edge *edge)
@@ -210,10 +203,10 @@ bool edges_next(const Edges *edges, Edge *edge)
     return true;
 }
 
-bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error)
+bool fans_make(Fans *fans, const Mesh *mesh, const Edges *edges, Error *error)
 {
     const size_t corners = 3 * mesh->triangle_count;
-    *fans = (Fans){mesh, weld, NULL};
+    *fans = (Fans){mesh, &edges->weld, NULL};
     fans->parents = memory_raw(corners, sizeof *fans->parents, error);
     for (uint32_t corner = 0; fans->parents != NULL && corner < corners; corner++)
         fans->parents[corner] = corner;

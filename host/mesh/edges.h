@@ -22,9 +22,6 @@ typedef struct {
     size_t repeated_count; // used vertices at the position of a lower used vertex
 } Weld;
 
-bool weld_make(Weld *weld, const Mesh *mesh, Error *error);
-void weld_free(Weld *weld);
-
 // A triangle at an edge. The higher of two points is the one with the larger index.
 typedef struct {
     uint32_t high;     // the edge's higher point
@@ -37,13 +34,14 @@ typedef struct {
 // sides are sorted by higher point, opposite point and triangle, so the sides of one edge are
 // consecutive.
 typedef struct {
+    Weld weld;
     EdgeSide *sides; // three per triangle
     size_t side_count;
     uint32_t *first; // vertex_count + 1 entries
 } Edges;
 
 // Fails if the mesh has 2^32 corners or more.
-bool edges_make(Edges *edges, const Mesh *mesh, const Weld *weld, Error *error);
+bool edges_make(Edges *edges, const Mesh *mesh, Error *error);
 void edges_free(Edges *edges);
 
 typedef struct {
@@ -64,9 +62,8 @@ typedef struct {
     uint32_t *parents; // by corner: a lower corner of the same fan, or the corner itself
 } Fans;
 
-// Makes one fan for each corner. edges_make must have succeeded for the mesh. The caller frees the
-// parents.
-bool fans_make(Fans *fans, const Mesh *mesh, const Weld *weld, Error *error);
+// Makes one fan for each corner. `edges` belongs to the mesh. The caller frees the parents.
+bool fans_make(Fans *fans, const Mesh *mesh, const Edges *edges, Error *error);
 
 // Joins the fans of two triangles at one of their common points.
 void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t other);

@@ -48,16 +48,14 @@ static Vec3 normal_of(const Mesh *mesh, const EdgeSide *side)
 
 bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error)
 {
-    Weld weld = {0};
     Edges edges = {0};
     Edge edge = {0};
-    const bool ok = weld_make(&weld, mesh, error) && edges_make(&edges, mesh, &weld, error);
+    const bool ok = edges_make(&edges, mesh, error);
     while (ok && edges_next(&edges, &edge))
         if (edge.count == 2)
             edge_angles_add(angles, normal_of(mesh, &edge.sides[0]),
                             normal_of(mesh, &edge.sides[1]));
     edges_free(&edges);
-    weld_free(&weld);
     return ok;
 }
 
@@ -192,19 +190,17 @@ static void choose_crease(Smoothing *smoothing, const Edges *edges)
 
 static bool make_fans(Smoothing *smoothing, bool is_by_shape, Error *error)
 {
-    Weld weld = {0};
     Edges edges = {0};
     Edge edge = {0};
     const Mesh *mesh = smoothing->mesh;
-    const bool ok = weld_make(&weld, mesh, error) && edges_make(&edges, mesh, &weld, error) &&
-                    fans_make(&smoothing->fans, mesh, &weld, error) &&
+    const bool ok = edges_make(&edges, mesh, error) &&
+                    fans_make(&smoothing->fans, mesh, &edges, error) &&
                     share_faces(smoothing, error);
     if (ok && is_by_shape)
         choose_crease(smoothing, &edges);
     while (ok && edges_next(&edges, &edge))
         join_edge(smoothing, &edge);
     edges_free(&edges);
-    weld_free(&weld);
     return ok;
 }
 

@@ -27,18 +27,15 @@ static void check_mesh(const Mesh *mesh)
 
 static void judge_mesh(const Mesh *mesh)
 {
-    Weld weld = {0};
     Edges edges = {0};
     MeshCensus census = {0};
     Error error = {0};
     const Normalization frame = {{0, 0, 0}, 1};
-    demand(weld_make(&weld, mesh, &error) && edges_make(&edges, mesh, &weld, &error) &&
-           mesh_faults_find(&census, mesh, &weld, &edges, &error));
-    demand(weld.unused_count + weld.repeated_count <= mesh->vertex_count);
+    demand(edges_make(&edges, mesh, &error) && mesh_faults_find(&census, mesh, &edges, &error));
+    demand(edges.weld.unused_count + edges.weld.repeated_count <= mesh->vertex_count);
     demand(census.facts.edge_count <= 3 * mesh->triangle_count);
     demand(features_of(mesh, &frame).flat.count <= mesh->triangle_count);
     edges_free(&edges);
-    weld_free(&weld);
 }
 
 static void read_tolerantly(const uint8_t *data, size_t size)

@@ -13,7 +13,6 @@ static uint32_t faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
 
 typedef struct {
     Mesh mesh;
-    Weld weld;
     Edges edges;
     Triangles triangles;
     Aims aims;
@@ -33,9 +32,8 @@ static Fixture aimed(uint32_t (*triangles)[3], size_t count, size_t most, bool i
     const Normalization frame = {{0, 0, 0}, 1};
     assert_true(array_push(&scene.objects, object, &error) &&
                 triangles_make(&all.triangles, &scene, &frame, NULL, &error) &&
-                weld_make(&all.weld, &all.mesh, &error) &&
-                edges_make(&all.edges, &all.mesh, &all.weld, &error));
-    const AimSource source = {&all.mesh, &all.triangles, &all.weld, &all.edges, is_inside_out};
+                edges_make(&all.edges, &all.mesh, &error));
+    const AimSource source = {&all.mesh, &all.triangles, &all.edges, is_inside_out};
     assert_true(aims_make(&all.aims, &source, most, &error));
     free(scene.objects.memory);
     return all;
@@ -46,7 +44,6 @@ static void release(Fixture *all)
     aims_free(&all->aims);
     triangles_free(&all->triangles);
     edges_free(&all->edges);
-    weld_free(&all->weld);
 }
 
 TEST(every_edge_and_point_is_aimed_at_once)

@@ -203,20 +203,16 @@ Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c)
 }
 
 // Stores the number of each corner's fan in fans->parents, and returns the number of fans.
-static uint32_t find_fans(Fans *fans, const Mesh *mesh, Weld *weld)
+static uint32_t find_fans(Fans *fans, const Mesh *mesh, Edges *edges)
 {
-    Edges edges;
     Edge edge = {0};
     Error error = {0};
-    require(weld_make(weld, mesh, &error) && edges_make(&edges, mesh, weld, &error) &&
-                fans_make(fans, mesh, weld, &error),
-            &error);
-    while (edges_next(&edges, &edge)) {
+    require(edges_make(edges, mesh, &error) && fans_make(fans, mesh, edges, &error), &error);
+    while (edges_next(edges, &edge)) {
         assert_int_equal(edge.count, 2);
         fans_join(fans, edge.low, edge.sides[0].triangle, edge.sides[1].triangle);
         fans_join(fans, edge.sides->high, edge.sides[0].triangle, edge.sides[1].triangle);
     }
-    edges_free(&edges);
     return fans_number(fans);
 }
 
@@ -236,8 +232,8 @@ static Vec3 middle_of_fan(const Mesh *mesh, uint32_t fan)
 Mesh shape_apart(const Mesh *mesh)
 {
     Fans fans;
-    Weld weld;
-    const uint32_t count = find_fans(&fans, mesh, &weld);
+    Edges edges;
+    const uint32_t count = find_fans(&fans, mesh, &edges);
     Mesh apart = shape_unfilled(count, mesh->triangle_count);
     uint32_t *first = require_memory(mesh->vertex_count, sizeof *first); // first fan at each point
     memset(first, 0xff, mesh->vertex_count * sizeof *first);
@@ -247,7 +243,7 @@ Mesh shape_apart(const Mesh *mesh)
         shape_set_vertex(&apart, fans.parents[i], shape_vertex(mesh, vertex));
     }
     for (size_t i = 0; i < 3 * mesh->triangle_count; i++) {
-        uint32_t *const known = &first[weld.points[mesh->triangles[i / 3][i % 3]]];
+        uint32_t *const known = &first[edges.weld.points[mesh->triangles[i / 3][i % 3]]];
         const uint32_t fan = fans.parents[i];
         *known = *known == WELD_UNUSED ? fan : *known;
         const Vec3 here = shape_vertex(&apart, fan), there = shape_vertex(&apart, *known);
@@ -258,7 +254,7 @@ Mesh shape_apart(const Mesh *mesh)
     }
     free(first);
     free(fans.parents);
-    weld_free(&weld);
+    edges_free(&edges);
     return apart;
 }
 
