@@ -137,7 +137,7 @@ static bool count_leaks(Check *check, const Session *session, RayCaster *caster,
 bool check_trace(Check *check, Session *session, Error *error)
 {
     RayCaster caster = {0};
-    const bool ok = ray_caster_open(&caster, session, RAYS_NEAREST, error) &&
+    const bool ok = ray_caster_open(&caster, session, RAYS_NEAREST, false, error) &&
                     count_leaks(check, session, &caster, error);
     ray_caster_close(&caster);
     check->device = ok ? session->device.facts.name : NULL;

@@ -27,19 +27,20 @@ static bool make_buffers(RayCaster *caster, const Device *device, Error *error)
             device_buffer(device, CAST_RAYS * sizeof(uint32_t), &caster->counts, error));
 }
 
-bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, Error *error)
+bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, bool has_spheres,
+                     Error *error)
 {
     const KernelChoice exact = session_exact_choice();
     const RendererUse use = {.entry = &entries[query],
                              .choice = query == RAYS_CERTAIN ? &exact : NULL,
                              .is_general = true};
-    const SceneTraits traits = traits_general((SceneTraits){0});
-    if (caster->kernels[query] != NULL)
-        return true;
+    SceneTraits traits = traits_general((SceneTraits){0});
+    traits.spheres = has_spheres;
     if (query == RAYS_CERTAIN && !certifier_check_device(&session->device, error))
         return false;
-    if (make_buffers(caster, &session->device, error))
-        caster->kernels[query] = session_kernel(session, &use, &traits, error);
+    if (!make_buffers(caster, &session->device, error))
+        return false;
+    caster->kernels[query] = session_kernel(session, &use, &traits, error);
     return caster->kernels[query] != NULL;
 }
 
@@ -112,7 +113,7 @@ static bool find_places(RayScene *scene, const Scene *source, Error *error)
 const RayScene *ray_caster_scene(RayCaster *caster, Session *session, RayQuery query,
                                  bool one_sided, Error *error)
 {
-    if (!ray_caster_open(caster, session, query, error))
+    if (!ray_caster_open(caster, session, query, session->scene.scene->spheres.count > 0, error))
         return NULL;
     RayScene *scene = &caster->scenes[caster->kernels[query]->choice.nodes];
     if (scene->is_loaded && scene->one_sided == one_sided)

@@ -121,6 +121,16 @@ class Spheres(unittest.TestCase):
             nearest = self.renderer.trace(scene, points, ways, **given)
             self.assertEqual(nearest.distance[inward].tolist(), hits.distance.tolist())
 
+    def test_a_renderer_takes_scenes_with_and_without_spheres_in_turn(self):
+        for has_sphere in (False, True, False):
+            scene = clrt.Scene()
+            scene.mesh([(-9, -9, 0), (9, -9, 0), (0, 9, 0)], [(0, 1, 2)])
+            if has_sphere:
+                scene.sphere((0, 0, 3), 1)
+            for cast in (self.renderer.trace, self.renderer.trace_all):
+                hits = cast(scene, [(0, 0, 9)], (0, 0, -1), results=("distance",))
+                self.assertEqual(hits.distance[0], 5 if has_sphere else 9)
+
     def test_cameras_change_no_ray(self):
         hits = []
         for cameras in (0, 1):
