@@ -166,9 +166,9 @@ static Vec3 point_at(Vec3 origin, Vec3 direction, double t)
 }
 
 // Stores a ray's direction, limit, scale and doubt. The doubt bounds the errors of fp64 arithmetic,
-// which are at most 2^-52 of the coordinates of the origin and of the start.
-// Returns the ray's start in normalized coordinates: the point at `near`, advanced to the scene's
-// cube if it is far away. A ray that can hit nothing gets a limit below 0.
+// which are at most 2^-52 of the coordinates of the origin and of the start. Returns the ray's
+// start in normalized coordinates: the point at `near`, advanced to the scene's cube if it is far
+// away. A ray that can hit nothing gets a limit below 0.
 static Vec3 convert_line(RayBatch *batch, size_t entry, const GivenRay *given)
 {
     const Normalization *frame = &batch->scene->frame;
@@ -246,9 +246,9 @@ static void convert_range(void *context, uint32_t first, uint32_t end)
 static bool report_fault(RayBatch *batch, ClrtError *error)
 {
     const RayScene *scene = batch->scene;
-    double off = 0;
+    double off;
     size_t entry = 0;
-    while ((off = convert(batch, entry)) <= OFF_PLANE)
+    while (!((off = convert(batch, entry)) > OFF_PLANE))
         entry++;
     const size_t number = batch->first + batch->order[entry];
     const uint32_t own = batch->data[entry].own;
