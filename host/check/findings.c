@@ -150,29 +150,36 @@ static bool is_out_of_view(const Scene *scene, const Normalization *normalizatio
 // than MUCH times the mesh's size.
 #define MUCH 4.0
 
-static const struct {
-    const char *kind, *text;
-    const char *place; // printed before the index of the first vertex or triangle
+typedef struct {
+    const char *kind;
+    const char *one, *many; // the words for one and for several, which `rest` follows
+    const char *rest;
     bool fails;
-} faults[FAULT_KINDS] = {
-    [FAULT_BAD_POSITIONS] = {"not_finite_positions",
-                             "vertices with a coordinate that is not finite or past 1e30", "vertex",
-                             true},
-    [FAULT_BAD_NORMALS] = {"not_finite_normals", "normals that are not finite", "vertex", true},
-    [FAULT_LOST_CORNERS] = {"lost_triangles", "triangles with such a vertex, left out", "triangle",
-                            true},
-    [FAULT_EQUAL_CORNERS] = {"equal_corners", "triangles with two equal corners, left out",
-                             "triangle", true},
-    [FAULT_FLAT] = {"zero_area", "triangles without area (corners on a line)", "triangle", true},
-    [FAULT_DUPLICATES] = {"duplicate_triangles", "triangles with the corners of another",
-                          "triangle", true},
-    [FAULT_LEAKS] = {"leaks", "rays that pass between adjacent triangles", "at triangle", true},
-    [FAULT_OPEN] = {"open_edges", "edges of a single triangle", "at triangle", false},
-    [FAULT_CROWDED] = {"crowded_edges", "edges of more than two triangles", "at triangle", false},
-    [FAULT_TURNED] = {"turned_edges", "edges whose triangles face opposite sides", "at triangle",
-                      false},
-    [FAULT_PINCHED] = {"pinched_points", "points where parts touch that share no edge",
-                       "at triangle", false},
+    const char *place; // printed before the index of the first vertex or triangle
+} Counted;
+
+static const Counted faults[FAULT_KINDS] = {
+    [FAULT_BAD_POSITIONS] = {"not_finite_positions", "vertex", "vertices",
+                             "with a coordinate that is not finite or past 1e30", true, "vertex"},
+    [FAULT_BAD_NORMALS] = {"not_finite_normals", "normal that is", "normals that are", "not finite",
+                           true, "vertex"},
+    [FAULT_LOST_CORNERS] = {"lost_triangles", "triangle", "triangles",
+                            "with such a vertex, left out", true, "triangle"},
+    [FAULT_EQUAL_CORNERS] = {"equal_corners", "triangle", "triangles",
+                             "with two equal corners, left out", true, "triangle"},
+    [FAULT_FLAT] = {"zero_area", "triangle", "triangles", "without area (corners on a line)", true,
+                    "triangle"},
+    [FAULT_DUPLICATES] = {"duplicate_triangles", "triangle", "triangles",
+                          "with the corners of another", true, "triangle"},
+    [FAULT_LEAKS] = {"leaks", "ray that passes", "rays that pass", "between adjacent triangles",
+                     true, "at triangle"},
+    [FAULT_OPEN] = {"open_edges", "edge", "edges", "of a single triangle", false, "at triangle"},
+    [FAULT_CROWDED] = {"crowded_edges", "edge", "edges", "of more than two triangles", false,
+                       "at triangle"},
+    [FAULT_TURNED] = {"turned_edges", "edge", "edges", "whose triangles face opposite sides", false,
+                      "at triangle"},
+    [FAULT_PINCHED] = {"pinched_points", "point", "points", "where parts touch that share no edge",
+                       false, "at triangle"},
 };
 
 // Adds a finding unless its count is 0.
@@ -204,14 +211,16 @@ const char *fault_name(FaultKind kind)
 static void add_mesh_faults(Check *check, size_t object)
 {
     for (FaultKind kind = 0; kind < FAULT_KINDS; kind++) {
-        const MeshFault *fault = &check->census.meshes[object].faults[kind];
+        const Counted *fault = &faults[kind];
+        const MeshFault *found = &check->census.meshes[object].faults[kind];
         const bool is_untested = kind == FAULT_LEAKS && check->device == NULL;
-        const ClrtFinding finding = {.fails = faults[kind].fails,
+        const ClrtFinding finding = {.fails = fault->fails,
                                      .mesh = (uint32_t)object,
-                                     .count = is_untested ? 0 : fault->count,
-                                     .first = fault->first};
-        add(check, faults[kind].kind, finding, "%zu %s, the first %s %zu", fault->count,
-            faults[kind].text, faults[kind].place, fault->first);
+                                     .count = is_untested ? 0 : found->count,
+                                     .first = found->first};
+        add(check, fault->kind, finding, "%zu %s %s%s %s %zu", found->count,
+            found->count == 1 ? fault->one : fault->many, fault->rest,
+            found->count == 1 ? ":" : ", the first", fault->place, found->first);
     }
 }
 
@@ -230,8 +239,9 @@ static void add_shape(Check *check, size_t object)
         "its fronts face inwards, so its glass is outside");
     add(check, "open_glass", note(object, is_glass && is_open),
         "it is glass but not closed, so light that enters it may never leave it");
-    add(check, "unused_vertices", note(object, census->facts.unused_vertices),
-        "%zu vertices that no triangle uses", (size_t)census->facts.unused_vertices);
+    const size_t unused = census->facts.unused_vertices;
+    add(check, "unused_vertices", note(object, unused), "%zu %s that no triangle uses", unused,
+        unused == 1 ? "vertex" : "vertices");
     const bool is_placed = check->scale_fault.text[0] == '\0';
     add(check, "out_of_view",
         note(object, is_placed && is_out_of_view(check->scene, &check->normalization, object)),
@@ -280,42 +290,42 @@ static void add_enclosed_eyes(Check *check)
     const EnclosedEyes eyes = enclosed_eyes_find(scene, &check->census);
     const char *path = check_mesh_path(check, eyes.object);
     const ClrtFinding finding = note(NOTHING, eyes.count);
+    char container[sizeof finding.text] = "a mesh";
     if (eyes.sphere > 0)
-        add(check, "eye_inside", finding,
-            "%zu cameras are inside an object, the first is view %zu in sphere %zu", eyes.count,
-            eyes.view, eyes.sphere);
-    else if (eyes.count > 0)
-        add(check, "eye_inside", finding,
-            "%zu cameras are inside an object, the first is view %zu in %s", eyes.count, eyes.view,
-            path != NULL ? path : "a mesh");
+        snprintf(container, sizeof container, "sphere %zu", eyes.sphere);
+    else if (path != NULL)
+        snprintf(container, sizeof container, "%s", path);
+    add(check, "eye_inside", finding, "%zu camera%s inside an object%s view %zu in %s", eyes.count,
+        eyes.count == 1 ? " is" : "s are", eyes.count == 1 ? ":" : ", the first is", eyes.view,
+        container);
 }
 
 static void add_scene(Check *check)
 {
     const Census *census = &check->census;
-    const struct {
-        const char *kind, *text;
-        size_t count;
-        bool fails;
-    } counts[] = {
-        {"duplicate_meshes", "meshes with the triangles of another", census->duplicate_meshes,
-         true},
-        {"duplicate_spheres", "spheres that are the same as another", census->duplicate_spheres,
-         true},
-        {"duplicate_lights", "lights at the place of another", census->duplicate_lights, false},
-        {"unused_materials", "materials that are defined and not used", census->unused_materials,
-         false},
+    static const Counted parts[] = {
+        {"duplicate_meshes", "mesh", "meshes", "with the triangles of another", true, NULL},
+        {"duplicate_spheres", "sphere that is", "spheres that are", "the same as another", true,
+         NULL},
+        {"duplicate_lights", "light", "lights", "at the place of another", false, NULL},
+        {"unused_materials", "material that is", "materials that are", "defined and not used",
+         false, NULL},
     };
-    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
-        const ClrtFinding finding = {
-            .fails = counts[i].fails, .mesh = NOTHING, .count = counts[i].count};
-        add(check, counts[i].kind, finding, "%zu %s", counts[i].count, counts[i].text);
+    const size_t counts[] = {census->duplicate_meshes, census->duplicate_spheres,
+                             census->duplicate_lights, census->unused_materials};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        const ClrtFinding finding = {.fails = parts[i].fails, .mesh = NOTHING, .count = counts[i]};
+        add(check, parts[i].kind, finding, "%zu %s %s", counts[i],
+            counts[i] == 1 ? parts[i].one : parts[i].many, parts[i].rest);
     }
     add_enclosed_eyes(check);
     const MissingPart missing = scene_missing(check->scene);
     const ClrtFinding lack = {.fails = missing.is_fault, .mesh = NOTHING, .count = 1};
     if (missing.kind != NULL)
         add(check, missing.kind, lack, "%s", missing.text);
+    Error coarse = {0};
+    const bool is_fine = normalization_is_fine(&check->normalization, check->scene, &coarse);
+    add(check, "coarse", note(NOTHING, !is_fine), "%s", coarse.text);
     const ClrtFinding fault = {
         .fails = true, .mesh = NOTHING, .count = check->scale_fault.text[0] != '\0'};
     add(check, "scale", fault, "the scene cannot be drawn: %s", check->scale_fault.text);

@@ -128,7 +128,12 @@ static void write_material(const Scene *scene, uint32_t material, FILE *stream)
 {
     for (size_t i = 0; i < scene->material_names.list.count; i++)
         if (scene->material_names.list.data[i]->material == material)
-            fprintf(stream, ", material %s", scene->material_names.list.data[i]->name);
+            text_print(stream, ", material %s", scene->material_names.list.data[i]->name);
+}
+
+static void write_count(size_t count, const char *one, const char *many, FILE *stream)
+{
+    fprintf(stream, "%zu %s", count, count == 1 ? one : many);
 }
 
 static void write_mesh(const Check *check, const json_t *mesh, size_t object, FILE *stream)
@@ -137,7 +142,9 @@ static void write_mesh(const Check *check, const json_t *mesh, size_t object, FI
     json_print(mesh, "{path}", stream);
     if (shares_file(check->scene, object))
         write_material(check->scene, check->scene->objects.data[object].material, stream);
-    json_print(mesh, ": {triangles} triangles, {vertices} vertices, ", stream);
+    fputs(": ", stream);
+    write_count(facts->triangle_count, "triangle, ", "triangles, ", stream);
+    write_count(facts->vertex_count, "vertex, ", "vertices, ", stream);
     fputs(facts->closed ? "closed\n" : "not closed\n", stream);
     if (facts->triangle_count == 0)
         return;
@@ -161,18 +168,11 @@ static void write_mesh(const Check *check, const json_t *mesh, size_t object, FI
     fputs(facts->leaks > 0 && !facts->closed ? ", because it is not closed\n" : "\n", stream);
 }
 
-static void write_count(size_t count, const char *one, const char *many, FILE *stream)
-{
-    fprintf(stream, "%zu %s", count, count == 1 ? one : many);
-}
-
 // Writes the numbers of objects. If the file is a lone mesh, clrt has added its spheres and lights.
 static void write_counts(const Check *check, FILE *stream)
 {
     const Scene *scene = check->scene;
-    json_t *path = JSON(FIELD("path", check->scene_path));
-    json_print(path, "{path}: ", stream);
-    json_decref(path);
+    text_print(stream, "%s: ", check->scene_path);
     write_count(scene->objects.count, "mesh, ", "meshes, ", stream);
     write_count(scene_triangle_count(scene), "triangle", "triangles", stream);
     if (scene->mesh_up == UP_AUTO) {
@@ -200,12 +200,15 @@ static void write_text(const Check *check, FILE *stream)
     else if (check->device_fault.text[0] != '\0')
         fprintf(stream, "  leaks were not tested: %s\n", check->device_fault.text);
     const size_t failing = check_count_failing(check), all = check->findings.count;
-    if (all == 0)
+    if (all == 0) {
         fputs("fine\n", stream);
-    else if (failing == 0)
-        fprintf(stream, "no faults, %zu note%s\n", all, all == 1 ? "" : "s");
+        return;
+    }
+    if (failing == 0)
+        fputs("no faults, ", stream);
     else
-        fprintf(stream, "%zu of %zu findings are faults\n", failing, all);
+        write_count(failing, "fault, ", "faults, ", stream);
+    write_count(all - failing, "note\n", "notes\n", stream);
 }
 
 static bool find_leaks(Check *check, Session *session, const Options *options, Error *error)
@@ -236,8 +239,8 @@ static ExitCode report(Check *check, const Options *options, Error *error)
 
 static void print_notes(const Options *options, const Scene *scene)
 {
-    for (size_t note = 0; !options->quiet && note < scene->notes.count; note++)
-        fprintf(stderr, "clrt: %s\n", scene->notes.data[note]);
+    for (size_t note = 0; note < scene->notes.count; note++)
+        stage_note(options, "%s", scene->notes.data[note]);
 }
 
 static ExitCode perform(Check *check, const Options *options, Session *session, Scene *scene,
@@ -271,7 +274,7 @@ bool check_geometry(const Options *options, const Scene *scene, Error *error)
     if (options->bad_geometry == BAD_GEOMETRY_FAIL)
         return bad_geometry_none(scene, error);
     print_notes(options, scene);
-    if (!options->quiet && !bad_geometry_none_dropped(scene, &note))
-        fprintf(stderr, "clrt: %s\n", note.text);
+    if (!bad_geometry_none_dropped(scene, &note))
+        stage_note(options, "%s", note.text);
     return true;
 }

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/output_file.h"
 #include "cli/stages.h"
+#include "image/json_file.h"
 #include "mesh/ply_write.h"
 #include "scene/scn_write.h"
 
@@ -37,7 +38,7 @@ static bool write_mesh(const Conversion *conversion, Mesh *mesh, const char *pat
     if (!output_file_write(path, write_ply, mesh, error))
         return false;
     if (conversion->options->verbose)
-        fprintf(stderr, "%s: %zu triangles\n", path, mesh->triangle_count);
+        text_print(stderr, "%s: %zu triangles\n", path, mesh->triangle_count);
     return true;
 }
 
@@ -49,11 +50,10 @@ static void warn_of_losses(const Conversion *conversion)
     bool has_materials = false;
     for (size_t i = 0; i < scene->objects.count; i++)
         has_materials |= scene->objects.data[i].material >= MESH_OWN_MATERIALS;
-    if (conversion->options->quiet || (is_mesh && !has_materials))
-        return;
-    fprintf(stderr, "clrt: %s: %s left out, because PLY cannot store them\n",
-            conversion->options->other_path,
-            is_mesh ? "materials are" : "materials, lights and cameras are");
+    if (!is_mesh || has_materials)
+        stage_note(conversion->options, "%s: %s left out, because PLY cannot store them",
+                   conversion->options->other_path,
+                   is_mesh ? "materials are" : "materials, lights and cameras are");
 }
 
 static ExitCode write_joined(const Conversion *conversion, Error *error)

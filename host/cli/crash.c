@@ -29,6 +29,8 @@ static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
 static pid_t watcher;
 static atomic_flag has_ended = ATOMIC_FLAG_INIT;
+static const char *exit_message =
+    "clrt: a driver ended the program, as LLVM does if a disk is full\n";
 
 // Returns the program counter at the crash, or NULL on unknown processors.
 static void *program_counter(const ucontext_t *context)
@@ -99,7 +101,7 @@ static void handle(int number, siginfo_t *info, void *context)
 static void handle_exit(void)
 {
     if (getpid() == watcher)
-        end("clrt: a driver ended the program, as LLVM does if a disk is full\n");
+        end(exit_message);
 }
 
 #if !CLRT_TIDY_EXIT // sanitizers define sigaction themselves
@@ -117,6 +119,11 @@ __attribute__((visibility("default"))) int sigaction(int number, const struct si
     return __sigaction(number, watcher != 0 && is_kept(number) ? NULL : action, before);
 }
 #endif
+
+void crash_expect_display(void)
+{
+    exit_message = "clrt: the display is gone, or a driver ended the program\n";
+}
 
 void crash_watch(void)
 {

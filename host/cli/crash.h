@@ -6,3 +6,7 @@
 // a crash in clrt's own code, the handler prints a message, and the signal ends the process. If
 // main has called this function, main must end with _exit.
 void crash_watch(void);
+
+// From now on, the message about exit() also names the display. Xlib calls exit() if the X server
+// dies.
+void crash_expect_display(void);

@@ -57,6 +57,7 @@ static ExitCode perform(const Options *options, Error *error)
     case ACTION_WARM:
         return perform_traced(options, warm_kernels, error);
     case ACTION_VIEW:
+        crash_expect_display();
         return perform_traced(options, show_scene, error);
     case ACTION_CHECK:
         return perform_traced(options, check_scene, error);

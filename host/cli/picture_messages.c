@@ -3,6 +3,7 @@
 #include "cli/picture_messages.h"
 
 #include "cli/progress.h"
+#include "image/json_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,9 +17,9 @@
 
 void picture_warn_of_goal(const Options *options)
 {
-    if (options->picture.error > LARGE_ERROR && !options->quiet)
-        fprintf(stderr, "clrt: --error allows an error of %g %%; for %g %%, write %g%%\n",
-                100 * options->picture.error, options->picture.error, options->picture.error);
+    if (options->picture.error > LARGE_ERROR)
+        stage_note(options, "--error allows an error of %g %%; for %g %%, write %g%%",
+                   100 * options->picture.error, options->picture.error, options->picture.error);
 }
 
 void picture_warn_of_few_tiles(const Options *options, const RenderSettings *settings)
@@ -27,11 +28,11 @@ void picture_warn_of_few_tiles(const Options *options, const RenderSettings *set
     whole.part = whole.parts = 0;
     const unsigned long long tiles = tile_count(&whole);
     const unsigned long long most = tiles / PART_TILES > 1 ? tiles / PART_TILES : 1;
-    if (settings->parts > most && !options->quiet)
-        fprintf(stderr,
-                "clrt: a part of fewer than %d tiles may take much longer than the others: "
-                "for %llu tiles, give at most N=%llu\n",
-                PART_TILES, tiles, most);
+    if (settings->parts > most)
+        stage_note(options,
+                   "a part of fewer than %d tiles may take much longer than the others: for %llu "
+                   "tiles, give at most N=%llu",
+                   PART_TILES, tiles, most);
 }
 
 void picture_print_beginning(const Picture *picture)
@@ -39,7 +40,7 @@ void picture_print_beginning(const Picture *picture)
     if (!picture->options->verbose)
         return;
     if (frames_are_many(&picture->options->frames))
-        fprintf(stderr, "picture: %s\n", picture->path);
+        text_print(stderr, "picture: %s\n", picture->path);
     if (picture->options->resume)
         fprintf(stderr, "resumed: %llu of %llu tiles were finished before\n",
                 (unsigned long long)picture->request.settings.ready_tiles,
@@ -51,8 +52,8 @@ void picture_print_end(Picture *picture)
     const Framebuffer *framebuffer = &picture->framebuffer;
     const double seconds = stage_lap(&picture->moment);
     if (progress_on_terminal() && !picture->options->quiet && strcmp(picture->path, "-") != 0)
-        fprintf(stderr, "wrote %s (%ux%u, %.2f s)\n", picture->path, framebuffer->width,
-                framebuffer->height, seconds);
+        text_print(stderr, "wrote %s (%ux%u, %.2f s)\n", picture->path, framebuffer->width,
+                   framebuffer->height, seconds);
 }
 
 ExitCode picture_fail_goal(const Picture *picture, Error *error)

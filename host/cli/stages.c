@@ -7,11 +7,14 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "image/image_file.h"
+#include "image/json_file.h"
 #include "scene/scene.h"
 #include "scene/scn.h"
 
 #include <assert.h>
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 // The default side of a part's tiles, in pixels. It is smaller than for a whole picture. Each part
@@ -23,6 +26,18 @@ double stage_lap(double *moment)
     const double before = *moment;
     *moment = clock_seconds();
     return *moment - before;
+}
+
+void stage_note(const Options *options, const char *format, ...)
+{
+    char text[sizeof(Error)];
+    if (options->quiet)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    text_print(stderr, "clrt: %s\n", text);
 }
 
 SessionSettings stage_settings(const Options *options)
@@ -78,9 +93,17 @@ static bool check_missing(const Options *options, const Scene *scene, Error *err
     const MissingPart missing = scene_missing(scene);
     if (missing.is_fault)
         return error_set(error, "%s: %s", options->scene_path, missing.text);
-    if (missing.kind != NULL && !options->quiet)
-        fprintf(stderr, "clrt: %s: %s\n", options->scene_path, missing.text);
+    if (missing.kind != NULL)
+        stage_note(options, "%s: %s", options->scene_path, missing.text);
     return true;
+}
+
+// Prints a note if rounding visibly moves a camera.
+static void note_coarse(const Options *options, const SessionScene *scene)
+{
+    Error note = {0};
+    if (!normalization_is_fine(&scene->normalization, scene->scene, &note))
+        stage_note(options, "%s: %s", options->scene_path, note.text);
 }
 
 bool stage_load(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
@@ -94,10 +117,11 @@ bool stage_load(Session *session, Scene *scene, const Options *options, StageSec
     seconds->parse = stage_lap(&moment) - seconds->load;
     if (!check_geometry(options, scene, error) || !check_missing(options, scene, error))
         return false;
-    const bool ok = session_take(session, scene, &cause) ||
-                    error_set(error, "%s: %s", options->scene_path, cause.text);
+    if (!session_take(session, scene, &cause))
+        return error_set(error, "%s: %s", options->scene_path, cause.text);
+    note_coarse(options, &session->scene);
     seconds->build = stage_lap(&moment);
-    return ok;
+    return true;
 }
 
 ExitCode stage_start(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,

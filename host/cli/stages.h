@@ -13,6 +13,10 @@ typedef struct {
 // Returns the seconds since *moment, and sets *moment to the current time.
 double stage_lap(double *moment);
 
+// Prints a note on standard error, without control characters, unless --quiet is given.
+__attribute__((format(printf, 2, 3))) void stage_note(const Options *options, const char *format,
+                                                      ...);
+
 // Returns the session settings that the options describe.
 SessionSettings stage_settings(const Options *options);
 

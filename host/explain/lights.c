@@ -18,7 +18,7 @@ void explain_print_primitive(const ExplainReport *report, const json_t *primitiv
     const char *slash = path == NULL ? NULL : strrchr(path, '/');
     json_print(primitive, "{kind} {number}", stream);
     if (path != NULL)
-        fprintf(stream, " of %s", report->is_brief && slash != NULL ? slash + 1 : path);
+        text_print(stream, " of %s", report->is_brief && slash != NULL ? slash + 1 : path);
 }
 
 // Prints the diffuse and specular light that the surface receives from one light.

@@ -289,7 +289,7 @@ bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE 
     fprintf(stream, "pixel %u,%u of %u x %u", report->pixel[0], report->pixel[1],
             report->settings->width, report->settings->height);
     if (!report->is_brief)
-        fprintf(stream, ", view %u of %s", report->view, report->scene_path);
+        text_print(stream, ", view %u of %s", report->view, report->scene_path);
     fputs("\n", stream);
     json_t *json = report_json(report, explainer, stream, error);
     if (json != NULL)

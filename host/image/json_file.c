@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,14 +72,18 @@ static const json_t *find_value(const json_t *value, char *path)
     return value;
 }
 
-static void print_string(const char *string, FILE *stream)
+void text_print(FILE *stream, const char *format, ...)
 {
-    char *copy = strdup(string);
-    if (copy == NULL)
+    char *text;
+    va_list arguments;
+    va_start(arguments, format);
+    const bool ok = vasprintf(&text, format, arguments) >= 0;
+    va_end(arguments);
+    if (!ok)
         return;
-    text_hide_controls(copy);
-    fputs(copy, stream);
-    free(copy);
+    text_hide_controls(text);
+    fputs(text, stream);
+    free(text);
 }
 
 // Prints a value in a format such as ".3f", "5.3f", ".3g", ".3g%" or, for arrays of reals, ".3v".
@@ -88,7 +93,7 @@ static void print_value(const json_t *value, const char *format, FILE *stream)
     if (json_is_integer(value))
         fprintf(stream, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
     if (json_is_string(value))
-        print_string(json_string_value(value), stream);
+        text_print(stream, "%s", json_string_value(value));
     if (json_is_integer(value) || json_is_string(value))
         return;
     const int width = (int)strtol(format, &point, 10), digits = (int)strtol(point + 1, &kind, 10);

@@ -57,6 +57,24 @@ static double distance_to_spheres(const Scene *scene, Vec3 point)
     return nearest;
 }
 
+// Returns the distance from a point to the nearest bounding box of a triangle.
+static double distance_to_triangles(const Scene *scene, Vec3 point)
+{
+    double nearest = INFINITY;
+    for (size_t i = 0; i < scene->objects.count; i++) {
+        const Mesh *mesh = &scene->objects.data[i].mesh;
+        for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
+            BoundingBox box = bounding_box_empty();
+            for (int corner = 0; corner < 3; corner++)
+                bounding_box_add(
+                    &box, vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]));
+            const Vec3 inside = vec3_lower(vec3_upper(point, box.low), box.high);
+            nearest = fmin(nearest, distance_between(point, inside));
+        }
+    }
+    return nearest;
+}
+
 // Returns the camera's reach, the distance up to which it shows details. This is the distance to
 // the point that it looks at or, if no surface is that near, to the nearest surface.
 static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
@@ -64,7 +82,8 @@ static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
     if (viewpoint->height > 0)
         return viewpoint->height;
     return fmax(distance_between(viewpoint->look_at, viewpoint->eye),
-                distance_to_spheres(scene, viewpoint->eye));
+                fmin(distance_to_spheres(scene, viewpoint->eye),
+                     distance_to_triangles(scene, viewpoint->eye)));
 }
 
 // Returns the center of a scene without triangles, whose box has the given center. A sphere is
@@ -148,6 +167,32 @@ static bool sphere_fits(const Normalization *normalization, const Sphere *sphere
     const double radius = sphere->radius * normalization->scale;
     return is_near(normalization, sphere->center) && radius <= LARGEST_RATIO &&
            radius >= 1 / LARGEST_RATIO;
+}
+
+// Returns the distance between floats at a distance from the center.
+static double step_at(const Normalization *normalization, double distance)
+{
+    return scalbn(1 / normalization->scale, ilogb(distance * normalization->scale) - 23);
+}
+
+bool normalization_is_fine(const Normalization *normalization, const Scene *scene, Error *note)
+{
+    for (size_t i = 0; i < scene->viewpoints.count; i++) {
+        const Viewpoint *viewpoint = &scene->viewpoints.data[i];
+        const double away = vec3_extent(vec3_sub(viewpoint->eye, normalization->center));
+        // The distance to the triangles is only computed if the camera looks at a near point.
+        if (viewpoint->height == 0 &&
+            away <= COARSE / 2 * distance_between(viewpoint->look_at, viewpoint->eye))
+            continue;
+        const double reach = reach_of(scene, viewpoint);
+        if (away > COARSE / 2 * reach)
+            return error_set(
+                note,
+                "view %zu shows what is %.3g away, but the coordinates of its eye are multiples of "
+                "%.3g, because the scene's center is %.3g away: render distant parts separately",
+                i + 1, reach, step_at(normalization, away), away);
+    }
+    return true;
 }
 
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error)

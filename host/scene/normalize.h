@@ -55,3 +55,7 @@ Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 // orthographic cameras, the normalized height must be in [2^-40, 2^20], and the normalized width at
 // most 2^20. Outside these ranges, the kernels' floats could overflow or underflow.
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);
+
+// Fails if floats are too coarse for a camera: rounding may move its eye by more than 2^-12 of the
+// distance up to which the camera shows details. Such scenes have small and very distant parts.
+bool normalization_is_fine(const Normalization *normalization, const Scene *scene, Error *note);

@@ -3,6 +3,7 @@
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
+#include "image/json_file.h"
 
 #include <inttypes.h>
 #include <limits.h>
@@ -263,6 +264,6 @@ void viewer_save(Viewer *viewer)
     const bool ok =
         target_read(&viewer->views.target, &shown, &viewer->failure) && save(viewer, &shown);
     if (ok && viewer->settings.verbose)
-        fprintf(stderr, "%s\n", viewer->notice);
+        text_print(stderr, "%s\n", viewer->notice);
     framebuffer_free(&shown);
 }

@@ -25,6 +25,7 @@ MESHES |= {"knot": (KNOT, TUBE), "gap": (KNOT, TUBE[:-1]),
            "away": ([(x + 1024, y - 2048, z + 4096) for x, y, z in KNOT], [(a, c, b) for a, b, c in TUBE])}
 FORMS = ["--tune kernel=pair", "--tune kernel=wide", "--tune kernel=packet", "--precision fp64",
          "--tune bvh=midpoint", "--tune bvh=none"]
+NEAR = "camera 3 -6 1 0 0 0 30\nlight 9 -9 9 1\nmesh closed.ply\n"
 SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine red matte\n",
           "mixed": "ply_file closed.ply\nmesh closed.ply scale 1e8\n",
           # The first camera is outside the balls, the others are inside.
@@ -43,6 +44,7 @@ SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine 
           "edge": "size 40 20\ncamera 3.9 -1 0 3.9 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
           "glass": "camera 0 -9 0 0 0 0 45\ndefine clear glass\nmaterial clear\nmesh closed.ply\n"
                    "mesh open.ply translate 3 0 0\n",
+          "distant": NEAR + "mesh closed.ply translate 1e7 0 0\n",
           "apart": "ply_file closed.ply\nsphere 1e20 0 0 1\n"}
 # Each row has a file, the exit status of clrt check, and words of the report.
 FINDINGS = [
@@ -50,26 +52,28 @@ FINDINGS = [
                        "\nclosed.ply: 1 mesh, 4 triangles\n", "\nfine\n"]),
     ("open.ply", 0, ["note: 3 edges of a single triangle", "triangle 0", "not closed\n", "\nno faults, 1 note\n"]),
     ("glass.scn", 0, ["open.ply: 3 triangles", "note: it is glass but not closed", "\nno faults, 2 notes\n"]),
-    ("eyes.scn", 0, ["note: 2 cameras are inside", "view 2 in sphere 1\nno faults, 1 note\n"]),
-    ("within.scn", 0, ["note: 1 cameras are inside", "view 1 in closed.ply\n"]),
+    ("eyes.scn", 0, ["note: 2 cameras are inside an object, the first is view 2 in sphere 1\nno faults, 1 note\n"]),
+    ("within.scn", 0, ["note: 1 camera is inside an object: view 1 in closed.ply\n"]),
     ("beside.scn", 0, ["\nfine\n"]),
     ("behind.scn", 0, ["closed.ply: 4 triangles", "note: it is outside every camera's view", "\nno faults, 1 note\n"]),
     ("edge.scn", 0, ["\nfine\n"]),
     ("parallel.scn", 0, ["note: it is outside every camera's view", "\nno faults, 1 note\n"]),
     ("touched.scn", 0, ["\nfine\n"]),
     ("turned.ply", 0, ["note: 3 edges whose triangles face opposite sides", "triangle 0"]),
-    ("equal.ply", 1, ["FAULT: 2 triangles with two equal corners", "first triangle 2", "\n1 of 1 findings are faults\n"]),
-    ("line.ply", 1, ["FAULT: 1 triangles without area", "first triangle 2"]),
+    ("equal.ply", 1, ["FAULT: 2 triangles with two equal corners", "first triangle 2", "\n1 fault, 0 notes\n"]),
+    ("line.ply", 1, ["FAULT: 1 triangle without area (corners on a line): triangle 2"]),
     ("late.ply", 1, ["FAULT: 2 triangles with two equal corners", "first triangle 0",
-                     "FAULT: 1 triangles without area", "first triangle 4"]),
-    ("nan.ply", 1, ["FAULT: 1 vertices with a coordinate that is not finite", "first vertex 2",
+                     "FAULT: 1 triangle without area (corners on a line): triangle 4"]),
+    ("nan.ply", 1, ["FAULT: 1 vertex with a coordinate that is not finite or past 1e30: vertex 2",
                     "FAULT: 2 triangles with such a vertex", "first triangle 0"]),
-    ("twice.ply", 1, ["FAULT: 1 triangles with the corners of another", "first triangle 4"]),
+    ("twice.ply", 1, ["FAULT: 1 triangle with the corners of another: triangle 4"]),
     ("far.ply", 0, ["note: recenter it"]),
     ("mixed.scn", 0, ["note: the scale is too mixed", "1e+08 times"]),
+    ("distant.scn", 0, ["note: view 1 shows what is 6.78 away, but the coordinates of its eye are multiples of 0.5, "
+                        "because the scene's center is 5e+06 away: "]),
     ("apart.scn", 1, ["FAULT: the scene cannot be drawn: sphere 1", "5e11 times"]),
-    ("scene.scn", 1, ["FAULT: 1 spheres that are the same as another", "note: its fronts face inwards",
-                      "note: 1 materials that are defined and not used",
+    ("scene.scn", 1, ["FAULT: 1 sphere that is the same as another", "note: its fronts face inwards",
+                      "note: 1 material that is defined and not used",
                        "scene.scn: 1 mesh, 4 triangles, 2 spheres, 0 lights\n"]),
 ]
 

@@ -84,7 +84,7 @@ REFUSALS = [
     (5, "no/a.pfm: cannot be written: No such file or directory", ["none.scn", "-o", "no/a.pfm"]),
 ]
 # These options change no bit of the picture. Each row has options, and expected statistics or None.
-SAME = {"-q": None, "-j 1": None, "-j 2": None, "--tune bvh=sah": None, "--tune specialize=never": None,
+SAME = {"-q": None, "-j 1": None, "-j 2 -s 48X32": None, "--tune bvh=sah": None, "--tune specialize=never": None,
         "--tune bvh=none": {"tests__box": 0, "bvh__builder": "none"},
         "--tune bvh=midpoint": {"bvh__builder": "midpoint"},
         "--tune tile=16x8,group=4x2": {"settings__tile": [16, 8], "settings__work_group": [4, 2]},

@@ -64,6 +64,16 @@ class Streams(Talk):
             self.assertEqual(done.stdout, b"", words)
             self.assertNotRegex(done.stderr, rb"[\x1b\r]")
 
+    def test_names_are_printed_without_control_characters(self):
+        scene = "a\33[31m.scn"
+        (self.work / scene).write_text('define "b\33" matte\nmaterial "b\33"\nmesh open.ply\n')
+        (self.work / "c\33.ply").write_bytes(self.bytes_of("open.ply"))
+        for words in (["check", scene], ["explain", "c\33.ply", "4,4", "-s", "8x8"], ["convert", scene, "d\33.ply", "-v"],
+                      [scene, "-s", "8x8", "-o", "d\33.pfm", "-v", "--frames", "1-1"]):
+            done = self.run_clrt(*words, content=b"")
+            self.assertIn(b"?", done.stdout + done.stderr, words)
+            self.assertNotIn(b"\33", done.stdout + done.stderr, words)
+
     def test_a_picture_on_standard_output_is_whole_beside_talk(self):
         done = self.run_clrt(*SMALL, "-o", "-", "--format", "pfm", "-v", content=b"")
         self.assertEqual(len(done.stdout), len(b"PF\n16 12\n-1.0\n") + 16 * 12 * 12)

@@ -145,6 +145,13 @@ class Notes(Work):
             self.write(a_scn="light 5 5 9 1\n" + "\n".join(lines) + "\n")
             self.draws(note, "a.scn")
 
+    def test_cameras_that_rounding_moves_are_noted(self):
+        cube = f"light 9 -9 9 1\ncamera 3 -6 1 0 0 0 30\nmesh {SCENES}/cube.ply\n"
+        self.write(a_scn=cube + f"mesh {SCENES}/cube.ply translate 1e7 0 0\n", b_scn=cube)
+        self.draws("a.scn: view 1 shows what is 6.78 away, but the coordinates of its eye are multiples of 0.5, because "
+                   "the scene's center is 5e+06 away: render distant parts separately", "a.scn")
+        self.draws("", "b.scn")
+
     def test_check_notes_both(self):
         self.write(b_ply=NO_MESH, a_scn="material 1\nsphere 0 0 0 1\n")
         for name, kind, note in ("b.ply", "nothing_to_draw", BLANK), ("a.scn", "no_lights", DARK):

@@ -84,8 +84,7 @@ TEST(findings_name_triangles)
     assert_int_equal(equal.first, 3);
     assert_int_equal(equal.mesh, 0);
     assert_int_equal(open.count, 3);
-    assert_string_equal(equal.text, "1 triangles with two equal corners, left out, "
-                                    "the first triangle 3");
+    assert_string_equal(equal.text, "1 triangle with two equal corners, left out: triangle 3");
     assert_int_equal(find(check, "no_lights").count, 0);
     free_all(check);
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Tests that large scenes open, move and close, that a window closed during tracing disappears at
-once, and that -o never connects to a display. Usage: CLRT=path/to/clrt test_life.py"""
+once, that a lost display is reported, and that -o never connects to a display. Usage: CLRT=path/to/clrt test_life.py"""
 
 import os
 import socket
@@ -12,6 +12,16 @@ from screen import ROOT, SCENE, Window, opened, planes_of, render, run_tests
 
 LARGE = ROOT / "scenes" / "models" / "coral.ply"
 GONE_SECONDS = 0.1  # the allowed time beyond the time for closing an idle window
+
+
+def a_display_that_dies_is_named(screen):
+    other = type(screen)()
+    window = Window(other, SCENE)
+    window.wait("ray traced, view 1")
+    other.server.kill()
+    window.wait("clrt: the display is gone, or a driver ended the program")
+    window.end(4)
+    other.close()
 
 
 def write_large(folder):

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 
+#include <ctype.h>
 #include <string.h>
 
 bool option_argument_is_optional(const Option *option)
@@ -34,7 +35,7 @@ static bool read_two_integers(const char *text, char separator, int64_t low, int
                               int64_t pair[2])
 {
     const char *middle = integer_parse(text, text + strlen(text), &pair[0]);
-    return middle != NULL && *middle == separator && pair[0] >= low && pair[0] <= high &&
+    return middle != NULL && tolower(*middle) == separator && pair[0] >= low && pair[0] <= high &&
            read_integer(middle + 1, low, high, &pair[1]);
 }
 
