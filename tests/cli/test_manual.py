@@ -19,7 +19,7 @@ import unittest
 
 import grammar
 from skips import needs_terminal
-from work import CLRT, ROOT, Work, main
+from work import CLRT, ROOT, SharedWork, Work, main
 
 MANUAL = pathlib.Path(sys.argv[2])
 PAGES = [MANUAL / "clrt.1", ROOT / "tools/manual/clrt-scene.5"]
@@ -126,13 +126,15 @@ READY = "ready to go"
 class Terminal:
     """A shell in a terminal of 400 lines."""
 
-    def __init__(self, words, work):
+    def __init__(self, shell, work):
+        words, setup = SETUP[shell]
         self.pid, self.file = pty.fork()
         if self.pid == 0:
             os.chdir(work)
             os.environ.update(TERM="vt100", PS1="", INPUTRC="/dev/null", LC_ALL="C.UTF-8")
             os.execvp(words[0], words)
         fcntl.ioctl(self.file, termios.TIOCSWINSZ, struct.pack("HHHH", 400, 160, 0, 0))
+        self.type(setup.format(folder=MANUAL) + "\n")
 
     def type(self, text):
         os.write(self.file, text.encode())
@@ -154,47 +156,38 @@ class Terminal:
         os.close(self.file)
 
 
-def ask_terminal(shell, folder, line, work):
-    words, setup = SETUP[shell]
-    terminal = Terminal(words, work)
-    try:
-        terminal.type(setup.format(folder=folder) + "; echo ready to' 'go\n")
-        terminal.read(lambda text: READY in text)
-        terminal.type(line + "\t")
-        # If the output has not grown for 0.5 s, the list is complete.
-        quiet = [time.monotonic(), 0]
+def ask_terminal(terminal, line):
+    terminal.type("\x15echo ready to' 'go\n")  # Ctrl-U deletes the previous line
+    terminal.read(lambda text: READY in text)
+    terminal.type(line + "\t")
+    # If the output has not grown for 0.5 s, the list is complete.
+    quiet = [time.monotonic(), 0]
 
-        def is_quiet(text):
-            if len(text) != quiet[1]:
-                quiet[:] = [time.monotonic(), len(text)]
-            return len(text) > len(line) + 2 and time.monotonic() - quiet[0] > 0.5
+    def is_quiet(text):
+        if len(text) != quiet[1]:
+            quiet[:] = [time.monotonic(), len(text)]
+        return len(text) > len(line) + 2 and time.monotonic() - quiet[0] > 0.5
 
-        return terminal.read(is_quiet)
-    finally:
-        terminal.close()
+    return terminal.read(is_quiet)
 
 
-def ask_fish(folder, line, work):
-    command = f"source '{folder}/clrt.fish'; complete -C '{line}'"
-    return subprocess.run(
-        ["fish", "--no-config", "-c", command], cwd=work, capture_output=True, text=True, check=True
-    ).stdout
+class Completions(SharedWork):
+    """All tests of a shell share a terminal, because zsh starts slowly."""
 
+    terminals = {}
 
-def complete(shell, folder, line, work):
-    """Returns the shell's output, which lists the completions at the end of the line."""
-    if shell == "fish":
-        return ask_fish(folder, line, work)
-    return ask_terminal(shell, folder, line, work)
-
-
-class Completions(Work):
-    def setUp(self):
-        super().setUp()
+    def prepare(self):
         self.write(room_scn="", bunny_ply="", notes_txt="")
 
     def offered(self, shell, line):
-        return complete(shell, MANUAL, line, self.work)
+        """Returns the shell's output, which lists the completions at the end of the line."""
+        if shell == "fish":
+            command = f"source '{MANUAL}/clrt.fish'; complete -C '{line}'"
+            return run("fish", "--no-config", "-c", command, cwd=self.work).stdout
+        if shell not in self.terminals:
+            self.terminals[shell] = Terminal(shell, self.work)
+            self.addClassCleanup(self.terminals[shell].close)
+        return ask_terminal(self.terminals[shell], line)
 
     def check_options(self, shell):
         text = "".join(self.offered(shell, f"clrt {word} --") for word in ("a.scn", *COMMANDS))

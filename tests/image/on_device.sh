@@ -40,7 +40,8 @@ serial)
   ;;
 sse2) export POCL_KERNELLIB_NAME=sse2 ;;
 avx2)
-  grep -q avx2 /proc/cpuinfo || pass_over "this processor has no AVX2"
+  # Without AVX-512, AVX2 is the target of all other tests: the compiled programs are equal.
+  grep -q avx512f /proc/cpuinfo || pass_over "this processor has no AVX-512, so other tests have the code for AVX2"
   export POCL_KERNELLIB_NAME=avx2
   ;;
 unoptimized)

@@ -120,6 +120,8 @@ static void check_pixels(Explainer *explainer, const Framebuffer *picture, void 
 static void check_in_form(const KernelChoice *form, const char *path, uint32_t samples)
 {
     PictureRequest request = rendered_in_form(picture_request(path, 1), form);
+    request.width = 131;
+    request.height = 97;
     request.samples = samples;
     request.visit = check_pixels;
     FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request);
