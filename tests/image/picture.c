@@ -139,17 +139,17 @@ static void pretend_gpu(Device *device, uint32_t units)
     device->facts.compute_units = units;
 }
 
-// Replaces 16 lanes by 0, which stands for the device's own number, if that number is 16. The
-// programs for both choices are equal, but would be compiled twice.
-static KernelChoice without_usual_lanes(KernelChoice choice)
+// Returns the number of lanes that packets have by default, or 0 if it is unknown
+// (kernels/lanes.cl).
+static uint32_t usual_lanes(const Device *device)
 {
 #ifdef __x86_64__
-    const bool is_usual =
-        __builtin_cpu_supports("avx512f") && getenv("POCL_KERNELLIB_NAME") == NULL;
-    if (choice.lanes == 16 && is_usual)
-        choice.lanes = 0;
+    if (getenv("POCL_KERNELLIB_NAME") == NULL &&
+        strcmp(device->facts.platform, "Portable Computing Language") == 0)
+        return __builtin_cpu_supports("avx512f") ? 16 : __builtin_cpu_supports("avx") ? 8 : 4;
 #endif
-    return choice;
+    (void)device;
+    return 0;
 }
 
 // Opens the session at the first request, and whenever the compiler's options or the GPU change.
@@ -179,8 +179,10 @@ static bool open_session(const PictureRequest *request, Error *error)
     units = request->gpu_units;
     if (units > 0)
         pretend_gpu(&session.device, units);
-    const KernelChoice choice = without_usual_lanes(request->choice);
-    session.choice = form_on_device(&choice, &session.device);
+    session.choice = form_on_device(&request->choice, &session.device);
+    // Choosing the default would compile the same programs twice.
+    if (session.choice.lanes == usual_lanes(&session.device))
+        session.choice.lanes = 0;
     return ok;
 }
 
