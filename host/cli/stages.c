@@ -84,8 +84,8 @@ static bool check_view(const Options *options, const Scene *scene, Error *error)
     const bool are_views = frames->turntable == 0 && frames->last > 0;
     const uint32_t view = are_views ? frames->last : options->picture.view;
     return view <= scene->viewpoints.count ||
-           error_set(error, "%s has %zu viewpoints, so there is no view %u", options->scene_path,
-                     scene->viewpoints.count, view);
+           error_set(error, "%s: there is no view %u; the last one is %zu", options->scene_path,
+                     view, scene->viewpoints.count);
 }
 
 static bool check_missing(const Options *options, const Scene *scene, Error *error)

@@ -50,8 +50,8 @@ bool viewer_adopt_model(Viewer *viewer, Error *error)
     viewer->model = worker_model(viewer->worker);
     describe_scene(viewer);
     if (is_first && settings->view > viewer->scene.viewpoint_count)
-        return error_set(error, "%s has %zu viewpoints, so there is no view %u",
-                         settings->scene_path, viewer->scene.viewpoint_count, settings->view);
+        return error_set(error, "%s: there is no view %u; the last one is %zu",
+                         settings->scene_path, settings->view, viewer->scene.viewpoint_count);
     if (is_first)
         viewer->state = state_begin(&viewer->scene, (State){.view = settings->view,
                                                             .exposure = settings->exposure,

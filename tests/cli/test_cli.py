@@ -68,6 +68,7 @@ REFUSALS = [
     (2, "unknown option '-x'; clrt --help lists them", ["none.scn", "-x", "-aa"]),
     (2, "unknown option '-1,5'; clrt --help lists them", ["explain", "none.scn", "-1,5"]),
     (2, "there is no command 'render'; clrt --help lists the commands", ["render", "none.scn"]),
+    (2, "there is no command 'help'; clrt --help lists the commands", ["help"]),
     (2, "unknown option '--work-group=8x8', perhaps --tune group=WxH", [*FILE, "--work-group=8x8"]),
     (4, "work-groups of 100 x 100 are too large", [*FILE, "--tune", "group=100x100"]),
     (3, f"none.scn: {NO_FILE}", ["none.scn", "-o", "a.pfm"]),
@@ -78,7 +79,7 @@ REFUSALS = [
     (3, "short.ply:1: the file ends before 'end_header'", ["short.ply", "--hash"]),
     (3, "evil?[31mred.scn: cannot be opened", ["evil\33[31mred.scn", "--hash"]),
     (3, "bad.scn:1:1: unknown statement (did you mean 'sphere'?): found 'spheer'", ["bad.scn", "-o", "a.pfm"]),
-    (3, f"{SCENE} has 6 viewpoints, so there is no view 7", [*FILE, "--view", "7"]),
+    (3, f"{SCENE}: there is no view 7; the last one is 6", [*FILE, "--view", "7"]),
     # clrt checks outputs before any work, such as reading the scene.
     (5, "no/: cannot be written: it is a folder", ["none.scn", "--format", "pfm", "-o", "no/"]),
     (5, "no/a.pfm: cannot be written: No such file or directory", ["none.scn", "-o", "no/a.pfm"]),

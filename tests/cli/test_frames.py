@@ -179,7 +179,7 @@ class Frames(Work):
             (["-o", "a.pfm", "--turntable", "1"], "--turntable 1 has no picture 2"),
         ):
             self.refuses(2, sentence, *SMALL, "--frames", "1-2", *words)
-        self.refuses(3, f"{SCENE} has 6 viewpoints, so there is no view 7", *SMALL, "--frames", "5-7", "-o", "a.pfm")
+        self.refuses(3, f"{SCENE}: there is no view 7; the last one is 6", *SMALL, "--frames", "5-7", "-o", "a.pfm")
 
     def test_wrong_ranges_are_refused(self):
         for value in ("3", "0-2", "3-2", "1-2:0", "1-2:", "a-2", "1-2-3", "-2", "1-", "0/2", "3/2", "1/0", "1/", "/2",

@@ -166,11 +166,13 @@ static bool is_command(const char *word)
     return i < command_count;
 }
 
-// Fails if the first of several names is probably meant as a command.
+// Fails if the only name is `help`, or if the first of several names is probably meant as a
+// command.
 static bool check_command(char **words, int count, Error *error)
 {
     const char *word = words[0];
-    if (count < 2 || strpbrk(word, "./") != NULL || access(word, F_OK) == 0)
+    const bool is_help = count == 1 && strcmp(word, "help") == 0;
+    if ((count < 2 && !is_help) || strpbrk(word, "./") != NULL || access(word, F_OK) == 0)
         return true;
     return error_set(error, "there is no command '%s'; clrt --help lists the commands", word);
 }
