@@ -6,10 +6,8 @@ test_trade.py FOLDER"""
 import argparse
 import csv
 import json
-import math
 import pathlib
 import re
-import struct
 import subprocess
 import sys
 import tempfile
@@ -18,16 +16,9 @@ import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SCENE = ROOT / "scenes" / "reflections.scn"
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/cli")]
+from pictures import read_pfm  # noqa: E402
 from tradeoff import front, goals, labels, measure, uniform  # noqa: E402
-
-
-def read_pfm(path):
-    """Returns the values of a PFM file in order."""
-    with open(path, "rb") as file:
-        size = 3 * math.prod(int(word) for word in (file.readline(), file.readline())[1].split())
-        file.readline()
-        return struct.unpack(f"<{size}f", file.read())
 
 
 def row(milliseconds, rmse):
@@ -206,7 +197,7 @@ class Trade(unittest.TestCase):
 
     def squares_of(self, name):
         """Returns the squared errors of a setting's pixels."""
-        pictures = [read_pfm(self.folder / "reflections" / file)
+        pictures = [sum(read_pfm(self.folder / "reflections" / file), [])
                     for file in ("reference.pfm", self.rows[name]["picture"])]
         squares = [(a - b) ** 2 for a, b in zip(*pictures)]
         return [sum(squares[i:i + 3]) / 3 for i in range(0, len(squares), 3)]

@@ -24,7 +24,9 @@ static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, u
     char name[64];
     const Scene *scene = oracle->scene;
     Error error = {0};
-    const PictureRequest request = picture_request(path, view);
+    PictureRequest request = picture_request(path, view);
+    request.scene = scene;
+    request.has_last_tree = view > 1;
     FREED_BY(framebuffer_free) Framebuffer picture = rendered(&request), expected = {0};
     const OracleView rays = oracle_view(oracle, &scene->viewpoints.data[view - 1], scene->width,
                                         scene->height, scene->max_level);
