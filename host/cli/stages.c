@@ -78,13 +78,18 @@ bool stage_read(Scene *scene, const Options *options, Error *error)
     return ok;
 }
 
+static const char *scene_name(const Options *options)
+{
+    return options_read_input(options) ? INPUT_NAME : options->scene_path;
+}
+
 static bool check_view(const Options *options, const Scene *scene, Error *error)
 {
     const Frames *frames = &options->frames;
     const bool are_views = frames->turntable == 0 && frames->last > 0;
     const uint32_t view = are_views ? frames->last : options->picture.view;
     return view <= scene->viewpoints.count ||
-           error_set(error, "%s: there is no view %u; the last one is %zu", options->scene_path,
+           error_set(error, "%s: there is no view %u; the last one is %zu", scene_name(options),
                      view, scene->viewpoints.count);
 }
 
@@ -92,9 +97,9 @@ static bool check_missing(const Options *options, const Scene *scene, Error *err
 {
     const MissingPart missing = scene_missing(scene);
     if (missing.is_fault)
-        return error_set(error, "%s: %s", options->scene_path, missing.text);
+        return error_set(error, "%s: %s", scene_name(options), missing.text);
     if (missing.kind != NULL)
-        stage_note(options, "%s: %s", options->scene_path, missing.text);
+        stage_note(options, "%s: %s", scene_name(options), missing.text);
     return true;
 }
 
@@ -103,7 +108,7 @@ static void note_coarse(const Options *options, const SessionScene *scene)
 {
     Error note = {0};
     if (!normalization_is_fine(&scene->normalization, scene->scene, &note))
-        stage_note(options, "%s: %s", options->scene_path, note.text);
+        stage_note(options, "%s: %s", scene_name(options), note.text);
 }
 
 bool stage_load(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
@@ -118,7 +123,7 @@ bool stage_load(Session *session, Scene *scene, const Options *options, StageSec
     if (!check_geometry(options, scene, error) || !check_missing(options, scene, error))
         return false;
     if (!session_take(session, scene, &cause))
-        return error_set(error, "%s: %s", options->scene_path, cause.text);
+        return error_set(error, "%s: %s", scene_name(options), cause.text);
     note_coarse(options, &session->scene);
     seconds->build = stage_lap(&moment);
     return true;

@@ -109,6 +109,8 @@ class StandardInput(Talk):
 
     def test_faults_on_standard_input_are_reported_with_their_line(self):
         done = self.run_clrt("-", "-o", "a.pfm", content="light 0 0 5 1\nspheer 0 0 0 1\n")
+        blank = self.run_clrt("-", "-o", "a.pfm", content="")
+        self.assertIn("clrt: standard input: there is nothing to draw", blank.stderr)
         fault = "clrt: standard input:2:1: unknown statement (did you mean 'sphere'?): found 'spheer'\n"
         self.assertEqual((done.returncode, done.stderr), (3, fault))
 
