@@ -37,9 +37,8 @@ static inline UInt expanded(UInt v, uint bits, UInt rest)
                                                      (LaneRegister)as_int16(rest), (ushort)bits));
 }
 #elif CLRT_LANES == 8 && defined(__AVX2__)
-// Returns the numbers of the lanes whose bits are set, in order. The compiler finds them once for
-// all words of a ray. Scenes of meshes take 1 to 2 % less time than with the loops below, scenes of
-// many balls 3 to 4 %.
+// Returns the numbers of the lanes whose bits are set, in order. Scenes of meshes take 1 to 2 %
+// less time than with the loops below, scenes of many balls 3 to 4 %.
 static inline UInt lanes_in_order(uint bits)
 {
     ulong order = 0; // a byte for each lane
