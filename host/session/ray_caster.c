@@ -19,12 +19,17 @@ static const KernelEntry entries[RAY_QUERIES] = {
                   .dimensions = 1},
     [RAYS_CERTAIN] = {"certify_rays", certify_rays_source, NULL, ARGUMENTS, .dimensions = 1}};
 
+// Makes the buffer unless it exists. An earlier call may have made only some of the buffers.
+static bool make_buffer(cl_mem *buffer, const Device *device, size_t size, Error *error)
+{
+    return *buffer != NULL || device_buffer(device, size, buffer, error);
+}
+
 static bool make_buffers(RayCaster *caster, const Device *device, Error *error)
 {
-    return caster->counts != NULL ||
-           (device_buffer(device, CAST_RAYS * sizeof(RayData), &caster->rays, error) &&
-            device_buffer(device, HITS_MAX * sizeof(HitData), &caster->hits, error) &&
-            device_buffer(device, CAST_RAYS * sizeof(uint32_t), &caster->counts, error));
+    return make_buffer(&caster->rays, device, CAST_RAYS * sizeof(RayData), error) &&
+           make_buffer(&caster->hits, device, HITS_MAX * sizeof(HitData), error) &&
+           make_buffer(&caster->counts, device, CAST_RAYS * sizeof(uint32_t), error);
 }
 
 bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, bool has_spheres,
