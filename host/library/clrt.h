@@ -453,9 +453,11 @@ typedef struct {
 } ClrtHits;
 
 // Finds each ray's nearest hit. At equal distances, the lowest id counts, so the order of triangles
-// can change the hit, but not its distance. A ray's results depend only on the ray and the scene,
-// and not on the batch, the threads or the device. A ray through an edge or vertex of a closed mesh
-// hits the mesh.
+// can change the hit, but not its distance. If triangles in one plane overlap, their distances may
+// differ by rounding, unless their corners are equal. A ray's results depend only on the ray and
+// the scene, and not on the batch, the threads or the device. A ray through an edge or vertex of a
+// closed mesh hits the mesh. A ray does not hit a triangle so close to its start that rounding
+// could put the start on the triangle's other side.
 //
 // These statements hold exactly in the units in which clrt traces the scene. clrt centers the scene
 // in double precision, scales it by a power of two so that the longest side of the box around all
@@ -474,7 +476,7 @@ CLRT_API bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const C
 // distance and then by id. The results of ray i start at entry i * room. CLRT_NOTHING fills unused
 // entries. A ray that enters or leaves a closed mesh through an edge or vertex crosses an odd
 // number of triangles there, usually one. A ray that only touches the surface crosses an even
-// number. A ray whose origin is in a triangle crosses the triangle, unless `starts` names it. A ray
+// number. A ray that starts in a triangle crosses the triangle, unless `starts` names it. A ray
 // crosses a sphere where it enters the sphere and where it leaves the sphere, each with this
 // sphere's id. If `starts` names the sphere, the ray crosses only its far wall, as in clrt_trace.
 CLRT_API bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *rays,

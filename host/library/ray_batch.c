@@ -185,7 +185,7 @@ static Vec3 convert_line(RayBatch *batch, size_t entry, const GivenRay *given)
         from = point_at(origin, direction, start);
     }
     const double limit = given->far != INFINITY ? given->far / unit - start : INFINITY;
-    const bool is_ray = is_usable && sum_of(from) < FARTHEST;
+    const bool is_ray = is_usable && given->near > -INFINITY && sum_of(from) < FARTHEST;
     RayData *ray = &batch->data[entry];
     ray->doubt = is_ray ? (float)(0x1p-50 * (sum_of(origin) + sum_of(from))) : INFINITY;
     ray->limit = !is_ray || !(limit >= 0) ? -1 : limit < 0x1p127 ? (float)limit : INFINITY;

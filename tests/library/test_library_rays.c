@@ -363,21 +363,23 @@ TEST(limits_end_rays)
 
 TEST(rays_without_finite_numbers_hit_nothing)
 {
-    const double bad[5][6] = {{NAN, 0, 0, 1, 0, 0},
-                              {0, 0, 0, 0, 0, 0},
-                              {0, 0, 0, INFINITY, 0, 0},
-                              {-INFINITY, 0, 0, 1, 0, 0},
-                              {0, 0, 0, 1, NAN, 0}};
-    uint32_t primitives[5];
+    enum { BAD = 8 };
+    const double bad[BAD][6] = {{NAN, 0, 0, 1, 0, 0},      {0, 0, 0, 0, 0, 0},
+                                {0, 0, 0, INFINITY, 0, 0}, {-INFINITY, 0, 0, 1, 0, 0},
+                                {0, 0, 0, 1, NAN, 0},      {0, 0, 0, 1, 0.5, 0.25},
+                                {0, 0, 0, 1, 0.5, 0.25},   {0, 0, 0, 1, 0.5, 0.25}};
+    const double nears[BAD] = {0, 0, 0, 0, 0, NAN, INFINITY, -INFINITY};
+    uint32_t primitives[BAD];
     const ClrtRays rays = {.size = sizeof rays,
-                           .count = 5,
+                           .count = BAD,
                            .origins = bad[0],
                            .directions = bad[0] + 3,
                            .origin_stride = sizeof bad[0],
-                           .direction_stride = sizeof bad[0]};
+                           .direction_stride = sizeof bad[0],
+                           .nears = nears};
     const ClrtHits hits = {.size = sizeof hits, .primitives = primitives};
     assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < BAD; i++)
         assert_int_equal(primitives[i], CLRT_NOTHING);
 }
 

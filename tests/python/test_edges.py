@@ -107,6 +107,13 @@ class Edges(unittest.TestCase):
         crossings = self.renderer.trace_all(box.scene(), starts, (1, 0, 0))
         self.assertTrue((np.bincount(crossings.ray, minlength=5) % 2 == 0).all())
 
+    def test_rays_from_a_face_cross_but_do_not_hit_it(self):
+        for start in ((0.25, 0.5, 1), (0.5, 0.5, 1), (1, 1, 1)):  # in a face, at an edge, at a corner
+            hits = self.renderer.trace(Box(4).scene(), [start], (-0.25, -0.5, -1))
+            self.assertEqual(hits.distance.tolist(), [2])
+            crossings = self.renderer.trace_all(Box(4).scene(), [start], (-0.25, -0.5, -1))
+            self.assertEqual(crossings.distance.tolist(), [0, 2])
+
     def test_rays_over_a_ridge_touch_it_from_outside_or_not(self):
         scene = clrt.Scene()
         scene.mesh([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, -1, 1), (0, 1, 1)],

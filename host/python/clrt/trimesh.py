@@ -11,7 +11,7 @@ from .scene import Scene
 class RayMeshIntersector:
     """Has the methods and results of trimesh.ray's intersectors, by exact rays.
 
-    Of several faces at one distance, the first hit is the one with the lowest number. If a ray
+    Of faces with the same corners, the first hit is the one with the lowest number. If a ray
     crosses a closed surface at an edge or vertex, an odd number of faces counts as hit, usually
     one. Hits of one ray are ordered by distance.
     """
