@@ -211,7 +211,7 @@ static inline void pair_ray(SpherePairs *pairs, uint packet, uint lane, uint chi
     uint near = spheres_near(block, &pairs->rays[packet], lane);
     for (; near != 0; near &= near - 1)
         append_pair(pairs, packet * CLRT_LANES + lane, child, lowest_bit(near));
-    if (pairs->count >= CLRT_LANES)
+    while (pairs->count >= CLRT_LANES)
         test_pairs(pairs);
     if (CLRT_STATISTICS)
         pairs->tracer->tally->sphere_tests += WIDE;

@@ -210,6 +210,21 @@ TEST(no_primitive_is_mistaken_for_sky)
     }
 }
 
+// A ray may be near all 8 spheres of a block. A vector of 4 lanes tests only half of these pairs.
+TEST(every_form_draws_nested_spheres)
+{
+    char scene[TEMPORARY_PATH];
+    FILE *stream = temporary_open(scene);
+    fprintf(stream, "camera 0 -6 0.5 0 0 0 40\nlight 3 -5 6 .8\nmaterial 3\n");
+    for (int i = 0; i < 24; i++)
+        fprintf(stream, "sphere %g %g 0 %g\n", 0.01 * (i % 3), 0.01 * (i % 5), 1 + 0.02 * i);
+    temporary_close(stream);
+    PictureRequest request = picture_request(scene, 1);
+    request.width = request.height = 97;
+    expect_same_in_every_form_and_tree(request);
+    unlink(scene);
+}
+
 // Rays that leave a floor skip its triangles, but no other triangles of the same block.
 TEST(a_floor_and_a_ceiling_reflect_each_other)
 {
