@@ -30,7 +30,7 @@ typedef struct {
 } AxisPlace;
 
 // Returns the surface's place on an axis. Its coordinate is exact if all corners of the triangle
-// share it, as in checker.cl.
+// share it, as in material.cl.
 static inline AxisPlace axis_place(const UncertainSurface *surface, uint axis)
 {
     const Corners *corners = &surface->corners;

@@ -7,7 +7,7 @@
 // compute the same bits.
 #ifndef CLRT_GLASS_CL
 #define CLRT_GLASS_CL
-#include "checker.cl"
+#include "material.cl"
 
 // A light behind more surfaces of glass than this is blocked. The limit ends loops between surfaces
 // that are so close that rounding makes them touch.

@@ -32,7 +32,7 @@ vec3 encoded(vec3 color)
     return is_srgb ? mix(curve, 12.92 * shown, lessThanEqual(shown, vec3(0.0031308))) : shown;
 }
 
-// Returns the color of the cube behind the surface, as in the traced picture (kernels/checker.cl).
+// Returns the color of the cube behind the surface, as in the traced picture (kernels/material.cl).
 // Interpolated places are less precise than traced points, so this function moves them 32 times as
 // far behind the surface. It does not move them along axes parallel to the surface, because a move
 // of this length would cross the edges of solids.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Computes the color of a checkered surface. Cubes fill the scene, and a cube is odd if the sum of
-// its three indices is odd. A triangle shows the cube on the side away from the ray, and a sphere
-// shows the cube inside it. A solid then looks as if it were cut out of a block of cubes.
+// Finds a surface's material: its own, with the color of a check or of vertices.
+//
+// For checks, cubes fill the scene. A cube is odd if the sum of its three indices is odd. A
+// triangle shows the cube on the side away from the ray, and a sphere shows the cube inside it. A
+// solid then looks as if it were cut out of a block of cubes.
 //
 // Floors often lie in a plane between cubes, where rounding would choose the cube of each pixel.
 // Two rules prevent this (docs/numerics.md, B19):
@@ -10,8 +12,8 @@
 //    checks of a floor therefore belongs to one of them.
 //  - If all corners of a triangle have the same coordinate on an axis, the point gets exactly this
 //    coordinate, without rounding.
-#ifndef CLRT_CHECKER_CL
-#define CLRT_CHECKER_CL
+#ifndef CLRT_MATERIAL_CL
+#define CLRT_MATERIAL_CL
 #include "surface.cl"
 
 // The move in cubes is CHECK_MOVE * (rate + 1), where rate is the number of cubes in a normalized
@@ -22,8 +24,8 @@
 // axis.
 #define CHECK_PARALLEL 0x1p-10f
 
-// The cubes of a material. Cube i of an axis contains the places from i to i + 1, and the place of
-// a coordinate is rate * coordinate + shift.
+// The cubes of a material's checker. On each axis, cube i contains the places from i to i + 1. The
+// place of a coordinate is rate * coordinate + shift.
 typedef struct {
     Real rate; // 0 if the material has no checker
     Real3 shift;
@@ -45,8 +47,8 @@ static inline Real place_move(const Cubes *cubes)
     return CHECK_MOVE * (cubes->rate + 1.0f);
 }
 
-// Returns whether the index of the cube at the place is odd. The subtraction rounds only in cube
-// -1, where the result is still right.
+// Returns whether the index of the cube at the place is odd. The subtraction can round only for
+// places in [-1, 0), and the result is right there, too.
 static inline Mask place_is_odd(Real place)
 {
     const Real pairs = 0.5f * place;
