@@ -40,8 +40,8 @@ ExitCode device_report_write(const Options *options, Error *error)
 {
     Cache cache;
     DeviceList list;
-    cache_open(&cache);
+    cache_open_private(&cache);
     const ExitCode code = device_list(&list, error) ? write(&list, options, error) : EXIT_DEVICE;
-    cache_close(&cache);
+    cache_close_private(&cache);
     return code;
 }

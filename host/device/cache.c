@@ -68,7 +68,7 @@ static uint64_t hash_settings(void)
     return sum;
 }
 
-void cache_open_for_library(Cache *cache)
+void cache_open(Cache *cache)
 {
     *cache = (Cache){.settings = hash_settings()};
     if (!take_folder(cache, getenv("POCL_CACHE_DIR"), "/clrt") &&

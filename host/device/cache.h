@@ -27,7 +27,7 @@ typedef struct {
 
 // Chooses the first of $POCL_CACHE_DIR/clrt, $XDG_CACHE_HOME/clrt and ~/.cache/clrt that exists or
 // can be created. PoCL's own files stay in POCL_CACHE_DIR or in PoCL's default folder.
-void cache_open_for_library(Cache *cache);
+void cache_open(Cache *cache);
 
 // A program's binary in memory. `file` owns the bytes.
 typedef struct {

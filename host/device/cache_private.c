@@ -129,7 +129,7 @@ static bool make_private(Cache *cache, const char *base)
         cache->private_lock = open_lock(cache->private_folder, O_CREAT);
         if (cache->private_lock >= 0 && has_lock(cache->private_folder))
             return true;
-        cache_close(cache);
+        cache_close_private(cache);
     }
     cache->private_folder[0] = '\0';
     return false;
@@ -143,13 +143,13 @@ static bool open_private(Cache *cache, const char *base)
     return access(base, W_OK | X_OK) == 0 && has_room(base) && make_private(cache, base);
 }
 
-void cache_open(Cache *cache)
+void cache_open_private(Cache *cache)
 {
     // By default, PoCL compiles a kernel twice: for the size of its first work-groups, and for all
     // sizes when its binary is stored. This setting omits the first compilation. Pictures take no
     // longer, and starts with an empty cache take 0.70 to 0.77 of the processor time.
     setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
-    cache_open_for_library(cache);
+    cache_open(cache);
     const char *temporary = getenv("TMPDIR");
     const bool ok = open_private(cache, cache->folder) ||
                     open_private(cache, temporary != NULL ? temporary : "/tmp");
@@ -157,7 +157,7 @@ void cache_open(Cache *cache)
     setenv("POCL_CACHE_DIR", ok ? cache->private_folder : "/dev/null/clrt", 1);
 }
 
-void cache_close(Cache *cache)
+void cache_close_private(Cache *cache)
 {
     if (cache->private_folder[0] == '\0')
         return;

@@ -4,12 +4,12 @@
 
 #include "device/cache.h"
 
-// Opens the cache and sets POCL_CACHE_DIR to a private folder. The private folder is in the cache's
+// Calls cache_open, and sets POCL_CACHE_DIR to a private folder. This folder is in the cache's
 // folder or, if that folder is not writable or has too little free space, in $TMPDIR or /tmp.
 // Without a private folder, PoCL lists no device. Also removes private folders of processes that
-// were killed. A program calls cache_open once, before its first OpenCL call. The library must not
-// call cache_open, because it must not change the environment.
-void cache_open(Cache *cache);
+// were killed. A program calls this function once, before its first OpenCL call. The library does
+// not call it, because the library must not change the environment.
+void cache_open_private(Cache *cache);
 
 // Removes the private folder. No OpenCL object may be in use.
-void cache_close(Cache *cache);
+void cache_close_private(Cache *cache);

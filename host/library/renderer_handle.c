@@ -10,14 +10,14 @@
 #include <string.h>
 
 // Locked during calls that open drivers. PoCL 3.1 crashes if two threads make the first OpenCL
-// calls concurrently. These calls may also change the environment while cache_open_for_library
+// calls concurrently. These calls may also change the environment while cache_open
 // reads it.
 static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
 
 static bool open_session(Session *session, Error *cause)
 {
     pthread_mutex_lock(&opening);
-    cache_open_for_library(&session->cache);
+    cache_open(&session->cache);
     const bool ok = session_open(session, cause);
     pthread_mutex_unlock(&opening);
     return ok;

@@ -9,14 +9,14 @@ static Cache cache;
 
 static void close_cache(void)
 {
-    cache_close(&cache);
+    cache_close_private(&cache);
 }
 
 const Cache *shared_cache(void)
 {
     static bool is_open;
     if (!is_open) {
-        cache_open(&cache);
+        cache_open_private(&cache);
         atexit(close_cache);
     }
     is_open = true;

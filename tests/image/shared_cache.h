@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kernel cache of a test program. A process may call cache_open only once. The first call sets
-// POCL_CACHE_DIR to a private folder, so a second call would open an empty cache there.
+// The kernel cache of a test program. A process may call cache_open_private only once. The first
+// call sets POCL_CACHE_DIR to a private folder, so a second call would open an empty cache there.
 #pragma once
 
 #include "device/cache.h"

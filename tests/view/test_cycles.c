@@ -156,6 +156,6 @@ TEST(many_windows_leave_nothing_behind)
 
 SET_UP(open_cache)
 {
-    cache_open(&cache);
+    cache_open_private(&cache);
     return 0;
 }

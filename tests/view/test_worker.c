@@ -61,7 +61,7 @@ TEST(a_long_picture_of_a_moving_camera_is_stopped)
     Cache cache;
     Canvas canvas;
     Error error = {0};
-    cache_open(&cache);
+    cache_open_private(&cache);
     canvas_open(&canvas, ENCODE_RAW);
     const WorkerSetup setup = {.session = {.wanted = {.threads = 2}},
                                .cache = cache,
@@ -90,7 +90,7 @@ TEST(a_long_picture_of_a_moving_camera_is_stopped)
     assert_string_equal(status.failure.text, "");
     assert_true(worker_stop(worker, 60));
     canvas_close(&canvas);
-    cache_close(&cache);
+    cache_close_private(&cache);
 }
 
 SET_UP(make_mesh)
