@@ -7,12 +7,12 @@
 #include <string.h>
 #include <sys/mman.h>
 
-// Bytes. Some devices read host arrays in place, and their longest vectors need this alignment.
+// Bytes. Devices that read host arrays in place load aligned vectors of up to 64 bytes.
 #define ALIGNMENT ((size_t)64)
 
 // Large arrays request huge pages. Rays read a tree's nodes in random order, so with small pages
-// every second read misses the TLB. The page faults of small pages would also take longer than
-// filling a new array.
+// every second read misses the TLB. In a new array, the page faults of small pages would also take
+// longer than filling the array.
 #define HUGE_PAGE ((size_t)1 << 21)
 
 static void *allocate(size_t bytes)

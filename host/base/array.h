@@ -20,20 +20,20 @@
 // then leaves the array unchanged.
 bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, Error *error);
 
-// Appends item. Evaluates to false if memory runs out.
+// Appends `item`. Evaluates to false if memory runs out.
 #define array_push(array, item, error)                                                             \
     (array_reserve(&(array)->memory, &(array)->capacity, (array)->count + 1,                       \
                    sizeof *(array)->data, error) &&                                                \
      ((array)->data[(array)->count++] = (item), true))
 
-// Both functions allocate count elements, aligned to 64 bytes. They return NULL and fill Error if
-// memory runs out. The caller frees the result, even if count is 0.
+// Both functions allocate `count` elements of `size` bytes, aligned to 64 bytes. They return NULL
+// and fill Error if memory runs out. The caller frees the result, even if `count` is 0.
 void *memory_zeroed(size_t count, size_t size, Error *error);
 void *memory_raw(size_t count, size_t size, Error *error);
 
-// Returns a copy of text, which the caller frees, or NULL if memory runs out.
+// Returns a copy of `text`, or NULL if memory runs out. The caller frees the copy.
 char *text_copy(const char *text, Error *error);
 
-// Like memory_raw, but unused elements take no physical memory. The function requests no huge
-// pages, and does not align the array to 64 bytes.
+// Like memory_raw, but elements take no physical memory until they are written. The array gets no
+// huge pages and is not aligned to 64 bytes.
 void *memory_sparse(size_t count, size_t size, Error *error);

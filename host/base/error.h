@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The first cause of a failure, as one sentence for the user. Functions that fail return false or
 // NULL, and fill an Error. Assertions catch programming errors. If a function fails to make, open
-// or read a value, the caller may free the value, but need not. Headers state the exceptions.
+// or read a value, the caller may free the value, but need not. Headers state exceptions to this
+// rule.
 #pragma once
 
 #include <stdbool.h>
@@ -14,8 +15,8 @@ typedef struct {
 // contain them. Keeps line feeds and tabs.
 void text_hide_controls(char *text);
 
-// Records the failure without control characters, and returns false, so that a caller can `return
-// error_set(...)`. Does not replace a recorded error, because the first cause is the most
+// Records the message after text_hide_controls, and returns false, so that a caller can `return
+// error_set(...)`. Does not replace a recorded message, because the first cause is the most
 // informative.
 __attribute__((format(printf, 2, 3))) bool error_set(Error *error, const char *format, ...);
 

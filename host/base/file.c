@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Reads a stream to its end, or up to one byte more than `most`. Pipes report no size, so the
+// Reads `stream` to its end, or until more than `most` bytes are read. Pipes report no size, so the
 // buffer grows while bytes arrive.
 static bool read_all(File *file, FILE *stream, size_t expected, size_t most, Error *error)
 {
@@ -32,8 +32,8 @@ static bool read_all(File *file, FILE *stream, size_t expected, size_t most, Err
     return ok;
 }
 
-// Fails if a large file has holes. Incomplete downloads have holes, and hostile files may use holes
-// to claim more bytes than they occupy on disk.
+// Fails if a file above FILE_PIPE_MOST bytes has holes. Incomplete downloads have holes, and
+// hostile files may claim a large size by holes.
 static bool check_holes(int file, off_t size, const char *name, Error *error)
 {
     const off_t start = lseek(file, 0, SEEK_CUR);

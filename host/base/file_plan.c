@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Identifies existing files by device and inode, and new files by folder and name. Follows symbolic
-// links first. Sorting makes equal files adjacent, so even a million outputs are checked quickly.
+// links first. Sorting makes entries of the same file adjacent, so even a million outputs are
+// checked quickly.
 #include "base/file_plan.h"
 
 #include "base/file.h"
@@ -18,8 +19,8 @@ static void take_identity(PlannedFile *file, const struct stat *status)
     file->inode = (uint64_t)status->st_ino;
 }
 
-// Returns the target of the symbolic link at path, relative to the current folder. Returns NULL if
-// path is not a link or memory runs out. The caller frees the result.
+// Returns the target of the symbolic link at `path`, as a path from the current folder. Returns
+// NULL if `path` is not a link or memory runs out. The caller frees the result.
 static char *read_link(const char *path, Error *error)
 {
     char target[4096];
@@ -30,9 +31,9 @@ static char *read_link(const char *path, Error *error)
     return file_path_beside(path, target, error);
 }
 
-// Returns the path of the file that a program creates if it writes to path. If path is a link, the
-// result is the target of the last link in the chain. Otherwise, the result is path itself. The
-// caller frees the result.
+// Returns the path of the file that is created if a program writes to `path`. If `path` is a link,
+// the result is the target of the last link in the chain. Otherwise, the result is a copy of
+// `path`. The caller frees the result.
 static char *follow_links(const char *path, Error *error)
 {
     char *end = text_copy(path, error);
@@ -46,7 +47,7 @@ static char *follow_links(const char *path, Error *error)
     return end;
 }
 
-// Identifies a new file. If the folder is missing, inode stays 0, a number that no file has.
+// Identifies a new file. If the folder is missing, `inode` stays 0, a number that no file has.
 static bool identify_new(PlannedFile *file, Error *error)
 {
     struct stat status;

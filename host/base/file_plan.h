@@ -14,18 +14,18 @@ typedef struct {
     const char *role;       // prefix of the path in messages, such as "--json="; borrowed
     char *path;             // as the user wrote it; owned
     uint64_t device, inode; // of the file or, for a new file, of its folder
-    char *name;             // in the folder; NULL for an existing file; owned
+    char *name;             // a new file's name in its folder; NULL for an existing file; owned
 } PlannedFile;
 
 typedef struct {
     ARRAY(PlannedFile) list;
 } FilePlan;
 
-// Adds the file at path; "-" is standard input or output. Ignores missing inputs. Ignores pipes and
-// devices, because writing does not replace them. Returns false if memory runs out.
+// Adds the file at `path`; "-" is standard input or output. Ignores missing inputs. Ignores pipes
+// and devices, because writing does not replace them. Returns false if memory runs out.
 bool file_plan_add(FilePlan *plan, FileUse use, const char *role, const char *path, Error *error);
 
-// Returns false if an output is also an input or another output. The message names both.
+// Returns false if an output is also an input or another output. The message names both paths.
 bool file_plan_check(const FilePlan *plan, Error *error);
 
 void file_plan_free(FilePlan *plan);

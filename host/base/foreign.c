@@ -3,8 +3,8 @@
 // at a limit of time or size. clrt-foreign limits its memory by itself
 // (host/foreign/process_limits.c).
 //
-// Invariant: when foreign_run returns, the child has ended. All its faults, such as crashes,
-// endless loops or endless output, become a message.
+// Invariant: when foreign_run returns, the process of clrt-foreign has ended. A crash, an endless
+// loop or endless output of clrt-foreign becomes an error message.
 #include "base/foreign.h"
 
 #include "base/array.h"
@@ -22,7 +22,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// Puts the folder of `file` in front of name. Returns whether the new path can be read.
+// Stores the path of `name` in the folder of the absolute path `file`. Returns whether this path
+// can be read.
 static bool find_beside(char path[COMPANION_PATH_SIZE], const char *file, const char *name)
 {
     const char *slash = strrchr(file, '/');
@@ -45,7 +46,7 @@ bool foreign_companion(char path[COMPANION_PATH_SIZE], const char *name, const c
            find_beside(path, own.dli_fname, name);
 }
 
-// Searches beside clrt, and then in the installation folder.
+// Searches as foreign_companion does, and falls back to the absolute installation folder.
 static void find_program(char path[COMPANION_PATH_SIZE])
 {
     if (!foreign_companion(path, "clrt-foreign", CLRT_FOREIGN_FOLDER "/clrt-foreign"))

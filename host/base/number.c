@@ -4,10 +4,11 @@
 // the power of ten:
 // 1. If the integer and the power are exact doubles, one multiplication or division is correctly
 // rounded (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990).
-// 2. For powers from 10^-27 to 10^27, a 128-bit integer holds the exact product or a long enough
-// quotient. Only the conversion of this integer to double rounds.
+// 2. For powers from 10^-27 to 10^27, a 128-bit integer holds the exact product, or at least 63
+// bits of the quotient and a mark of its remainder. Only the conversion of this integer to double
+// rounds.
 // 3. All other numbers are rewritten as DIGITSeEXPONENT for strtod. This form has no decimal point,
-// so no locale misreads it.
+// so strtod reads it alike in every locale.
 //
 // Invariant: the result is the double nearest to the decimal number, which may have any length.
 // Ties go to the even double.
@@ -48,7 +49,8 @@ static const char *skip_sign(const char *text, const char *end, bool *negative)
     return text < end && (*text == '-' || *text == '+') ? text + 1 : text;
 }
 
-// Appends the digits at text to *mantissa, which wraps on overflow. Returns the end of the digits.
+// Appends the digits at `text` to *mantissa, which wraps on overflow. Returns the end of the
+// digits.
 static const char *gather_digits(const char *text, const char *end, uint64_t *mantissa)
 {
     for (; text < end && is_digit(*text); text++)
@@ -56,8 +58,8 @@ static const char *gather_digits(const char *text, const char *end, uint64_t *ma
     return text;
 }
 
-// Adds the exponent at text, if there is one, to *exponent. Returns the end of the exponent. An "e"
-// without digits is not an exponent.
+// If an exponent starts at `text`, adds it to *exponent and returns its end. Otherwise, returns
+// `text`. An "e" without digits is not an exponent.
 static const char *scan_exponent(const char *text, const char *end, int64_t *exponent)
 {
     if (text == end || (*text != 'e' && *text != 'E'))
@@ -76,8 +78,9 @@ static const char *scan_exponent(const char *text, const char *end, int64_t *exp
     return stop;
 }
 
-// Returns the integer with the digits from text to end, times ten to the power of exponent. Keeps
-// only the first SUFFICIENT_DIGITS digits. If a dropped digit is not zero, appends a digit 1.
+// Reads the digits from `text` to `end` as one integer, ignoring a decimal point. Returns this
+// integer times ten to the power of `exponent`. Keeps only the first SUFFICIENT_DIGITS digits. If a
+// dropped digit is not zero, appends a digit 1.
 static double round_slowly(const char *text, const char *end, int64_t exponent)
 {
     char spelled[SUFFICIENT_DIGITS + 32];
@@ -102,8 +105,9 @@ static double round_slowly(const char *text, const char *end, int64_t exponent)
     return strtod(spelled, NULL);
 }
 
-// Returns mantissa times ten to the power of exponent, which is from -WIDE_POWER to WIDE_POWER.
-// Integer arithmetic applies the power of five. ldexp then applies the power of two without error.
+// Returns `mantissa` times ten to the power of `exponent`, which is from -WIDE_POWER to WIDE_POWER.
+// Integer arithmetic applies the power of five. After the conversion to double, ldexp applies the
+// power of two without error.
 static double round_widely(uint64_t mantissa, int64_t exponent)
 {
     uint64_t power = 1;
@@ -113,8 +117,8 @@ static double round_widely(uint64_t mantissa, int64_t exponent)
         return 0;
     if (exponent >= 0)
         return ldexp((double)((Wide)mantissa * power), (int)exponent);
-    // The shift gives the quotient at least 63 bits. The last bit, far below the rounding position,
-    // records whether the division left a remainder.
+    // The shift gives the quotient at least 63 bits. The quotient's last bit, far below the
+    // rounding position, records whether the division left a remainder.
     const int shift = 63 + __builtin_clzll(mantissa);
     const Wide dividend = (Wide)mantissa << shift;
     const Wide quotient = dividend / power;

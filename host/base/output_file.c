@@ -2,10 +2,10 @@
 // Writes a temporary file beside the final name and renames it at the end. Renaming replaces a file
 // atomically for all readers, even if the process is killed.
 //
-// Killed runs leave temporary files. Later runs that write files in the same folder remove them. A
-// run locks its own temporary files, and removes only files that it can lock. On a network file
-// system, other machines may not see these locks. A temporary file's name therefore contains the
-// start of the system's boot id. Files with another boot id are removed once they are old.
+// Killed runs leave temporary files. A later run that writes to the same folder removes these
+// files. A run locks its own temporary files, and removes only files that it can lock. On a network
+// file system, other machines may not see these locks. A temporary file's name therefore contains
+// the start of the system's boot id. Files with another boot id are removed after OLD_SECONDS.
 #include "base/output_file.h"
 
 #include "base/array.h"
@@ -107,8 +107,8 @@ static bool is_temporary(const char *name)
 }
 
 // Removes a temporary file unless a process has locked it, or another machine may have written to
-// it lately. This process locks the file until its name is gone. A process that has just created
-// the file, but not locked it yet, then notices the removal and creates another.
+// it lately. The function locks the file until its name is gone. A process that has created the
+// file, but not locked it yet, thus notices the removal and creates another file.
 static void remove_unlocked(int folder, const char *name, const char *boot)
 {
     struct stat status;

@@ -15,23 +15,23 @@ typedef struct {
     bool replaces;    // the temporary file is renamed, not copied
 } OutputFile;
 
-// Creates an empty temporary file. The error message names the path.
+// Creates an empty temporary file. The error message names `path`.
 bool output_file_begin(OutputFile *file, const char *path, Error *error);
 
-// If ok, renames or copies the temporary file to its final name. Otherwise, removes it. Returns
-// false if ok is false, or if renaming or copying fails. If renaming or copying fails, cause
-// receives the reason without the path.
+// If `ok`, renames or copies the temporary file to its final name. Otherwise, removes it. Returns
+// false if `ok` is false, or if renaming or copying fails. After such a failure, *cause has the
+// reason without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
 // Creates the file from the bytes that `write` writes to its stream. On failure, `write` must
-// return false with the reason in cause or errno. The error message names the path.
+// return false with the reason in *cause or errno. The error message names `path`.
 typedef bool WriteStream(void *context, FILE *stream, Error *cause);
 bool output_file_write(const char *path, WriteStream *write, void *context, Error *error);
 
-// Returns whether path seems writable. Callers check this before long work. Also removes the
-// temporary files that killed runs left in path's folder. Files of other machines are removed after
-// a day.
+// Returns whether `path` seems writable. Callers check this before long work. Also removes the
+// temporary files that killed runs left in the folder of `path`, but files of other machines only
+// after a day.
 bool output_file_check(const char *path, Error *error);
 
-// Copies the rest of a stream. Returns false on failure, with the reason in errno.
+// Copies the rest of `from` to `to`. Returns false on failure, with the reason in errno.
 bool stream_copy(FILE *from, FILE *to);

@@ -13,8 +13,8 @@
 
 // In cgroup version 2, /proc/self/cgroup has one line "0::/path", and a group's limit on processors
 // is in its file cpu.max. In version 1, each controller has a line such as "4:cpu,cpuacct:/path",
-// and a group's quota and period are in two files. A container mounts the tree of groups from its
-// own group on, so the path may not exist below the mount. clrt therefore reads the limits in every
+// and a group's quota and period are in two files. A container mounts only its own group and the
+// groups below, so the path may not exist below the mount. clrt therefore reads the limits in every
 // parent folder up to the mount.
 
 #define PATH_SIZE 4096

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The number of processors, and how many of them the process may use.
+// The number of the machine's processors, and how many of them the process may use.
 #pragma once
 
 #include <stdint.h>
@@ -10,6 +10,6 @@ uint32_t processors_present(void);
 uint32_t processors_usable(void);
 
 // Returns the least quota of a control group and its ancestors, in processors, rounded up. Returns
-// UINT32_MAX if there is no quota. Supports cgroup versions 1 and 2. membership is
-// /proc/self/cgroup and mount is /sys/fs/cgroup, except in tests.
+// UINT32_MAX if there is no quota. Supports cgroup versions 1 and 2. Except in tests, `membership`
+// is /proc/self/cgroup and `mount` is /sys/fs/cgroup.
 uint32_t cgroup_processors(const char *membership, const char *mount);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Each call of thread_pool_run with several tasks is a generation. The pool's workers and the
-// caller's thread take tasks from a common counter until none is left. The call returns when all
-// tasks are finished. It does not wait for workers that wake too late to take a task.
+// Each call of thread_pool_run with several tasks begins a generation of tasks. The pool's workers
+// and the caller's thread take tasks from a common counter until none is left. The call returns
+// when all tasks are finished. It does not wait for workers that wake too late to take a task.
 //
 // Generations often follow each other closely, and waking a thread takes long. Idle workers
 // therefore first poll for the next generation, and then sleep.
@@ -29,7 +29,7 @@ struct ThreadPool {
     _Atomic PoolState state;
     atomic_uint finished; // tasks of the generation
     atomic_bool closing;
-    pthread_mutex_t mutex; // protects sleeping and waking
+    pthread_mutex_t mutex; // held to begin a generation or to fall asleep
     pthread_cond_t wake;
     uint32_t threads;      // including the caller's thread; 0: not known yet
     uint32_t worker_count; // threads that have started
@@ -105,7 +105,7 @@ ThreadPool *thread_pool_open(uint32_t threads)
     return pool;
 }
 
-// Starts the threads that are not running. If the system refuses one, does not try again.
+// Starts the threads that are not running. If the system refuses a thread, the pool stays smaller.
 static void start_workers(ThreadPool *pool)
 {
     if (pool->threads == 0) {

@@ -37,8 +37,8 @@ static double cosine_series(double x)
     return 1.0 + s * sum;
 }
 
-// Returns the sine of degrees + 90 * quarters. The sum is never computed, so it has no rounding
-// error: `quarters` only selects a polynomial and a sign.
+// Returns the sine of `degrees` + 90 * `quarters`. This sum is never computed or rounded, because
+// `quarters` only selects a polynomial and a sign.
 static double sine_ahead(double degrees, int quarters)
 {
     const double turns = rint(degrees / 90.0);

@@ -63,8 +63,8 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Return the minimum or maximum of each component. The vectors must not contain NaN. fmin and fmax
-// would be slower, because they are function calls.
+// Return the smaller or the larger of each pair of components. The vectors must not contain NaN.
+// fmin and fmax would be slower, because they are function calls.
 static inline Vec3 vec3_lower(Vec3 a, Vec3 b)
 {
     return (Vec3){a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
@@ -97,9 +97,9 @@ static inline Vec3 vec3_normalize(Vec3 a)
     return vec3_scale(unit, 1 / sqrt(vec3_dot(unit, unit)));
 }
 
-// Return the sine and cosine of degrees, which must be below 1e9 in magnitude. The error is at most
-// 2 ulp, and results at multiples of 90 are exact. The C library's functions would change the
-// camera, because their results differ between processors with and without fma.
+// Return the sine and cosine of `degrees`, which must be below 1e9 in magnitude. The error is at
+// most 2 ulp, and results at multiples of 90 are exact. The C library's functions would make the
+// camera depend on whether the processor has fma.
 double sine_of_degrees(double degrees);
 double cosine_of_degrees(double degrees);
 
