@@ -17,8 +17,8 @@
 #include <string.h>
 
 // The midpoint split, as taught in the course (docs/scenes.md), divides a box by a plane through
-// its middle, perpendicular to its longest axis. If a side is empty, or if a child is hardly
-// shorter than its parent along this axis, the next longest axis is tried.
+// its middle, perpendicular to its longest axis. If a side is empty, or if a child is longer than
+// LARGEST_CHILD of its parent along this axis, the next longest axis is tried.
 
 #define LEAF_TRIANGLES 4
 #define LARGEST_CHILD  0.9f // largest extent of a child, relative to its parent's extent
@@ -79,8 +79,8 @@ Split split_midpoint(const BuildRange *range)
 
 // The binned surface area heuristic (Wald, "On fast construction of SAH-based bounding volume
 // hierarchies", 2007). It compares up to 15 planes per axis and takes the plane with the lowest
-// expected cost per ray. A small node becomes a leaf if no plane is cheaper than testing all its
-// triangles.
+// expected cost per ray. A node of at most LARGEST_LEAF triangles becomes a leaf if no plane is
+// cheaper than testing them all.
 
 #define BINS 16
 
@@ -109,7 +109,8 @@ typedef struct {
     Uint4 counts[BINS];
 } Bins;
 
-// An item with center c has bin floor((2 c - origin) * scale). The scale is 0 if c hardly varies.
+// On each axis, an item with center c belongs to bin floor((2 c - origin) * scale). The scale of an
+// axis is 0 if all centers are (almost) equal there.
 typedef struct {
     Float4 origin, scale;
     int bins;

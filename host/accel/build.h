@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Triangles with their boxes -> the nodes of a Bvh. split_midpoint or split_sah chooses how to
-// split a node.
+// Triangles or boxes of spheres -> the nodes of a Bvh. Comments here call both triangles.
+// split_midpoint or split_sah chooses how to split a node.
 #pragma once
 
 #include "accel/bvh_tree.h"
@@ -21,7 +21,7 @@ typedef struct {
     Float4 low, negated_high; // x, y, z; in a BuildItem, low[3] holds the triangle's index
 } BuildBox;
 
-// A triangle to sort.
+// A triangle to sort: its box and its index.
 typedef union {
     BuildBox box;
     struct {
@@ -144,7 +144,7 @@ typedef enum {
     SPLIT_HALVES // each child gets half of the triangles
 } SplitKind;
 
-// A triangle is left of the plane if (doubled center - origin) * scale < limit.
+// A triangle is left of the plane if (item_center - origin) * scale < limit.
 typedef struct {
     SplitKind kind;
     int axis;
@@ -166,7 +166,7 @@ typedef struct {
     uint32_t node;
     uint32_t first, count; // range of its triangles in Bvh::order
     uint32_t depth;        // 1 for the root of the tree
-    uint32_t left;         // triangles of the first child, set by build_divide; 0 for a leaf
+    uint32_t left; // number of triangles in the first child, set by build_divide; 0 for a leaf
 } BuildTask;
 
 typedef struct {
@@ -180,10 +180,11 @@ typedef struct {
 // Sorts a node's triangles into two children, or makes the node a leaf.
 void build_divide(const Build *build, BuildTask *task);
 
-// Makes the nodes `child` and `child + 1` the children of a divided node, and stores their tasks.
+// Makes the nodes `child` and `child + 1` the children of a divided node, and stores their tasks in
+// `children`.
 void build_set_children(const Build *build, const BuildTask *task, uint32_t child,
                         BuildTask children[2]);
 
-// Builds the subtree below root. Nodes below root use indices from 2 * first + 1 to 2 * (first +
-// count) - 2, where first and count are members of root. No other subtree uses these indices.
+// Builds the subtree of `root`. The nodes below `root` get indices from 2 * root->first + 1 to 2 *
+// (root->first + root->count) - 2, which no other subtree uses.
 void build_subtree(const Build *build, const BuildTask *root);

@@ -21,7 +21,7 @@ typedef struct {
     ThreadPool *pool;
     ARRAY(BuildTask) subtrees;
     ARRAY(BuildTask) large; // nodes above the subtrees, level by level
-    size_t next;            // index in large of the first node to divide
+    size_t next;            // index in `large` of the first node to divide
 } Whole;
 
 static void make_items(void *context, uint32_t first, uint32_t end)
@@ -80,7 +80,7 @@ static int compare_subtrees(const void *first, const void *second)
     return (a->count < b->count) - (a->count > b->count);
 }
 
-// Counts the nodes of a subtree. The depth of the tree bounds the recursion.
+// Counts the nodes, leaves and levels of a subtree. The depth of the tree bounds the recursion.
 static void count_nodes(Bvh *bvh, uint32_t number, uint32_t parents)
 {
     BvhNode *node = &bvh->nodes[number];

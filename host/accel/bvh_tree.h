@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A binary tree of boxes with triangles in its leaves, and the settings by which it is built.
+// A binary tree of boxes with triangles (or spheres) in its leaves, and the settings of its
+// builder.
 #pragma once
 
 #include "scene/scene.h"
@@ -30,9 +31,9 @@ typedef struct {
 } BvhNode;
 
 typedef struct {
-    BvhNode *nodes;                       // the first is the root; some entries are unused
-    uint32_t *order;                      // triangle indices, leaf by leaf
-    uint32_t node_count, leaf_count;      // nodes in use; leaves among them
-    uint32_t largest_leaf, depth;         // triangles of a leaf; levels, at most BVH_MAX_DEPTH
+    BvhNode *nodes;                  // the first is the root; some entries are unused
+    uint32_t *order;                 // triangle indices, leaf by leaf
+    uint32_t node_count, leaf_count; // nodes in use; leaves among them
+    uint32_t largest_leaf, depth;    // triangles of the largest leaf; levels, at most BVH_MAX_DEPTH
     uint32_t inner_counts[BVH_MAX_DEPTH]; // inner nodes per level, from the root down
 } Bvh;

@@ -12,8 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The following functions process one mesh object at a time. They divide the object's triangles
-// among the threads.
+// flat_looks_make processes one mesh object at a time, and divides its triangles among the threads.
 
 typedef struct {
     const Mesh *mesh;
@@ -58,8 +57,9 @@ static double inverse_power(double value)
 }
 
 // Stores a triangle's normals, negated if the stored corners are reversed. Scales the three normals
-// by one power of two, so that their squares neither overflow nor underflow. One common factor
-// keeps their relative weights in the interpolation.
+// by one power of two, so that the largest component is in [1, 2): squares of tiny or huge normals
+// then neither vanish nor overflow. A common factor keeps the weights of the normals in the
+// interpolation.
 static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {

@@ -31,7 +31,7 @@ typedef struct {
 } CompileStages;
 
 // Runs all stages: triangles, tree and flattening. Fills *flat, which must be {0}. Also fills
-// *stages, unless the source has triangles and a tree. The caller always frees both.
+// *stages, unless the source has triangles. The caller frees both, even after a failure.
 bool scene_compile(FlatScene *flat, CompileStages *stages, const FlatSource *source, Error *error);
 void compile_stages_free(CompileStages *stages);
 
@@ -39,7 +39,7 @@ void compile_stages_free(CompileStages *stages);
 // code for unused features, and renders the same picture as the general program.
 typedef struct {
     bool spheres, triangles;
-    bool bvh;        // rays find triangles with a tree
+    bool bvh;        // rays find triangles, or spheres in NODES_WIDE, with a tree
     bool mirrors;    // a used material reflects
     bool shaded;     // a used material is shaded by lights
     bool colors;     // a mesh has vertex colors
@@ -54,7 +54,7 @@ typedef struct {
     const char *option;           // the switch
     size_t offset;                // of the member
     const char *absent, *present; // reasons in explanations; NULL if they contain numbers
-    bool is_rare;                 // general programs have it only if the scene needs it
+    bool is_rare;                 // general programs have it only for scenes that need it
 } Trait;
 
 #define TRAIT_COUNT 9
@@ -67,9 +67,8 @@ SceneTraits traits_of(const FlatScene *flat, bool statistics);
 // Returns the largest reflectivity of the materials that primitives use.
 float flat_reflectivity(const FlatScene *flat);
 
-// Returns the traits of the general program that renders scenes with the needed traits. General
-// programs have all common traits, and the rare traits that are needed. If they have glass, they
-// also have checkers.
+// Returns the traits of the general program for scenes with the traits `needed`. The program has
+// all traits that are not rare, and the rare traits in `needed`. With glass, it also has checkers.
 SceneTraits traits_general(SceneTraits needed);
 
 #define TRAITS_OPTIONS_SIZE 192

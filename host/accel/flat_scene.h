@@ -25,14 +25,14 @@ typedef struct {
     CornerColors *colors;    // of colored triangles, in file order
     uint32_t light_count, material_count, sphere_count;
     uint32_t sphere_entries; // sphere_count, or more with a tree over the spheres
-    uint32_t sphere_root;    // NODES_WIDE only: the node of this tree, or NOTHING
+    uint32_t sphere_root;    // NODES_WIDE only: the root of this tree, or NOTHING
     uint32_t node_count;     // entries of pairs or wides
     uint32_t triangle_count, block_count, normals_count, colors_count;
     float background[3], ambient;
     Box bounds; // of all primitives, grown by SKY_SLACK; unspecified if there are none
 } FlatScene;
 
-// The input of flattening. If bvh has no nodes, the kernels test every triangle.
+// The input of flattening. If `bvh` has no nodes, the kernels test every triangle.
 typedef struct {
     const Scene *scene;
     const Triangles *triangles; // NULL: scene_compile makes triangles and tree
@@ -42,5 +42,5 @@ typedef struct {
     ThreadPool *pool;   // NULL for the caller's thread only
     bool is_two_sided;  // all meshes are two-sided; otherwise, each object's two_sided decides
     bool has_tree;      // false: rays test every triangle and every sphere
-    BvhBuilder builder; // of the trees that are made
+    BvhBuilder builder; // of trees that scene_compile makes
 } FlatSource;

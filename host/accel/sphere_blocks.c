@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The builder of trees over triangles also takes boxes. Each sphere's box is rounded outward.
+// bvh_build_boxes makes the tree from the spheres' boxes, which are rounded outward.
 #include "accel/sphere_blocks.h"
 
 #include "accel/sphere_tree.h"

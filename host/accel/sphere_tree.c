@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The tree for nodes of two is an array in depth-first order, which rays walk without a stack: the
+// The tree for NODES_PAIR is an array in depth-first order, which rays walk without a stack: the
 // entry of a bounding sphere names the entry after the spheres in it. The other entries are copies
-// of the spheres with their ids. A median split gives equal halves along the axis on which the
-// centers extend farthest. Links for walking near nodes first (by octant of the direction) gained
-// nothing.
+// of the spheres with their ids. A median split halves the spheres along the axis on which their
+// centers extend farthest. Separate links per octant of the direction, to visit near nodes first,
+// gained nothing.
 //
-// Invariant: a bounding sphere contains the spheres below it, as stored. docs/numerics.md (B21)
-// proves that skipping it changes no hit.
+// Invariant: a bounding sphere contains the spheres below it, as stored. Skipping a bounding sphere
+// that a ray does not meet therefore changes no hit (B21 in docs/numerics.md).
 #include "accel/sphere_tree.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ typedef struct {
     uint32_t sphere;
 } SplitItem;
 
-// Some of the spheres.
+// The spheres below one bounding sphere.
 typedef struct {
     const SphereData *spheres; // all spheres
     SplitItem *items;
@@ -51,7 +51,8 @@ static int compare(const void *left, const void *right)
     return a->sphere < b->sphere ? -1 : 1;
 }
 
-// Stores the least and the largest coordinate of the spheres, with radii multiplied by `radii`.
+// Stores the least and the largest coordinate of the group along an axis. `radii` is 1 for whole
+// spheres, and 0 for their centers.
 static void range_along(const SphereGroup *group, int axis, double radii, double range[2])
 {
     range[0] = INFINITY;
@@ -79,7 +80,7 @@ static void sort_along_longest(const SphereGroup *group)
     qsort(group->items, group->count, sizeof *group->items, compare);
 }
 
-// Returns a sphere around the spheres. Its center and its radius are floats.
+// Returns a sphere around the group. The low parts of its center and radius are zero.
 static SphereData bounding_sphere(const SphereGroup *group)
 {
     SphereData bound = {.id = NOTHING};
@@ -102,7 +103,7 @@ static SphereData bounding_sphere(const SphereGroup *group)
     return bound;
 }
 
-// Writes the entries of the group from `number` on. Returns the number of the entry after them.
+// Writes the group's entries from index `number` on. Returns the index after them.
 static uint32_t write_group(SphereData *entries, uint32_t number, const SphereGroup *group)
 {
     uint32_t next = number + 1;

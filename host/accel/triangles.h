@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Collects a scene's triangles in file order, with the float coordinates that the device traces.
-// Equal points get equal floats. Watertightness and the builders of trees require this.
+// Equal points get equal floats, so closed meshes stay closed.
 #pragma once
 
 #include "base/thread_pool.h"
@@ -17,8 +17,7 @@ typedef struct {
 
 extern const CornerOrder corner_orders[8];
 
-// Returns the index of the entry of corner_orders that sorts the corners. The sorted points do not
-// depend on the order of the arguments.
+// Returns the index in corner_orders of the order that sorts the corners a, b and c.
 uint8_t corner_order(const float *a, const float *b, const float *c);
 
 typedef struct {

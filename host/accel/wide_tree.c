@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Collapses a binary tree into nodes of up to eight children (compare Wald,
-// Benthin and Boulos, "Getting rid of packets", 2008). A wide node starts with the two children of
-// a binary node, or with the two halves of a large leaf. While the node has fewer than eight
-// children, its largest divisible child is replaced by the two parts of this child. The largest
-// child is the one with the largest surface area, which rays hit most often. A child with at most
-// eight leaves is divided only if the node has room for all these leaves. This rule makes nodes of
-// only two or three blocks rare. Nodes and blocks are in depth-first order.
+// Collapses a binary tree into nodes of up to eight children (compare Wald, Benthin and Boulos,
+// "Getting rid of packets", 2008). A wide node starts with the two children of a binary node, or
+// with the two halves of a large leaf. While the node has fewer than eight children, its largest
+// divisible child is replaced by the two parts of this child. The largest child is the one with the
+// largest surface area, which rays hit most often. A child with at most eight leaves is divided
+// only if the node has room for all these leaves. This rule makes nodes of only two or three blocks
+// rare. Nodes and blocks are in depth-first order.
 #include "accel/wide_tree.h"
 
 #include <stdlib.h>
@@ -109,8 +109,8 @@ static void open_part(const Bvh *bvh, Part *part, Part *second)
     second->count -= part->count;
 }
 
-// Returns whether to open a part. Its node has room for `room` more parts. If the node has no other
-// part, the part is always opened, unless it is a block.
+// Returns whether to open a part of a wide node that has room for `room` more parts. A node's only
+// part is always opened, unless it is a block.
 static bool can_open(const Part *part, uint32_t room)
 {
     return !is_block(part) &&
