@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Runs the operations of the kernels on a device, and compares the results with the host's. The
-// table holds operands for which common faults give other bits than IEEE 754. These faults are
-// wrong rounding, contracted products, flushed denormals and conversions that truncate.
+// Runs the operations of the kernels on a device, and compares the results with the host's. `cases`
+// holds operands for which common faults give other bits than IEEE 754. These faults are wrong
+// rounding, contracted products, flushed denormals and conversions that truncate.
 //
 // If the first program of a process must be compiled, program.c appends this test's kernel to it. A
 // separate program would take PoCL another 0.5 s. If the first program is from the cache, the
@@ -41,7 +41,7 @@ static const float cases[][3] = {
     {0x1.fffffap+1f, 0x1.555554p-1f, 0x1.333334p-3f},    // a root just below 2
     {0x1.fffffcp-1f, 0x1.99999ap-4f, 0x1.99999ap-4f},    // a root next to 1
     {0x1.6a09e8p+0f, 0x1.6a09e6p+0f, -2.0f},             // near the root of 2
-    {0x1.8p+127f, 0x1.8p+0f, -0x1p+127f},                // overflow before the sum
+    {0x1.8p+127f, 0x1.8p+0f, -0x1p+127f},                // only a fused product does not overflow
     {0x1.fffffep+127f, 0x1p-126f, 0x1p-24f},             // the largest and smallest normals
     {0x1p-100f, 0x1p-26f, 0x1.8p-126f},                  // a product: the smallest normal
     {0x1.234568p-64f, 0x1.fedcbap-61f, -0x1.2p-125f},    // a product near the smallest normal

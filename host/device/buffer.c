@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OpenCL has no empty buffers, so the buffer of an empty array has a few bytes.
+// OpenCL has no empty buffers, so the buffer of an empty array has 64 bytes.
 #include "device/buffer.h"
 
 #include "device/device.h"

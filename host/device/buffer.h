@@ -5,8 +5,9 @@
 #include "accel/flat.h"
 #include "device/device.h"
 
-// Makes *buffer from an array, which must outlive the buffer. Kernels do not read the buffer of an
-// empty array. Fails if the array exceeds the device's largest allocation.
+// Makes *buffer from an array. The array's data must outlive the buffer, because some devices read
+// the data in place. Kernels do not read the buffer of an empty array. Fails if the array exceeds
+// the device's largest allocation.
 bool upload_array(const Device *device, const FlatArray *array, cl_mem *buffer, Error *error);
 
 // Makes an uninitialized buffer of `size` bytes.

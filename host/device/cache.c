@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A compiled program is a file KEY.bin, which has a checksum and then the driver's binary. The key
-// is a hash of everything that determines the binary (program.c). The user's folder is searched
-// first, and then a folder that packages fill for all users. If a file is missing, damaged or
-// rejected, clrt builds the program from source.
+// Each compiled program is a file KEY.bin: a checksum, followed by the driver's binary. The key is
+// a hash of everything that determines the binary (program.c). The user's folder is searched first,
+// and then a folder that packages fill for all users. If a file is missing, damaged or rejected,
+// clrt builds the program from source.
 //
 // Writing is atomic: a temporary file gets its name KEY.bin by rename. Two writers of one key store
 // equivalent binaries.
 //
-// In the library, the lock protects PoCL's own files. The executable has a private folder for them.
-// The lock is an flock, which the system releases when the process dies.
+// In the library, cache_lock protects PoCL's own files. The executable has a private folder for
+// these files and needs no lock. The system releases an flock when its process dies.
 #include "device/cache.h"
 
 #include <errno.h>
@@ -51,8 +51,8 @@ static bool take_folder(Cache *cache, const char *base, const char *rest)
     return false;
 }
 
-// Hashes the variables of PoCL that can change the compiled code. Skips the variables that choose
-// the folder or limit the threads. The sum of the hashes does not depend on the order of the
+// Hashes PoCL's environment variables that can change the compiled code. Skips the variables that
+// choose the folder or limit the threads. The sum of the hashes does not depend on the order of the
 // variables.
 static uint64_t hash_settings(void)
 {

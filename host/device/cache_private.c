@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Makes PoCL's private folder. The folder is named clrt-HOST-XXXXXX and contains a file that the
 // process keeps locked. A folder with an unlocked file belongs to a process that was killed. The
-// next process removes the folder. The name contains the host's name, because locks of other hosts
-// can be invisible on network file systems. The library does not link this file, because the
-// library never changes the environment.
+// next process with the same base folder removes it. The folder's name contains the host's name,
+// because a network file system can hide the locks of other hosts. The library does not link this
+// file, because the library never changes the environment.
 #include "device/cache_private.h"
 
 #include <dirent.h>
@@ -19,8 +19,8 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-// The least free space of a private folder. PoCL unpacks binaries and preprocesses sources in the
-// folder, and LLVM ends the process if the disk is full.
+// The least free space, in bytes, of a private folder. PoCL unpacks binaries and preprocesses
+// sources in the folder, and LLVM ends the process if the disk is full.
 #define ROOM_LEAST ((unsigned long long)16 << 20)
 
 #define LOCK_NAME    "/lock"
@@ -64,7 +64,7 @@ static bool has_lock(const char *folder)
     return access(path, F_OK) == 0;
 }
 
-// Returns the open and locked file of a private folder, or -1 with errno.
+// Opens and locks the lock file of a private folder. Returns -1 and sets errno on failure.
 static int open_lock(const char *folder, int flags)
 {
     char path[PRIVATE_SIZE];
@@ -83,7 +83,7 @@ static void write_prefix(char prefix[PREFIX_SIZE])
     snprintf(prefix, PREFIX_SIZE, "clrt-%s-", host);
 }
 
-// Removes the private folder at path if its process has ended. This may also remove the empty
+// Removes the private folder at `path` if its process has ended. rmdir may also remove the empty
 // folder of a process that has not locked it yet. That process then makes another folder
 // (make_private). A process creates the lock before all other files. If a folder has files but no
 // lock, its process has therefore ended. Network file systems can leave such a folder, because they
@@ -147,7 +147,8 @@ void cache_open_private(Cache *cache)
 {
     // By default, PoCL compiles a kernel twice: for the size of its first work-groups, and for all
     // sizes when its binary is stored. This setting omits the first compilation. Pictures take no
-    // longer, and starts with an empty cache take 0.70 to 0.77 of the processor time.
+    // longer, and a start with an empty cache takes 0.70 to 0.77 times the processor time of PoCL's
+    // default.
     setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
     cache_open(cache);
     const char *temporary = getenv("TMPDIR");

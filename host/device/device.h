@@ -22,7 +22,7 @@ typedef struct {
     bool limits_registers; // its compiler accepts -cl-nv-maxrregcount
 } Device;
 
-// Opens the first device that matches spec. Valid forms are "PLATFORM:DEVICE" with numbers from
+// Opens the first device that matches `spec`. Valid forms are "PLATFORM:DEVICE" with numbers from
 // device_list, a type (cpu, gpu, accelerator, all), and a part of a device's or platform's name.
 // The case of letters does not matter. NULL selects the first GPU or, without a GPU, the first
 // device. If nothing matches, the error message lists the devices.
@@ -42,13 +42,13 @@ bool device_list(DeviceList *list, Error *error);
 
 #define DEVICE_TEXT_SIZE 4096
 
-// Writes as many devices as fit into the text, in the format of `clinfo -l`.
+// Writes as many devices as fit into `text`, in the format of `clinfo -l`.
 void device_list_text(const DeviceList *list, char text[DEVICE_TEXT_SIZE]);
 
 // Starts a thread that may build programs. Its stack is larger than usual, because OpenCL compilers
 // recurse deeply. Returns false if the system cannot start a thread.
 bool device_thread_start(pthread_t *thread, void *(*work)(void *context), void *context);
 
-// Returns the number of threads for the host's own work. This is count or, if count is 0, the
+// Returns the number of threads for the host's own work. This is `count` or, if `count` is 0, the
 // number of processors that the process may use.
 uint32_t threads_allowed(uint32_t count);

@@ -13,7 +13,7 @@
 struct HostPool {
     cl_context context;
     cl_command_queue queue;
-    HostMemory kept[KEPT]; // the last freed memory comes first
+    HostMemory kept[KEPT]; // the most recently freed memory comes first
 };
 
 HostPool *host_pool_make(cl_context context, cl_command_queue queue, Error *error)

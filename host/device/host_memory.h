@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Devices copy their results into this memory. For devices that are not CPUs, the OpenCL
 // implementation allocates the memory, because copies into ordinary memory are slower and make the
-// host wait. For each megabyte, locking the pages takes 0.4 ms and unlocking takes 0.1 ms (NVIDIA
-// H200). A pool therefore keeps the most recently freed memory for reuse.
+// host wait. The implementation locks the pages of this memory. On an NVIDIA H200, this takes 0.4
+// ms for each megabyte, and unlocking takes 0.1 ms. A pool therefore keeps the most recently freed
+// memory for reuse.
 #pragma once
 
 #include "device/cl_status.h"
@@ -19,10 +20,10 @@ typedef struct {
 // Makes an empty pool. Returns NULL on failure. The context and the queue must outlive the pool.
 HostPool *host_pool_make(cl_context context, cl_command_queue queue, Error *error);
 
-// pool may be NULL. None of its memory may be in use.
+// `pool` may be NULL. None of its memory may be in use.
 void host_pool_free(HostPool *pool);
 
-// Allocates `size` uninitialized bytes. If pool is NULL, the memory is ordinary. After a failure,
+// Allocates `size` uninitialized bytes. If `pool` is NULL, the memory is ordinary. After a failure,
 // host_memory_free does nothing.
 bool host_memory_make(HostMemory *memory, HostPool *pool, size_t size, Error *error);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A set makes each program and each kernel at most once. A process has few kernels, so lookups
-// compare all of them. PoCL compiles a kernel when it first runs, so every first run is between
-// cache_lock and cache_unlock.
+// compare all of them. PoCL compiles a kernel in the kernel's first run, so every first run is
+// between cache_lock and cache_unlock.
 #include "device/kernel.h"
 
 #include "base/clock.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes each kernel of a device once. Kernels share a program if they have the same source,
-// options, choice and traits. A kernel depends on the traits of a scene, but not on its data.
+// options, choice and traits. A kernel depends on the traits of a scene, but not on the scene's
+// data.
 #pragma once
 
 #include "device/launch.h"
@@ -25,7 +26,7 @@ typedef struct {
     ARRAY(Kernel *) kernels;
 } KernelSet;
 
-// If an element of group is 0, the device determines it (Kernel::launch).
+// If an element of `group` is 0, the device determines it (Kernel::launch).
 typedef struct {
     const KernelEntry *entry;
     KernelChoice choice;
@@ -36,7 +37,7 @@ typedef struct {
 // Returns the kernel for `spec`, or NULL on failure. The kernel belongs to the set.
 const Kernel *kernel_set_get(KernelSet *set, const KernelSpec *spec, Error *error);
 
-// Returns whether the set has the kernel for spec, or the cache has its program.
+// Returns whether the set has the kernel for `spec`, or the cache has the kernel's program.
 bool kernel_set_has(const KernelSet *set, const KernelSpec *spec);
 
 #define KERNEL_ARGUMENTS 6

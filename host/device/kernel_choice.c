@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // On most CPUs, packets trace fastest. By default, clrt uses single rays for GPUs, for fp64 and on
-// the platforms listed below.
+// the platforms in slow_with_packets.
 #include "device/kernel_choice.h"
 
 #include <assert.h>

@@ -12,8 +12,8 @@ typedef enum {
     FAMILY_PACKET // packets of rays search the tree together
 } KernelFamily;
 
-// Packets require wide nodes. fp64 traces the same float scene, and requires single rays and pair
-// nodes.
+// Packets require wide nodes. fp64 traces the same floats of the scene, and requires single rays
+// and pair nodes.
 typedef struct {
     KernelFamily family;
     NodeLayout nodes;

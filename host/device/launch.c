@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// On CPUs, a launch is one tile of a picture, or CPU_ITEMS work-items for a list of samples. A GPU
-// needs more work-items than a tile has, because each compute unit runs thousands at once. However,
-// a GPU cannot update its display during a launch, and drivers end launches of several seconds. The
-// size of a launch therefore depends on the time of the previous launch.
+// On CPUs, a launch is one tile of a picture, or at most CPU_ITEMS work-items for a list of
+// samples. A GPU needs more work-items than a tile has, because each compute unit runs thousands at
+// once. However, a GPU cannot update its display during a launch, and drivers end launches of
+// several seconds. The size of a launch therefore depends on the time of the previous launch.
 #include "device/launch.h"
 
 #define PAIR_SIDE      8
@@ -10,7 +10,7 @@
 #define GPU_GROUP      64
 #define GPU_GROUP_MOST 256
 
-// PoCL compiles a second version of a kernel for grids of 65535 work-items or more.
+// CPU_ITEMS is below 65535, because PoCL compiles a second version of a kernel for larger grids.
 #define CPU_ITEMS 4096
 
 // Large GPUs run up to 2048 work-items per compute unit at once. If a launch has four times this

@@ -16,7 +16,7 @@ typedef struct {
 
 typedef struct {
     uint32_t group[2]; // work-items, along x and y
-    uint32_t items;    // largest number of a launch's work-items and, on GPUs, pixels
+    uint32_t items;    // largest number of work-items and, on GPUs, of pixels in a launch
     bool is_paced;     // launches must be short, and may contain several tiles or part of a tile
 } LaunchShape;
 

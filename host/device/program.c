@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Builds a program from a binary in the cache or, without a usable binary, from source.
-// docs/devices.md lists the times.
+// docs/devices.md lists the times of both.
 //
 // Invariant: the key of a cached program contains every input of the compiler. These are the
 // source, the options, the device, the versions of its driver and platform, and PoCL's environment
@@ -31,9 +31,9 @@ static const KernelEntry *entry_of(const ProgramSource *source)
 }
 
 // Returns whether the program gets the options for GPUs. fp64 programs do not get them, because a
-// ray's state does not fit into registers in fp64. With these options, NVIDIA's compiler (580.159)
-// also takes three times as long for the certainty kernel, and the compiled kernel decides some
-// pixels wrongly.
+// ray's state does not fit into registers in fp64. In fp64, NVIDIA's compiler (580.159) also takes
+// three times as long for the certainty kernel with these options, and the compiled kernel decides
+// some pixels wrongly.
 static bool is_for_gpu(const ProgramSource *source)
 {
     return !source->device->is_cpu && source->choice.precision == CLRT_FP32;

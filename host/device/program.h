@@ -12,7 +12,7 @@ extern const char kernel_source[];
 extern const size_t kernel_source_size;
 
 // A kernel function. The file that launches the kernel defines its KernelEntry. A new kernel first
-// runs with an empty frame. All numbers are then 0, and each buffer has 64 bytes of 0xff.
+// runs without work: FrameData and all numbers are 0, and each buffer has 64 bytes of 0xff.
 typedef struct {
     const char *name;
     const char *source;    // compiled after kernel_source; entries may share it; may be NULL
