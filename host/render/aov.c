@@ -200,7 +200,7 @@ static void take_counts(const AovPass *pass, size_t pixel, const uint32_t tests[
     }
 }
 
-// Returns the number of the first pixel in a row of the tile. Layers store all pixels row by row.
+// Returns the index, in the layers, of the first pixel in a row of the tile.
 static size_t first_pixel(const AovPass *pass, const Tile *tile, uint32_t row)
 {
     return (size_t)(tile->top + row) * pass->layers->width + tile->left;

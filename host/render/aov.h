@@ -40,7 +40,7 @@ typedef uint32_t AovSet;
 // reference. Fails on an unknown name or a repeated channel.
 bool aov_read_list(const char *list, AovSet *set, Error *error);
 
-// Returns whether any channel in `set` has this need.
+// Returns whether a channel in `set` has the need `need`.
 bool aov_needs(AovSet set, AovNeed need);
 
 // Appends the names and types of the channels in `set` to `layers`, in the table's order.
@@ -52,7 +52,7 @@ extern const KernelEntry paths_entry, tests_entry;
 
 typedef struct {
     AovSet set;
-    Layers *layers;          // has the names of set (aov_name_layers) and the picture's size
+    Layers *layers;          // has the names of `set` (aov_name_layers) and the picture's size
     Renderer paths;          // with paths_entry and the picture's settings
     const Kernel *tests;     // with tests_entry; NULL unless a channel needs it
     CameraData camera;       // the picture's camera

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // FlatScene and camera -> the certainty of each pixel, and new colors for pixels repaired in fp64
-// (kernels/certify.cl). A pixel is certified if rounding can change neither the hits of its rays
-// nor the lights that reach the hit points.
+// (kernels/certify.cl). A pixel is certified if rounding cannot change the hits of its rays, the
+// lights that reach the hits, or the checks that the hits show.
 #pragma once
 
 #include "image/framebuffer.h"

@@ -58,7 +58,8 @@ typedef struct {
 // the kinds after it. Returns TALLY_KINDS if the kernel stores none.
 TallyKind renderer_first_tally(const Renderer *renderer);
 
-// Adds `count` tallies, as the kernel has stored them, to RenderProgress::tallies.
+// Adds `count` sets of tallies to RenderProgress::tallies. Each set in `stored` has the kinds from
+// renderer_first_tally on.
 void renderer_add_tallies(Renderer *renderer, const uint32_t *stored, size_t count);
 
 // Returns the kernel's parameters for a picture. Callers set the tile (tile_aim).

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Splits a list of requests into launches and keeps two launches in the queue, so that the device
-// never waits for the host. The size of launches depends on the device (device/launch.h). Lists of
-// goals are often short, and PoCL then spends more time on launching than on tracing. Small and
-// large requests therefore share launches.
+// never waits for the host. The size of launches depends on the device (device/launch.h). Pictures
+// with goals need many short lists, for which PoCL spends more time on launching than on tracing.
+// Small and large requests therefore share launches.
 #include "render/sampler.h"
 
 #include "base/clock.h"
@@ -45,7 +45,7 @@ static bool is_ladder(const Renderer *renderer)
     return renderer->kernel->entry == &ladder_entry;
 }
 
-// Returns whether the requests are the centers of the tile's pixels.
+// Returns whether the frame has a tile. The centers of its pixels then replace the list's requests.
 static bool has_tile(const FrameData *frame)
 {
     return frame->tile_width > 0;
@@ -116,7 +116,7 @@ static uint32_t requests_of(const Sampling *sampling, uint32_t items)
     return items * item_requests(sampling, true);
 }
 
-// Returns the largest number of samples of the list's work-items.
+// Returns the largest number of samples of a work-item.
 static double item_samples(const Sampling *sampling)
 {
     const bool is_small = sampling->list->small == sampling->list->count;
@@ -159,7 +159,8 @@ static bool open_buffers(Sampling *sampling, Error *error)
            share(sampling, &counts, &sampling->tallies, error);
 }
 
-// Waits for the queue first. After a failure, a running launch may still write to host memory.
+// Waits for the queue first, because after a failure, a running launch may still write to host
+// memory.
 static void close_buffers(Sampling *sampling)
 {
     clFinish(sampling->renderer->kernel->device->queue);
@@ -217,8 +218,8 @@ static bool read_back(const Sampling *sampling, cl_mem buffer, size_t size, Erro
     return cl_succeeded(status, "read samples back", error);
 }
 
-// Waits for the launch. The last launch is not awaited separately, because on CPUs each wait takes
-// as long as tracing about 500 samples.
+// Waits for the launch. For the last launch, reading the results is the only wait, because on CPUs
+// each wait takes as long as tracing about 500 samples.
 static bool finish_launch(Sampling *sampling, SampleLaunch *launch, Error *error)
 {
     sampling->finished += launch->items;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A list of requests -> their samples. With sample_entry, a request is a sample's position, and the
 // result is its color and signature. With ladder_entry, a request is a small or large set of a
-// pixel's samples (SMALL_SAMPLES, LARGE_SAMPLES). Its result has the sums of these samples' colors
-// and of the squares of the colors. With ladder_entry, a tile can also be rendered with one sample
-// per pixel.
+// pixel's samples (SMALL_SAMPLES, LARGE_SAMPLES). The result has the sums of these samples' colors
+// and of the colors' squares. With ladder_entry, a tile can also be rendered with one sample per
+// pixel.
 //
 // Two samples have different signatures if their rays hit different surfaces, or if different
 // lights reach their hit points. The only exceptions are rare collisions of hashes.
@@ -29,14 +29,14 @@ typedef struct {
 } SampleList;
 
 // Traces the requests in `list`. The frame must not have a tile. The renderer's kernel must have
-// sample_entry or ladder_entry. renderer->progress counts every 4096 work-items as a tile, and
-// keeps its previous counts. If the observer stops the trace early, tiles_done stays below tiles,
+// sample_entry or ladder_entry. renderer->progress counts every 4096 work-items as a tile, and adds
+// them to its previous counts. If the observer stops the trace early, tiles_done stays below tiles,
 // and some results are undefined.
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
                    const RenderObserver *observer, Error *error);
 
-// Renders the tile of the frame with one sample at the center of each pixel. The renderer's kernel
-// must have ladder_entry, and the frame's camera must be made for LADDER_GRID samples. Counts tiles
-// as sampler_trace does.
+// Renders the tile of the frame into `colors`, with one sample at the center of each pixel. The
+// renderer's kernel must have ladder_entry, and the frame's camera must be made for LADDER_GRID
+// samples. Counts tiles as sampler_trace does.
 bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, float (*colors)[3],
                           const RenderObserver *observer, Error *error);

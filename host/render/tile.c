@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The first column of a part differs from row to row. The tiles of each part are therefore spread
-// over the picture, and all parts take about equally long.
+// A part's first column of tiles differs from row to row. The tiles of each part are therefore
+// spread over the picture, and all parts take about equally long.
 //
 // Invariants: every tile belongs to exactly one part. A pixel's bits depend on its position in the
 // whole picture, and not on its tile or part. Tiles at the right and bottom edges are clipped.

@@ -12,7 +12,7 @@ typedef struct {
     uint32_t max_level; // rays of this level return the background; camera rays have level 0
     uint32_t tile_width, tile_height;
     uint64_t ready_tiles; // number of leading tiles that exist already and are skipped
-    uint32_t part, parts; // draws one of `parts` parts (see Tile); 0, 0 draws all tiles
+    uint32_t part, parts; // draws one of `parts` parts (see Tile); all tiles if both are 0
 } RenderSettings;
 
 // These two functions return the size of the whole picture.
@@ -38,8 +38,8 @@ static inline bool render_is_part(const RenderSettings *settings)
 // The largest RenderSettings::parts.
 #define PARTS_MAX 65536
 
-// A picture is split into tiles, row by row from its upper left corner. A part draws every parts-th
-// tile of each row, from a column that varies between rows.
+// A picture is split into tiles, row by row from its upper left corner. If there are n parts, a
+// part draws every n-th tile of each row, from a column that varies between rows.
 typedef struct {
     uint32_t x, y, width, height; // in pixels of the crop
     uint32_t left, top;           // position in the framebuffer
@@ -63,9 +63,10 @@ typedef struct {
 } TileCursor;
 
 // Returns the next launch's rectangle and advances the cursor. The cursor must not be past the last
-// tile. The rectangle consists of consecutive tiles. If the cursor is inside a tile, or if a whole
-// tile has more than `pixels` pixels, the rectangle consists of at least one row of one tile. The
-// tiles of a part are not joined. *ended receives the number of tiles that end with this rectangle.
+// tile. The rectangle consists of consecutive tiles with at most `pixels` pixels together. If the
+// cursor is inside a tile, or if a whole tile has more than `pixels` pixels, the rectangle consists
+// of rows of one tile, at least one. The tiles of a part are not joined. *ended receives the number
+// of tiles that end with this rectangle.
 Tile tile_next(const RenderSettings *settings, TileCursor *cursor, uint64_t pixels,
                uint64_t *ended);
 

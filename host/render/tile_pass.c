@@ -8,8 +8,8 @@
 // the tile's position from FrameData. On other devices, the size of a launch depends on the device
 // and on the time of the previous launch (device/launch.h).
 //
-// Invariant: callers receive the tiles in the order of their numbers, so a count of finished tiles
-// identifies them.
+// Invariant: callers receive the tiles in the order of their numbers, so the number of finished
+// tiles determines which tiles are finished.
 #include "render/tile_pass.h"
 
 #include "base/clock.h"
@@ -23,7 +23,7 @@
 typedef struct {
     cl_command_queue queue; // one per slot, so that launches overlap; NULL before the first launch
     cl_mem outputs[2];
-    HostMemory values[2]; // copies of the outputs; empty for an output that is read in place
+    HostMemory values[2]; // copies of the outputs; not made for an output that is_read_in_place
     cl_event done;
     Tile area;
     uint64_t ended; // the number of tiles that end with this launch
@@ -46,12 +46,13 @@ static bool is_paced(const Renderer *renderer)
     return renderer->kernel->launch.is_paced;
 }
 
+// Returns whether an output is copied straight into the framebuffer.
 static bool is_read_in_place(const TilePass *pass, const Renderer *renderer, int output)
 {
     return output == 0 && pass->framebuffer != NULL && !is_paced(renderer);
 }
 
-// Returns the largest number of pixels of a launch. On GPUs, this is enough for one row of a tile.
+// Returns the largest number of pixels of a launch. On GPUs, this is at least one row of a tile.
 static uint64_t most_pixels(const Renderer *renderer)
 {
     const Tile largest = tile_largest(&renderer->settings);
@@ -197,7 +198,7 @@ static bool finish_launch(PassRun *run, Error *error)
     return true;
 }
 
-// Reports tiles one by one. Returns whether to continue.
+// Reports `count` tiles one by one. Returns whether to continue.
 static bool report_tiles(uint64_t count, const RenderObserver *observer, RenderProgress *progress)
 {
     bool wanted = true;
