@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene -> the measurements and findings of `clrt check`. The result owns copies of everything
-// that it needs, so the scene may change afterwards.
+// Scene -> the measurements and findings of `clrt check`. A ClrtCheck refers to no scene, so the
+// caller may change or free the scene.
 #include "check/measure.h"
 #include "library/handles.h"
 
@@ -22,7 +22,7 @@ void clrt_check_free(ClrtCheck *check)
     free(check);
 }
 
-// Moves the results into *made, which starts empty.
+// Moves the results of *check into *made, which is empty.
 static bool keep(ClrtCheck *made, Check *check, Error *cause)
 {
     const size_t meshes = check->scene->objects.count;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks a request for a picture by the session's rules, and makes the messages about faults.
+// Checks a request for a picture by the rules of session/request.h, and words the messages about
+// broken rules.
 #include "library/drawing.h"
 
 #include <stdio.h>
@@ -7,7 +8,7 @@
 
 uint32_t clrt_channel_count(void)
 {
-    return (uint32_t)aov_count - 1; // the last one needs a reference
+    return (uint32_t)aov_count - 1; // without the last one, which needs a reference
 }
 
 bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError *error)
@@ -127,12 +128,13 @@ bool drawing_take_scene(Drawing *drawing, ClrtError *error)
            check_distance(drawing, error);
 }
 
-// A picture without a goal is complete after its last tile, and can then no longer be stopped.
+// A picture without a goal is complete after its last tile, so the result of the last call of
+// `progress` has no effect.
 bool drawing_continues(void *context, const RenderProgress *progress)
 {
     Drawing *drawing = context;
     const ClrtPicture *wanted = &drawing->wanted;
-    if (drawing->is_stopped) // this tile was in flight when progress stopped the picture
+    if (drawing->is_stopped) // this tile was in progress when the caller stopped the picture
         return false;
     const bool continues = wanted->progress == NULL ||
                            wanted->progress(wanted->user, progress->tiles_done, progress->tiles);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A request and a pixel -> the explanation of the pixel. It owns copies of all samples, rays and
+// A request and a pixel -> the explanation of the pixel. The explanation owns all samples, rays and
 // lights, so callers may read them in any order.
 #include "library/drawing.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The definitions of ClrtScene and ClrtRenderer, and the checks of callers' arguments.
+// Defines ClrtScene and ClrtRenderer, and declares checks of the callers' arguments.
 #pragma once
 
 #include "base/error.h"
@@ -10,25 +10,27 @@
 
 #include <stdatomic.h>
 
-// The check functions validate the callers' arguments. Most code below the library only asserts its
+// The check functions validate the callers' arguments. Code outside host/library mostly asserts its
 // requirements.
 
-// Fills error unless it is NULL, and returns false.
+// Fills *error unless `error` is NULL, and returns false.
 __attribute__((format(printf, 3, 4))) bool check_fail(ClrtError *error, ClrtFault fault,
                                                       const char *format, ...);
 
-// Calls check_fail with the message of cause.
+// Calls check_fail with the message of *cause.
 bool check_fail_for(ClrtError *error, ClrtFault fault, const Error *cause);
 
-// These functions return false with CLRT_ARGUMENT if the argument is invalid. `what` is its name in
-// messages. Vector components must be in [-most, most], and colors in [0, 1].
+// These functions return false with CLRT_ARGUMENT if an argument is invalid. `what` is the
+// argument's name in messages. Components of vectors must be in [-most, most], and components of
+// colors in [0, 1].
 bool check_given(ClrtError *error, const char *what, const void *pointer);
 bool check_number(ClrtError *error, const char *what, double number, double low, double high);
 bool check_vector(ClrtError *error, const char *what, const double vector[3], double most);
 bool check_color(ClrtError *error, const char *what, const double color[3]);
 
-// Copies a struct of clrt.h into copy, which has `size` bytes. If the given struct is shorter, the
-// missing members become zero. If it is longer, its additional members must be zero.
+// Copies a struct of clrt.h into `copy`, which has `size` bytes. If the given struct is shorter,
+// the missing members become zero. If the given struct is longer, its additional members must be
+// zero.
 bool check_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size);
 
 // Copies a filled struct of `size` bytes into the given struct, without the members that the given
@@ -40,8 +42,8 @@ struct ClrtScene {
     uint64_t state; // a number unique to the scene and its latest change
 };
 
-// Ends a change. If ok, gives the scene a new state, by which renderers notice the change.
-// Otherwise, error receives the cause.
+// Ends a change of the scene. If `ok` is true, gives the scene a new state, by which renderers
+// notice the change. Otherwise, stores *cause in *error.
 bool scene_handle_changed(ClrtScene *scene, bool ok, const Error *cause, ClrtError *error);
 
 // Fails with CLRT_ARGUMENT if the scene has no material with this number.
@@ -56,9 +58,9 @@ bool scene_handle_check_view(const ClrtScene *scene, uint32_t view, ClrtError *e
 struct ClrtRenderer {
     Session session;
     RayCaster caster;       // empty until rays are cast
-    struct RayBatch *batch; // owned; NULL until rays are cast; kept because new pages cost time
+    struct RayBatch *batch; // owned; NULL until rays are cast; reused to avoid page faults
     atomic_bool is_busy;    // true while a call uses the renderer
-    uint64_t state;         // ClrtScene::state of the session's scene; 0 without a scene
+    uint64_t state; // ClrtScene::state when the session received the scene; 0 without a scene
 };
 
 // Checks the arguments and marks the renderer as busy. On success, the caller must call
@@ -66,6 +68,6 @@ struct ClrtRenderer {
 bool renderer_handle_begin(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);
 void renderer_handle_end(ClrtRenderer *renderer);
 
-// Gives the session the scene, unless the session already has it in this state. The scene is
-// compiled when a picture is drawn or rays are cast.
+// Passes the scene to the session, unless the session already has the scene in this state. Later
+// calls compile the scene when they draw a picture or cast rays.
 bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Implements clrt_render and clrt_reference. The session draws into the caller's pixels, and this
-// file copies channels and results to the caller.
+// Implements clrt_render and clrt_reference. The session draws pictures directly into the caller's
+// pixels. References, channels and results are copied to the caller.
 #include "library/drawing.h"
 
 #include "base/clock.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Draws the colors and, if a channel needs it, computes the certainty of the pixels.
+// Draws the colors and, if a channel requires it, computes the certainty of the pixels.
 static bool draw_colors(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};
@@ -28,7 +28,8 @@ static bool draw_colors(Drawing *drawing, ClrtError *error)
            check_fail_for(error, CLRT_DEVICE, &cause);
 }
 
-// Copies the values of the channel in row `row` of aov_table. Returns the number of its components.
+// Copies the values of the channel in row `row` of aov_table to the caller. Returns the number of
+// the channel's components.
 static uint32_t copy_channel(const Drawing *drawing, const Layers *layers, size_t row,
                              uint32_t first)
 {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Callers pass rays and read hits in fp64 and in scene coordinates. The device receives rays and
 // returns hits in float and in normalized coordinates. A ray's direction is scaled by a power of
-// two so that its largest component is in [1, 2). The device's t then stays in float's range. A far
-// origin first advances to a cube around the scene, because rounding it to float would move the ray
-// too far. An origin is far if a coordinate exceeds the cube's side in magnitude.
+// two so that its largest component is in [1, 2). The device's t then stays in the range of floats.
+// An origin is far if a coordinate exceeds the side of a cube around the scene in magnitude.
+// Rounding such an origin to float would move the ray too far, so the origin first advances to the
+// cube.
 //
-// Rays that form rows are reordered so that beams of 64 rays trace them faster. Programs list the
-// rays of a picture row by row, but 64 rays of a square share more nodes than 64 rays of a row.
+// Programs list the rays of a picture row by row, but 64 rays of a square visit fewer nodes than 64
+// rays of a row. The rays of a picture are therefore reordered into beams of 64 rays.
 //
 // The threads of a pool share the conversions, because a single thread would limit a device with
 // many cores to about 50 million rays per second.
@@ -20,27 +21,27 @@
 #include <math.h>
 #include <string.h>
 
-// The number of entries that a thread converts at once.
+// The number of consecutive entries that a thread converts.
 #define RANGE_ENTRIES 1024
 
 // The smallest value of RayBatch::cube. All triangles are within [-1, 1] on each axis.
 #define LEAST_CUBE 2.0
 
-// The largest distance of a ray's start from the plane of its triangle.
+// The largest normalized distance of a ray's start from the plane of the triangle in `starts`.
 #define OFF_PLANE 0x1p-15
 
 // Rays that start beyond this distance from the normalized origin hit nothing (intersect.cl). Only
-// rays that miss the scene's cube start there. The limits of spheres (normalize.h) keep every such
-// cube within this distance.
+// rays that miss the cube around the scene start there, because the limits of spheres (normalize.h)
+// keep every cube within this distance.
 #define FARTHEST 0x1p45
 
-// The most rays in a beam, the most rows in a block, and the limits of the rays in a row.
+// Rays in a beam, rows in a block, and the limits of the number of rays in a row.
 #define BEAM_RAYS   64
 #define BLOCK_ROWS  8
 #define LEAST_WIDTH 16
 #define MOST_WIDTH  8192
 
-// A ray of the caller's arrays.
+// A ray from the caller's arrays.
 typedef struct {
     Vec3 origin, direction;
     double near, far;
@@ -64,7 +65,7 @@ static GivenRay given_ray(const ClrtRays *rays, size_t index)
                       rays->starts != NULL ? rays->starts[index] : CLRT_NOTHING};
 }
 
-// Returns the vector from a ray's point at t = 1 to the next ray's.
+// Returns the vector from a ray's point at t = 1 to the next ray's point at t = 1.
 static Vec3 step_after(const ClrtRays *rays, size_t index)
 {
     const GivenRay a = given_ray(rays, index), b = given_ray(rays, index + 1);
@@ -124,7 +125,8 @@ static double entry_of_axis(double cube, double origin, double direction)
     return direction == 0 ? -INFINITY : (-copysign(cube, direction) - origin) / direction;
 }
 
-// Returns the t at which the ray's line enters the cube, if the line hits it.
+// Returns the t at which the ray's line enters the cube. If the line misses the cube, the result is
+// meaningless.
 static double cube_entry(double cube, Vec3 origin, Vec3 direction)
 {
     return fmax(fmax(entry_of_axis(cube, origin.x, direction.x),
@@ -132,7 +134,7 @@ static double cube_entry(double cube, Vec3 origin, Vec3 direction)
                 entry_of_axis(cube, origin.z, direction.z));
 }
 
-// Returns half the side of a cube that is about twice as large as the scene.
+// Returns half the side of a cube around the origin that is about twice as large as the scene.
 static double cube_around(const FlatScene *flat)
 {
     double cube = LEAST_CUBE;
@@ -142,14 +144,14 @@ static double cube_around(const FlatScene *flat)
     return cube;
 }
 
-// Returns a NaN if a component is a NaN.
+// Returns the sum of the components' magnitudes, which is NaN if a component is NaN.
 static double sum_of(Vec3 v)
 {
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
 // Returns the power of two that scales a size from [1e-300, 1e300] into [1, 2). The bit operations
-// replace ilogb and scalbn. These two functions and fmax took 15 % of a call's processor time.
+// replace ilogb and scalbn, which took 15 % of a call's processor time together with fmax.
 static double power_to_one(double size)
 {
     uint64_t bits;
@@ -166,9 +168,10 @@ static Vec3 point_at(Vec3 origin, Vec3 direction, double t)
 }
 
 // Stores a ray's direction, limit, scale and doubt. The doubt bounds the errors of fp64 arithmetic,
-// which are at most 2^-52 of the coordinates of the origin and of the start. Returns the ray's
-// start in normalized coordinates: the point at `near`, advanced to the scene's cube if it is far
-// away. A ray that can hit nothing gets a limit below 0.
+// each of which is at most 2^-52 of a coordinate of the origin or of the start. Returns the ray's
+// start in normalized coordinates. The start is the point at `near` or, if this point is far, a
+// point further along the ray at the cube around the scene. A ray that can hit nothing gets a limit
+// below 0.
 static Vec3 convert_line(RayBatch *batch, size_t entry, const GivenRay *given)
 {
     const Normalization *frame = &batch->scene->frame;
@@ -194,8 +197,8 @@ static Vec3 convert_line(RayBatch *batch, size_t entry, const GivenRay *given)
     return from;
 }
 
-// Moves the start of a ray onto the plane of its triangle. Returns the former distance of the start
-// from the plane.
+// Moves a ray's start onto the plane of a triangle. Returns the distance between the start and the
+// plane before the move.
 static double move_to_plane(Vec3 *origin, const FaceCorners *corners)
 {
     const Vec3 normal = normal_of(corners);
@@ -209,9 +212,9 @@ static uint64_t primitive_count(const RayScene *scene)
     return (uint64_t)scene->form.flat.sphere_count + scene->form.flat.triangle_count;
 }
 
-// Converts a ray. Returns the distance of the ray's start from the plane of its triangle, or
-// INFINITY if the ray's primitive does not exist. A ray whose near is not 0 does not start on its
-// primitive, but only skips the primitive.
+// Converts a ray. Returns the distance of the ray's start from the plane of the triangle on which
+// the ray starts, or INFINITY if the primitive in `starts` does not exist. If near is not 0, the
+// ray only skips this primitive.
 static double convert(RayBatch *batch, size_t entry)
 {
     RayData *ray = &batch->data[entry];
@@ -271,9 +274,9 @@ bool ray_batch_convert(RayBatch *batch, const RayScene *scene, ClrtError *error)
     return !atomic_load(&batch->is_faulty) || report_fault(batch, error);
 }
 
-// Stores the weights of the second and third corner at the point where the ray's line crosses the
-// triangle's plane (Moeller and Trumbore, JGT 2(1) 1997). If the point is outside the triangle, the
-// weights are clamped to the triangle.
+// Stores the barycentric weights of the second and third corner at the point where the ray's line
+// crosses the triangle's plane (Moeller and Trumbore, JGT 2(1) 1997). Rounding can put the point
+// outside the triangle, so the weights are clamped.
 static void weights_at(double weights[2], const FaceCorners *corners, Vec3 origin, Vec3 direction)
 {
     const Vec3 ab = vec3_sub(corners->at[1], corners->at[0]);
@@ -295,7 +298,7 @@ static Vec3 sphere_normal(const SphereData *sphere, Vec3 point)
     return vec3_normalize(vec3_sub(point, center));
 }
 
-// These functions store results of an entry's hit in element `result` of the caller's arrays.
+// Functions of this type store values of an entry's hit in element `result` of the caller's arrays.
 typedef void StoreHit(const RayBatch *batch, size_t entry, HitData hit, size_t result);
 
 static void store_distance(const RayBatch *batch, size_t entry, HitData hit, size_t result)
@@ -349,7 +352,7 @@ static void store_surface(const RayBatch *batch, size_t entry, HitData hit, size
         hits->fronts[result] = hit.id != NOTHING && vec3_dot(normal, direction) <= 0;
 }
 
-// Stores a result of all hits in a range of entries.
+// Calls `store` for all hits in a range of entries.
 static inline void store_hits(const RayBatch *batch, uint32_t first, uint32_t end, StoreHit *store)
 {
     const size_t room = batch->results.hits.room;
@@ -359,7 +362,7 @@ static inline void store_hits(const RayBatch *batch, uint32_t first, uint32_t en
                   (batch->first + batch->order[entry]) * room + i);
 }
 
-// Stores the results that have one element per ray.
+// Stores the flags or counts, which have one element per ray.
 static void store_rays(const RayBatch *batch, uint32_t first, uint32_t end)
 {
     const RayResults *results = &batch->results;
@@ -374,7 +377,7 @@ static void store_rays(const RayBatch *batch, uint32_t first, uint32_t end)
     }
 }
 
-// Separate loops take half the time of a single loop that checks for each hit which arrays to fill.
+// Separate loops take half as long as a single loop that checks for each hit which arrays to fill.
 static void store_range(void *context, uint32_t first, uint32_t end)
 {
     const RayBatch *batch = context;

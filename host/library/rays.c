@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Implements clrt_trace, clrt_trace_all, clrt_contains and clrt_occluded. A batch of rays is traced
-// part by part, so that batches of any size need little memory.
+// part by part, so batches of any size require little memory.
 #include "base/thread_pool.h"
 #include "library/ray_batch.h"
 
-// With fewer rays per thread, a part would mostly wait for threads. With more, its arrays would not
-// fit into the second cache of one core.
+// A part has at least LEAST_RAYS rays, and about THREAD_RAYS for each thread. With fewer rays per
+// thread, the threads of a part would mostly wait for each other. With more rays per thread, their
+// data would not fit into a core's L2 cache.
 #define THREAD_RAYS 8192
 #define LEAST_RAYS  16384
 
-// Returns the number of rays in a part. Few rays need no threads.
+// Returns the number of rays in a part.
 static size_t part_rays(const RayBatch *batch, uint32_t threads)
 {
     const size_t room = batch->results.hits.room, most = HITS_MAX / (room > 0 ? room : 1);
@@ -19,7 +20,7 @@ static size_t part_rays(const RayBatch *batch, uint32_t threads)
     return most < size ? most : size;
 }
 
-// Casts the rays of a part.
+// Casts the rays of the present part.
 static bool cast(ClrtRenderer *renderer, RayQuery query, ClrtError *error)
 {
     Error cause = {0};

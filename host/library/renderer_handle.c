@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes and frees a ClrtRenderer: a session for the caller's settings. Calls that draw or cast rays
-// pass the scene to the session. Also lists the devices.
+// Opens and frees renderers, which are sessions with the caller's settings. Calls that draw or cast
+// rays pass the scene to the session. Also lists the devices.
 #include "library/handles.h"
 #include "session/request.h"
 

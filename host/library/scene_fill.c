@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The caller's structs and numbers -> the materials, spheres, lights and cameras of a scene.
+// The caller's structs and numbers -> a scene's materials, spheres, lights and cameras.
 #include "base/limits.h"
 #include "library/handles.h"
 
@@ -127,7 +127,7 @@ bool clrt_scene_add_area_light(ClrtScene *scene, const ClrtAreaLight *light, Clr
     return scene_handle_changed(scene, ok, &cause, error);
 }
 
-// Fails unless the angles of a perspective camera, or the sides of an orthographic one, are valid.
+// Fails if an angle of a perspective camera, or a side of an orthographic camera, is invalid.
 static bool check_extent(const ClrtCamera *camera, ClrtError *error)
 {
     if (camera->height != 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ClrtScene is a Scene with a state number. Every change gives the scene a higher number, which
-// no other scene has had. Renderers compare the numbers to notice changes.
+// A ClrtScene is a Scene with a number for its state. Every change gives the scene a new number
+// that no scene has had. Renderers compare the numbers to notice changes.
 #include "base/limits.h"
 #include "library/handles.h"
 
@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// No version of the library has a larger struct. A larger size therefore means that the caller has
-// not initialized the member `size`.
+// No version of the library has a larger struct, so a larger size means that the caller has not
+// initialized the member `size`.
 #define LARGEST_STRUCT 4096
 
 bool check_fail(ClrtError *error, ClrtFault fault, const char *format, ...)
@@ -38,7 +38,7 @@ bool check_given(ClrtError *error, const char *what, const void *pointer)
     return pointer != NULL || check_fail(error, CLRT_ARGUMENT, "%s is NULL", what);
 }
 
-// The check also fails for NaN.
+// NaN fails both comparisons.
 bool check_number(ClrtError *error, const char *what, double number, double low, double high)
 {
     return (number >= low && number <= high) ||
@@ -65,8 +65,8 @@ bool check_color(ClrtError *error, const char *what, const double color[3])
     return check_given(error, what, color) && check_three(error, what, color, 0, 1);
 }
 
-// Returns whether all bytes are zero. Members of later versions must be zero, because this version
-// can only apply their defaults.
+// Returns whether all bytes are zero. Members that only later versions have must be zero, because
+// this version can only apply their defaults.
 static bool is_zero(const unsigned char *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i++)
@@ -127,7 +127,8 @@ bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtEr
                       count);
 }
 
-// Returns a scene read from path, or an empty scene if path is NULL. Returns NULL on failure.
+// Returns a scene read from the file at `path` or, if `path` is NULL, an empty scene. Returns NULL
+// on failure.
 static ClrtScene *make(const char *path, const SceneLoadOptions *load, ClrtError *error)
 {
     Error cause = {0};

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The caller's arrays -> a mesh of a scene. All arrays are checked and copied.
+// The caller's arrays -> a mesh of a scene. The arrays are copied and checked.
 #include "base/limits.h"
 #include "library/handles.h"
 #include "mesh/normals.h"
 
 #include <string.h>
 
-// An array may be NULL only if it has no elements.
+// Fails if the array has too many elements, or if it is NULL and `count` is not 0.
 static bool check_array(const char *what, const void *array, size_t count, ClrtError *error)
 {
     if (count > MESH_COUNT_MOST)
