@@ -11,7 +11,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-// Buckets up to this size use insertion sort, and longer ones use qsort.
+// Insertion sort sorts buckets of up to this many sides, and qsort larger buckets.
 #define FEW_SIDES 24
 
 typedef struct {
@@ -56,7 +56,7 @@ static bool make_table(Table *table, size_t count, Error *error)
     return table->vertices != NULL;
 }
 
-// Stores WELD_UNUSED for unused vertices, and 0 for all others.
+// Sets weld->points to WELD_UNUSED for unused vertices, and to 0 for all others.
 static void mark_used(Weld *weld, const Mesh *mesh)
 {
     memset(weld->points, 0xff, mesh->vertex_count * sizeof *weld->points);
@@ -213,7 +213,7 @@ bool fans_make(Fans *fans, const Mesh *mesh, const Edges *edges, Error *error)
     return fans->parents != NULL;
 }
 
-// Returns the lowest corner of the corner's fan.
+// Returns the lowest corner of the fan that contains `corner`.
 static uint32_t fans_root(const Fans *fans, uint32_t corner)
 {
     uint32_t *parents = fans->parents;
@@ -237,7 +237,8 @@ void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t oth
 {
     const uint32_t a = fans_root(fans, corner_at(fans, triangle, point));
     const uint32_t b = fans_root(fans, corner_at(fans, other, point));
-    // The lower corner becomes the root. The root therefore belongs to the fan's first triangle.
+    // The lower root becomes the root of both fans, so a root is always the lowest corner of its
+    // fan.
     fans->parents[a > b ? a : b] = a > b ? b : a;
 }
 

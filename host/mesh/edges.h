@@ -4,10 +4,10 @@
 // A file's vertices do not show which triangles are neighbors. STL repeats each vertex for each
 // triangle, and other files repeat vertices along texture seams. Vertices at equal positions are
 // therefore merged into one point. An edge is a pair of points, and may have any number of
-// triangles. A fan is a set of triangles that share a point and are connected across edges.
+// triangles. A fan is a set of triangle corners at one point, joined across edges.
 //
-// Invariant: points, edges and fans are ordered by their vertices or corners, so the results do not
-// depend on hashing or sorting.
+// Invariant: the order of points, edges and fans follows from the mesh alone, not from hashing or
+// sorting.
 #pragma once
 
 #include "base/error.h"
@@ -54,20 +54,21 @@ typedef struct {
 // edge.
 bool edges_next(const Edges *edges, Edge *edge);
 
-// Each fan is a set of corners at one point. The caller joins fans across edges. Corner i of a
-// triangle has the number 3 * triangle + i, where i is 0, 1 or 2.
+// Fans of a mesh. The caller joins them across edges. Corner i of a triangle has the number 3 *
+// triangle + i, where i is 0, 1 or 2.
 typedef struct {
     const Mesh *mesh;
     const Weld *weld;
     uint32_t *parents; // by corner: a lower corner of the same fan, or the corner itself
 } Fans;
 
-// Makes one fan for each corner. `edges` belongs to the mesh. The caller frees the parents.
+// Makes one fan for each corner. `edges` must be made from `mesh`, and both must outlive the fans.
+// The caller frees fans->parents.
 bool fans_make(Fans *fans, const Mesh *mesh, const Edges *edges, Error *error);
 
-// Joins the fans of two triangles at one of their common points.
+// Joins the fans that two triangles have at their common point `point`.
 void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t other);
 
-// Replaces each parent by the index of the corner's fan, in the order of the fans' lowest corners.
-// Returns the number of fans. No other call for these fans may follow.
+// Replaces each parent by the index of the corner's fan. Fans are numbered in the order of their
+// lowest corners. Returns the number of fans, which can no longer be joined.
 uint32_t fans_number(Fans *fans);

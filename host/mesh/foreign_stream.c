@@ -41,7 +41,7 @@ bool foreign_format_is(const char *path)
 typedef struct {
     ForeignModel *model;
     const char *next, *end;
-    ForeignHead head; // head of the record whose data begins at next
+    ForeignHead head; // head of the record whose data begins at `next`
     const char *name;
     PlyParse *parse;
     Error *error;
@@ -83,13 +83,13 @@ static bool take_file(Parser *parser)
     return array_push(&parser->model->hashes, hash, parser->error);
 }
 
-// Clamps value to [0, most], and replaces NaN by 0.
+// Clamps `value` to [0, most], and replaces NaN by 0.
 static float within(float value, float most)
 {
     return !(value > 0) ? 0 : value > most ? most : value;
 }
 
-// Replaces unprintable characters and characters with a meaning in scene text.
+// Replaces unprintable characters, and characters that have a meaning in scene text, by '_'.
 static void make_word(char *name)
 {
     foreign_make_printable(name, strlen(name), '_');

@@ -30,7 +30,7 @@ typedef struct {
     ARRAY(ForeignMaterial) materials; // names are printable ASCII; colors are from 0 to 1
     ARRAY(char *) files;              // paths; owned
     ARRAY(ForeignHash) hashes;        // hashes[i] belongs to files[i]
-    char *note;                       // a message about omitted parts, or NULL; owned
+    char *note;                       // a message about omitted data, or NULL; owned
 } ForeignModel;
 
 // Returns whether clrt-foreign reads models with the path's extension. The case of letters does not

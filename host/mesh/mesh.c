@@ -94,7 +94,7 @@ bool mesh_drop_triangles(Mesh *mesh, Error *error)
     return true;
 }
 
-// dropped[i] - i triangles remain before the i-th dropped triangle. This number never falls as i
+// Before the i-th dropped triangle, dropped[i] - i triangles remain. This number never falls as i
 // grows, so a binary search finds how many triangles were dropped before a remaining triangle.
 size_t mesh_original_number(const Mesh *mesh, size_t triangle)
 {

@@ -11,7 +11,7 @@
 // The faults of one kind in a mesh.
 typedef struct {
     size_t count;
-    size_t first; // lowest index of a faulty triangle or vertex; meaningless if count is 0
+    size_t first; // lowest index of a faulty triangle or vertex; meaningless if `count` is 0
 } MeshFault;
 
 static inline void mesh_fault_add(MeshFault *fault, size_t place)
@@ -20,20 +20,20 @@ static inline void mesh_fault_add(MeshFault *fault, size_t place)
         fault->first = place;
 }
 
-typedef uint32_t Triangle[3]; // vertices, counter-clockwise seen from the front
+typedef uint32_t Triangle[3]; // vertex indices, counter-clockwise seen from the front
 
 typedef struct {
     double (*positions)[3]; // vertex_count finite points, each |component| <= 1e30
     float (*normals)[3]; // vertex_count finite vectors of any length, zero for vertices without a
                          // normal; NULL if the mesh has no normals
-    float (*colors)[3];  // vertex_count colors, components in [0, 1]; NULL if the mesh has none
+    float (*colors)[3]; // vertex_count colors, components in [0, 1]; NULL if the mesh has no colors
     Triangle *triangles; // triangle_count triangles
     size_t vertex_count, triangle_count;
-    ARRAY(uint32_t) dropped; // removed triangles by their original numbers, ascending
+    ARRAY(uint32_t) dropped; // original numbers of the removed triangles, ascending
     MeshFault equal_corners; // removed triangles with two equal corners
     MeshFault lost_corners;  // removed triangles with a bad position
-    // Vertices with a bad position, and vertices with a bad component of the normal. These values
-    // are replaced by zero. Only tolerant readers accept such vertices.
+    // Vertices with a bad position, and vertices with a bad component of the normal: not finite or
+    // too large. Such positions and components become zero. Only ply_parse_tolerantly accepts them.
     MeshFault bad_positions, bad_normals;
 } Mesh;
 
@@ -41,7 +41,7 @@ typedef struct {
 // caller must then free the mesh.
 bool mesh_allocate_vertices(Mesh *mesh, bool has_normals, bool has_colors, Error *error);
 
-// Extends the box to contain all vertices that triangles use.
+// Extends `box` to contain all vertices that triangles use.
 void mesh_add_bounds(const Mesh *mesh, BoundingBox *box);
 
 // Returns the box of all vertices that triangles use.
@@ -51,8 +51,9 @@ BoundingBox mesh_bounds(const Mesh *mesh);
 // vertices coincide.
 Vec3 mesh_direction(const Mesh *mesh, uint32_t from, uint32_t to);
 
-// Removes triangles with two equal corners or a NaN position, and lists them in mesh->dropped. Then
-// sets NaN positions to zero. Fails if memory runs out. The caller must then free the mesh.
+// Removes triangles with two equal corners or a NaN position, and lists their numbers in
+// mesh->dropped. Then sets NaN positions to zero. Fails if memory runs out. The caller must then
+// free the mesh.
 bool mesh_drop_triangles(Mesh *mesh, Error *error);
 
 // Returns the number that a triangle had before mesh_drop_triangles.

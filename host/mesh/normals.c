@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Joins the corners of triangles into fans across smooth edges, and makes one vertex per fan. The
-// vertex's normal is the mean of the faces' normals, weighted by the faces' angles at the vertex
-// (Thuermer and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). With these
-// weights, the triangulation of a flat face does not change normals.
+// vertex's normal is the mean of the triangles' normals, weighted by the triangles' angles at the
+// vertex (Thuermer and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998). With
+// these weights, normals do not depend on how a flat polygon is divided into triangles. In this
+// file, a face is a triangle.
 #include "mesh/normals.h"
 
 #include "base/array.h"
@@ -13,11 +14,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The following functions choose the crease angle of a mesh. The normals of adjacent faces of a
-// smooth shape usually differ by small angles. Technical shapes have chamfers and edges, so some
-// larger angles are frequent.
+// The following functions choose the crease angle of a mesh, up to which edges are smooth. The
+// normals of adjacent faces of a smooth shape usually differ by small angles. Technical shapes have
+// chamfers and sharp edges, so some larger angles are frequent.
 
-// Meshes with fewer edges are too small for statistics.
+// Meshes with fewer edges than this are too small for statistics, and get CREASE_DEGREES.
 #define EDGES_LEAST 1000
 
 #define ROUND_CREASE_DEGREES 70 // for smooth shapes
@@ -59,7 +60,7 @@ bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error)
     return ok;
 }
 
-// Returns the number of edges per degree between two angles. The angles are multiples of
+// Returns the number of edges per degree between the angles `from` and `to`, which are multiples of
 // ANGLE_WINDOW_DEGREES.
 static double density(const EdgeAngles *angles, int from, int to)
 {
@@ -80,7 +81,8 @@ double crease_of_angles(const EdgeAngles *angles)
     return is_round ? ROUND_CREASE_DEGREES : CREASE_DEGREES;
 }
 
-// Edges with more faces are sharp. This limit bounds the number of pairs of faces at an edge.
+// Edges with more faces than this are sharp. The limit bounds the pairs of faces that join_edge
+// compares.
 #define EDGE_FACES_MOST 8
 
 // With this slack, a crease angle of 0 degrees joins coplanar faces despite rounding, and a crease
@@ -91,8 +93,8 @@ double crease_of_angles(const EdgeAngles *angles)
 // coordinates can turn the normal of a sliver by any angle.
 #define SINE_LEAST 0x1p-20
 
-// Sums of normals shorter than this count as zero, because they are rounding errors of normals that
-// cancel each other.
+// Sums of normals shorter than this count as zero, because they are rounding errors that remain
+// when the normals cancel.
 #define SUM_LEAST 0x1p-40
 
 typedef struct {
@@ -150,7 +152,7 @@ static void make_faces(void *context, uint32_t first, uint32_t end)
         smoothing->faces[i] = face_of(mesh, mesh->triangles[i]);
 }
 
-// The angles of the faces take about half of the time that smoothing takes on one thread.
+// On one thread, the angles of the faces take about half of the time of smoothing.
 static bool share_faces(Smoothing *smoothing, Error *error)
 {
     const size_t count = smoothing->mesh->triangle_count;
@@ -204,7 +206,7 @@ static bool make_fans(Smoothing *smoothing, bool is_by_shape, Error *error)
     return ok;
 }
 
-// Makes one vertex per fan. Adds the normals in the order of the corners, so that the result is
+// Makes one vertex per fan. Sums the normals in the order of the corners, so that the result is
 // reproducible.
 static bool make_vertices(Smoothing *smoothing, Error *error)
 {
@@ -231,9 +233,12 @@ static bool have_same_color(const Mesh *mesh, uint32_t vertex, uint32_t other)
            memcmp(mesh->colors[vertex], mesh->colors[other], sizeof *mesh->colors) == 0;
 }
 
-// Gives a corner its own vertex in four cases. The file has a normal for the corner. The corner's
-// color differs from the fan's. The fan's mean normal is zero. The mean differs from the face's
-// normal by more than the crease angle, as at the tip of a cone.
+// Gives a corner its own vertex in four cases:
+// - The file has a normal for the corner.
+// - The corner's color differs from the fan's color.
+// - The fan's mean normal is zero.
+// - The mean normal differs from the face's normal by more than the crease angle, as at the tip of
+// a cone.
 static bool split_corners(Smoothing *smoothing, Error *error)
 {
     for (size_t i = 0; i < 3 * smoothing->mesh->triangle_count; i++) {

@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.h"
 
-// Selects the crease angle that suits the mesh's shape.
+// Stands for the crease angle that suits the mesh's shape.
 #define CREASE_BY_SHAPE (-1)
 
 // The crease angle for `normals smooth` without an angle, and for most mesh files without a scene.
@@ -13,12 +13,12 @@
 // Returns whether every corner of every triangle has a normal.
 bool mesh_has_all_normals(const Mesh *mesh);
 
-// Computes a normal of length 1 for each used vertex that lacks one. It is the mean of the faces'
-// normals around the vertex, weighted by the faces' angles. Vertices at one position count as one
-// vertex.
+// Computes a normal of length 1 for each used vertex without a normal. The result is the mean of
+// the normals of the triangles around the vertex, weighted by the triangles' angles at the vertex.
+// Vertices at equal positions count as one vertex.
 //
-// Edges stay sharp if the normals of their faces differ by more than crease_degrees. This angle is
-// in [0, 180] or CREASE_BY_SHAPE. No computed normal differs by more than crease_degrees from the
+// Edges stay sharp if the normals of their triangles differ by more than `crease_degrees`, which is
+// in [0, 180] or CREASE_BY_SHAPE. No computed normal differs by more than this angle from the
 // normal of its triangle. Corners of triangles that are nearly lines get no computed normal.
 //
 // If a normal is missing, the function replaces all vertices by new vertices. The triangles keep
@@ -30,20 +30,20 @@ bool mesh_compute_normals(Mesh *mesh, double crease_degrees, Error *error);
 #define ANGLE_WINDOW_DEGREES 5
 #define ANGLE_WINDOWS        15
 
-// Counts of edges by the angle between the normals of their two faces. Window i counts angles from
-// 5 * i up to 5 * i + 5 degrees.
+// Counts of edges by the angle between the normals of their two triangles. Window i counts angles
+// from 5 * i up to 5 * i + 5 degrees.
 typedef struct {
-    size_t edges; // all edges of two faces
+    size_t edges; // all edges of two triangles
     size_t windows[ANGLE_WINDOWS];
 } EdgeAngles;
 
-// Adds an edge between two faces with these normals, of length 1.
+// Adds an edge between two triangles with the normals `a` and `b`, of length 1.
 void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b);
 
-// Adds all edges of the mesh that have two faces.
+// Adds all edges of the mesh that have two triangles.
 bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error);
 
-// Returns 70 degrees if the angles indicate a smooth shape, such as a scan. Coarse parts of smooth
-// shapes have angles above CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose edges may
-// be meant to be sharp.
+// Returns 70 degrees if the angles indicate a smooth shape, such as a scan, whose coarse parts have
+// angles above CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose edges may be meant to
+// be sharp.
 double crease_of_angles(const EdgeAngles *angles);

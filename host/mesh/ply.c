@@ -3,7 +3,7 @@
 // elements, and ply_reader.c reads the values.
 //
 // A file may list its faces before its vertices. Triangles with equal corners are therefore dropped
-// in a last step.
+// only after the last element.
 //
 // Invariant: each count is checked against the file's size before it is used. Each vertex index is
 // checked against the vertex count.
@@ -28,8 +28,8 @@ static void count_once(MeshFault *fault, size_t *last, size_t vertex)
     *last = vertex;
 }
 
-// Returns value, or a replacement if value is bad. NaN replaces bad coordinates until
-// mesh_drop_triangles sets them to zero.
+// Returns `value`, or a replacement if the value is not finite or too large. NaN replaces a
+// coordinate until mesh_drop_triangles sets the position to zero.
 static double replace_bad_value(Loader *loader, PlyRole role, double value)
 {
     const size_t vertex = (size_t)loader->reader.index;
@@ -139,7 +139,7 @@ static bool read_polygon(Loader *loader, const PlyProperty *property, int64_t le
 }
 
 // Reads a list of triangle strips. Three consecutive corners form a triangle, and the index -1 ends
-// a strip. Every second triangle lists its first two corners in reverse order, so that all
+// a strip. Every second triangle takes its first two corners in reverse order, so that all
 // triangles of a strip face the same side. last[1] holds the latest of the strip's corners 1, 3, 5
 // and so on, and last[0] holds the latest of the other corners.
 static bool read_strips(Loader *loader, const PlyProperty *property, int64_t length)
@@ -194,7 +194,8 @@ static bool allocate_vertices(Loader *loader)
                                   loader->reader.error);
 }
 
-// Returns the smallest size of an element in bytes. All lists of the smallest element are empty.
+// Returns the smallest possible size of an element in bytes. All lists of such an element are
+// empty.
 static size_t smallest_size(const PlyReader *reader, PlyProperties properties)
 {
     size_t size = 0;

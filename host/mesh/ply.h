@@ -8,13 +8,13 @@
 
 #include <stdbool.h>
 
-// Fills mesh from the `size` bytes of a PLY file. Messages call the file `name`.
+// Fills *mesh from the `size` bytes of a PLY file. Messages call the file `name`.
 //
 // The parser reads the properties x y z nx ny nz red green blue of the element vertex. It also
 // reads the list vertex_indices (or vertex_index) of the elements face and tristrips. It skips all
-// other elements and properties. Colors are uchar, ushort, float or double, and the parser clamps
-// them. Polygons become fans of triangles. Triangles with two equal corners are dropped and
-// counted.
+// other elements and properties, and colors of other types than uchar, ushort, float and double. It
+// clamps colors to [0, 1]. Polygons are divided into triangles at their first corner. Triangles
+// with two equal corners are dropped and counted.
 //
 // Returns false if data are truncated, inconsistent, not finite or out of range. Also returns false
 // if a file without triangles has elements that the parser skips. The message gives the line or, in
@@ -24,6 +24,6 @@ typedef bool PlyParse(Mesh *mesh, const char *bytes, size_t size, const char *na
 PlyParse ply_parse;
 
 // A variant of ply_parse for clrt check. It accepts positions and normals that are not finite or
-// out of range, and counts them in mesh. It also counts the triangles dropped because of bad
+// out of range, and counts them in *mesh. It also counts the triangles dropped because of bad
 // positions.
 PlyParse ply_parse_tolerantly;

@@ -8,14 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WORD_LIMIT 6 // one more than the words of the longest statement
+#define WORD_LIMIT 6 // one more than the number of words of the longest statement
 
 typedef struct {
     PlyHeader *header;
     PlyReader *reader;
     PlyWord words[WORD_LIMIT]; // words of the current line
     size_t word_count;
-    bool breaks_are_returns; // lines end with CR alone, so a line feed belongs to the body
+    bool breaks_are_returns; // lines end with CR alone, so a line feed after the last CR belongs to
+                             // the body
     bool has_format;
     PlyFormat format;
 } Parser;

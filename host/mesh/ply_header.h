@@ -37,12 +37,12 @@ typedef struct {
     PlyWord name;
     PlyKind kind;
     unsigned roles; // bit mask of the roles of its properties
-    int64_t count;  // at most PLY_COUNT_LIMIT unless kind is PLY_OTHER
+    int64_t count;  // at most PLY_COUNT_LIMIT unless `kind` is PLY_OTHER
     size_t first_property, property_count;
 } PlyElement;
 
 typedef struct {
-    ARRAY(PlyElement) elements; // unless PLY_OTHER or empty, each has all needed properties
+    ARRAY(PlyElement) elements; // have all needed properties, unless of kind PLY_OTHER or count 0
     ARRAY(PlyProperty) properties;
     int64_t vertex_count;
     bool has_normals, has_colors;

@@ -112,7 +112,7 @@ static const char *token_end(const PlyReader *reader)
     return text;
 }
 
-// Advances past the token at reader->place. Fails unless the token ends at stop.
+// Advances past the token at reader->place. Fails unless the token ends at `stop`.
 static bool take_token(PlyReader *reader, const char *stop, const char *expected)
 {
     reader->next = stop;

@@ -15,7 +15,7 @@ typedef enum {
     PLY_UINT16,
     PLY_INT32,
     PLY_UINT32,
-    PLY_FLOAT32, // all integer types precede this
+    PLY_FLOAT32, // all types before this one are integers
     PLY_FLOAT64,
 } PlyType;
 
@@ -35,7 +35,7 @@ typedef struct {
     PlyFormat format;        // PLY_ASCII throughout the header
     PlyWord element;         // name of the element being read; empty in the header
     int64_t index;           // index of the element being read; if negative, messages omit it
-    bool is_tolerant;        // accepts bad numbers; reads words such as inf and nan as NaN
+    bool is_tolerant;        // reads words such as inf and nan as NaN, and accepts bad numbers
     Error *error;
 } PlyReader;
 
@@ -62,7 +62,7 @@ bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size);
 bool ply_reader_read_number(PlyReader *reader, PlyType type, double *value);
 bool ply_reader_read_integer(PlyReader *reader, PlyType type, int64_t *value);
 
-// Skips `count` values. In ASCII files, values may be any words.
+// Skips `count` values. In ASCII files, the skipped values may be any words.
 bool ply_reader_skip_values(PlyReader *reader, PlyType type, int64_t count);
 
 bool ply_reader_is_space(char character);

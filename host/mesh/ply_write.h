@@ -10,6 +10,6 @@
 size_t ply_write_size(const Mesh *mesh);
 
 // Writes the mesh. Positions are written as floats if floats represent all of them exactly, and
-// otherwise as doubles. Colors are written as uchar if that is exact, and otherwise as floats.
-// Returns false if the stream has failed.
+// otherwise as doubles. Colors are written as uchar if bytes represent all of them exactly, and
+// otherwise as floats. Returns false if the stream has failed.
 bool ply_write(const Mesh *mesh, FILE *stream);
