@@ -14,7 +14,8 @@ static double tangent_of_half(double degrees)
     return sine_of_degrees(degrees / 2) / cosine_of_degrees(degrees / 2);
 }
 
-// Returns half the image plane's height: at distance 1 or, if orthographic, in normalized units.
+// Returns half the height of the image plane. A pinhole camera's plane is at distance 1, and an
+// orthographic height is in normalized units.
 static double half_height_of(const Viewpoint *viewpoint, double scale, uint32_t width,
                              uint32_t height)
 {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Viewpoint -> CameraData: a picture's rays, in normalized coordinates. The file also turns
-// viewpoints for --turntable.
+// Viewpoint -> CameraData, which defines a picture's rays in normalized coordinates. The file also
+// turns viewpoints for --turntable.
 #pragma once
 
 #include "scene/normalize.h"
 #include "scene/scene.h"
 
 // Returns a pinhole or an orthographic camera with square pixels. The pinhole camera's image plane
-// has distance 1 and height 2 tan(fov / 2). In a narrow picture, the plane is larger, so that it
-// spans the viewpoint's least width. samples is the number of sub-pixels per pixel and axis.
+// has distance 1 from the eye and height 2 tan(fov / 2). In a narrow picture, the plane is enlarged
+// to span the viewpoint's least width. `samples` is the number of sub-pixels per pixel and axis.
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
                        uint32_t width, uint32_t height, uint32_t samples);
 
-// Returns the factor by which the camera shrinks sizes at this depth. At depth 1, the factor is 1.
+// Returns the factor by which the camera shrinks sizes at `depth`, compared with depth 1.
 static inline double camera_reduction(const CameraData *camera, double depth)
 {
     return camera->orthographic != 0 ? 1 : depth;
@@ -21,7 +21,7 @@ static inline double camera_reduction(const CameraData *camera, double depth)
 // Moves all samples by `right` and `down`, in units of the distance between neighboring samples.
 void camera_shift(CameraData *camera, double right, double down);
 
-// Returns the viewpoint with its eye rotated about an axis parallel to up. The axis passes through
-// look_at or, for the six default views (docs/scenes.md), through the origin. A turn by 0 degrees
-// changes no bit.
+// Returns the viewpoint with its eye rotated about an axis parallel to viewpoint->up. The axis
+// passes through viewpoint->look_at or, if `is_course`, through the origin. `is_course` is for the
+// six default views (docs/scenes.md). A turn by 0 degrees changes no bit.
 Viewpoint turn_viewpoint(const Viewpoint *viewpoint, bool is_course, double degrees);

@@ -42,7 +42,8 @@ static bool unknown_property(Tokens *tokens, Token property, const Material *mat
                : tokens_fail(tokens, property, "unknown property (did you mean '%s'?)", nearest);
 }
 
-// Reads a property and its values, and sets its bit in `given`. Fails if the bit is set already.
+// Reads the values of `property` into *material, and sets the property's bit in *given. Fails if
+// the bit is set already.
 static bool read_property(Tokens *tokens, Token property, Material *material, uint32_t *given)
 {
     size_t i = 0;

@@ -28,6 +28,6 @@ static inline bool material_accepts(const Material *material, const MaterialProp
     return (material->shader == SHADER_GLASS) == (property->use == USED_BY_GLASS);
 }
 
-// Reads the rest of a define statement after the name. Missing properties get the defaults of the
+// Reads the rest of a `define` statement after the name. Missing properties get the defaults of the
 // shader.
 bool material_read(Material *material, Tokens *tokens);

@@ -47,8 +47,8 @@ static bool add_materials(Scene *scene, const ForeignModel *model, const char *p
     return true;
 }
 
-// Adds the model's files to the scene's inputs and hashes. The first file is the model itself. In
-// the inputs, the model has the caller's path.
+// Adds the model's files to the scene's inputs and hashes. The first file is the model itself,
+// which the inputs list as `path`.
 static bool add_files(Scene *scene, const ForeignModel *model, const char *path, Error *error)
 {
     if (!scene_add_input(scene, path, error))
@@ -124,8 +124,8 @@ static const File *kept_stream(const ForeignFiles *kept, const char *path)
     return NULL;
 }
 
-// Keeps clrt-foreign's output for later statements with the same path. Frees the output if kept is
-// NULL or full.
+// Keeps clrt-foreign's output for later statements with the same path. Frees the output if `kept`
+// is NULL or full.
 static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
 {
     Error unused = {0};
@@ -141,7 +141,7 @@ static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
 
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error)
 {
-    // clrt-foreign's own time limit is shorter, so clrt-foreign normally ends by itself.
+    // clrt-foreign sets itself a shorter time limit, so it normally ends before it is killed.
     static const ForeignReader assimp = {
         .library = "Assimp", .seconds = 125, .bytes = (size_t)8 << 30};
     const char *const words[FOREIGN_WORDS] = {path};
@@ -203,7 +203,7 @@ bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *
     Error cause = {0};
     double crease = options->crease_degrees;
     const size_t end = options->parse == ply_parse ? scene->objects.count : first;
-    // For a single mesh, mesh_compute_normals chooses the angle and saves a second pass over the
+    // For a single mesh, mesh_compute_normals chooses the angle, which saves a second pass over the
     // edges.
     if (crease == CREASE_BY_SHAPE && end > first + 1 &&
         !choose_crease(scene, first, &crease, &cause))

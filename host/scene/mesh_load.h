@@ -10,8 +10,8 @@
 #define NO_CREASE (-2)
 
 // The outputs of clrt-foreign for the files of a scene, kept so that each file is read once. An
-// output that would bring the total above FOREIGN_KEPT_MOST bytes is not kept. Each statement with
-// this file's path then reads the file again.
+// output that would bring the total above FOREIGN_KEPT_MOST bytes is not kept, and each statement
+// with the path of its file reads the file again.
 #define FOREIGN_KEPT_MOST ((size_t)256 << 20)
 typedef struct {
     char *path;
@@ -27,7 +27,8 @@ void foreign_files_free(ForeignFiles *files);
 typedef struct {
     MeshObject object;         // properties of the file's objects, without meshes
     bool is_flat;              // ignores the file's normals
-    double crease_degrees;     // for missing normals: an angle, CREASE_BY_SHAPE or NO_CREASE
+    double crease_degrees;     // for missing normals: an angle, CREASE_BY_SHAPE, or NO_CREASE to
+                               // compute none
     bool takes_own_materials;  // shows the materials and colors of the file if it has any
     uint32_t colored_material; // the material of meshes whose files define colors, but no material
     bool is_plain_ply;         // for `ply_file`, which reads only PLY and has no transforms
@@ -35,13 +36,14 @@ typedef struct {
     ForeignFiles *kept;        // outputs for other formats; borrowed; NULL keeps none
 } MeshLoadOptions;
 
-// Adds an object with the mesh of the file read from path, and adds the file to the inputs.
+// Adds an object with the mesh of `file`, the contents of the PLY file at `path`. Adds `path` to
+// the inputs.
 bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLoadOptions *options,
                   Error *error);
 
-// Adds an object for each part of the file at path, and the file's materials if requested. The
-// inputs receive the paths of all files that clrt-foreign has read. On failure, returns false with
-// a message that names the file.
+// Adds an object for each part of the file at `path`, and the file's materials if
+// options->takes_own_materials. The inputs receive the paths of all files that clrt-foreign has
+// read. On failure, returns false with a message that names the file.
 bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
 
 // Drops or computes the normals of the scene's objects from index `first` on. Does not change

@@ -15,7 +15,7 @@
 
 // Fractions of the bounding box's longest side.
 #define TOUCH  0.01 // points touch the table up to this height
-#define MARGIN 0.03 // least distance of the outermost points from the center
+#define MARGIN 0.03 // least distance of the outermost touching points from the center, on each side
 
 // Returns the bounding box of the corners whose coordinate on the axis is at most `most`. Ignores
 // triangles with fewer than `least` such corners.
@@ -53,9 +53,9 @@ static bool stands(const Scene *scene, const BoundingBox *body, int up, int leas
     return true;
 }
 
-// Returns the usual axis, UP_Y or UP_Z, unless the meshes stand only with the other axis up. If z
-// is usual, standing with y up requires a flat base, because meshes may by chance stand on a few
-// points.
+// Returns `usual`, which is UP_Y or UP_Z, unless the meshes stand only with the other axis up. If z
+// is usual, standing with y up requires whole triangles on the table, because meshes may by chance
+// stand on a few points.
 static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 {
     const BoundingBox body = box_below(scene, 0, INFINITY, 0);
@@ -68,10 +68,10 @@ static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 
 // The following functions frame the meshes. The eye has a fixed distance from its look-at point,
 // and planes through the eye bound the picture. For each axis of the picture, touch() finds two
-// planes of equal slope that touch the meshes.
+// planes that touch the meshes and have opposite slopes relative to the view direction.
 
 #define VIEWS         6
-#define DISTANCE      4.0 // of the eye from the look-at point, in radii
+#define DISTANCE      4.0 // of the eye from the look-at point, divided by the meshes' radius
 #define FILLED        0.8 // fraction of the picture's width or height that the meshes span
 #define RUN_TRIANGLES 64
 #define MOST_STEPS    32
@@ -128,7 +128,7 @@ static Vec3 farthest(const Framing *framing, Vec3 d)
     return vec3_sub(found, framing->center);
 }
 
-// Returns the slope of the two planes through the eye that enclose the meshes along an axis. Stores
+// Returns the slope of the two planes through the eye that enclose the meshes along `axis`. Stores
 // the eye's coordinate on the axis in *middle. Newton's method ends after few steps, because the
 // gap between the planes and the meshes is a convex, piecewise linear function of the slope.
 static double touch(const Framing *framing, Vec3 axis, Vec3 back, double *middle)
@@ -147,9 +147,9 @@ static double touch(const Framing *framing, Vec3 axis, Vec3 back, double *middle
     return next;
 }
 
-// Returns the field of view, in degrees, at which planes of the given slope span the fraction
-// FILLED of the picture. Newton's method starts above the result and stays above it, because tan is
-// convex there.
+// Returns the field of view, in degrees, at which planes of slope `slope` span the fraction FILLED
+// of the picture. Newton's method starts above the result and stays above it, because tan is convex
+// there.
 static double field_of_view(double slope)
 {
     double half = 45;
@@ -176,7 +176,7 @@ static Viewpoint view_from(const Framing *framing, Vec3 back, Vec3 up)
 }
 
 // Adds the six viewpoints. In each view, the meshes span 80 % of the picture's width or height, and
-// at most 80 % of the other. The sphere with this center and radius must contain all meshes.
+// at most 80 % of the other side. The sphere with `center` and `radius` must contain all meshes.
 static bool mesh_frame_add_views(Scene *scene, Vec3 center, double radius, Error *error)
 {
     static const Vec3 directions[VIEWS] = {{3, -4.5, 2}, {0, -1, 0}, {1, 0, 0},
@@ -212,7 +212,8 @@ static const Light lights[3] = {{{-12, -26, 30}, 0.50, {1, 0.97, 0.92}, false},
 #define FLOOR_RADIUS   1e4
 #define LIGHT_DISTANCE 1e4
 
-// Soft lights are squares that face the meshes. LIGHT_SIDE is the side divided by the distance.
+// Soft lights are squares that face the meshes. LIGHT_SIDE is a square's side divided by its
+// distance.
 #define LIGHT_SIDE  0.09
 #define LIGHT_CELLS 4
 
@@ -221,7 +222,7 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size)
     return size >= 4 && memcmp(bytes, "ply", 3) == 0 && (bytes[3] == '\n' || bytes[3] == '\r');
 }
 
-// Returns the area of a light with this offset from the meshes' center.
+// Returns the area of a light at `offset` from the meshes' center.
 static LightArea light_area(Vec3 offset, StudioLights studio)
 {
     const Vec3 side = vec3_normalize(vec3_cross(vec3(0, 0, 1), offset));
@@ -264,7 +265,7 @@ static bool add_studio(Scene *scene, StudioLights studio, Error *error)
            add_lights(scene, studio, center, radius, error);
 }
 
-// Adds the up axis, the choice of normals and the studio to the hash, because all parts of a
+// Adds the up axis, the choice of normals and the studio to scene->hash, because all parts of a
 // picture must agree on them.
 static void hash_choices(Scene *scene, const SceneLoadOptions *options)
 {
@@ -285,8 +286,8 @@ static bool turn_and_frame(Scene *scene, UpAxis up, StudioLights studio, Error *
     return add_studio(scene, studio, error);
 }
 
-// Returns the up axis that a Collada file names. Assimp would turn such files, but clrt-foreign
-// prevents this.
+// Returns the up axis that a Collada file names. Assimp would turn the meshes of such files itself,
+// but clrt-foreign prevents this.
 static UpAxis up_axis_of_collada(const char *path)
 {
     File file;
@@ -300,8 +301,8 @@ static UpAxis up_axis_of_collada(const char *path)
 }
 
 // Returns the up axis of a mesh file.
-// - PLY, STL and OFF define no axis, and z is usual. OBJ defines none either, and y is usual. The
-// mesh's shape decides.
+// - PLY, STL and OFF define no axis, and z is usual. OBJ defines none either, and y is usual. In
+// these formats, the mesh's shape decides.
 // - A Collada file names its axis.
 // - 3MF and AMF define z. glTF defines y, and Assimp turns several other formats to y.
 static UpAxis up_axis_of_file(const Scene *scene, const char *path, bool is_ply)

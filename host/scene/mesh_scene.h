@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A lone mesh file -> a whole scene. It has lights, a floor, and cameras that frame the mesh. The
-// mesh is turned upright and is visible from both sides.
+// A lone mesh file -> a scene with lights, a floor, and cameras that frame the mesh. The mesh is
+// turned upright and is visible from both sides.
 #pragma once
 
 #include "scene/mesh_load.h"
@@ -18,14 +18,14 @@ typedef enum { STUDIO_HARD, STUDIO_SOFT } StudioLights;
 // the normals and the lights. For scene text, scn_load therefore fails unless `up`, `normals` and
 // `studio` are 0.
 typedef struct {
-    bool is_tolerant;      // reads PLY meshes with ply_parse_tolerantly
+    bool is_tolerant;      // reads meshes with ply_parse_tolerantly
     UpAxis up;             // of a lone mesh file
     Normals normals;       // of a lone mesh file
     double crease_degrees; // an angle or CREASE_BY_SHAPE; used only with NORMALS_SMOOTH
     StudioLights studio;   // of a lone mesh file
 } SceneLoadOptions;
 
-// Returns whether the bytes are a PLY file. All other files in memory are read as scene text.
+// Returns whether the `size` bytes begin like a PLY file.
 bool mesh_scene_is_mesh(const char *bytes, size_t size);
 
 // The scene text with which the scene of a lone mesh file begins: its background, ambient light and
@@ -33,7 +33,8 @@ bool mesh_scene_is_mesh(const char *bytes, size_t size);
 extern const char mesh_scene_studio[];
 
 // Adds meshes, the file's materials, lights, a floor and viewpoints to a scene parsed from
-// mesh_scene_studio. Reads the PLY file in memory or, if ply is NULL, the file at path in another
-// format. The viewpoints are three-quarter, front, right, back, left and top. z is up.
+// mesh_scene_studio. Reads the contents `ply` of a PLY file or, if `ply` is NULL, the file of
+// another format at `path`. The viewpoints are three-quarter, front, right, back, left and top. z
+// is up.
 bool mesh_scene_fill(Scene *scene, const File *ply, const char *path,
                      const SceneLoadOptions *options, Error *error);

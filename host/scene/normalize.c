@@ -3,13 +3,13 @@
 // far away, too large or too small for float.
 #include "scene/normalize.h"
 
-// The scene counts as coarse for a camera if it is this many times as large as the camera's reach.
-// Relative to the center of the box, rounding could then move the eye by up to 2^-12 of the reach.
-// In pictures of 1000 rows, this is about a third of a pixel.
+// The scene counts as coarse for a camera if its bounding box is this many times as large as the
+// camera's reach (reach_of). With the box's center as the origin, rounding could then move the eye
+// by up to 2^-12 of the reach. In pictures of 1000 rows, this is about a third of a pixel.
 #define COARSE          0x1p13
 #define LARGEST_RATIO   0x1p40
 #define LARGEST_RATE    0x1p60 // so that products with coordinates stay finite
-#define LARGEST_PICTURE 0x1p20 // so that pictures of any aspect stay below LARGEST_RATIO
+#define LARGEST_PICTURE 0x1p20 // so that the other side of a picture stays below LARGEST_RATIO
 
 static BoundingBox box_of(const Scene *scene)
 {
@@ -75,8 +75,9 @@ static double distance_to_triangles(const Scene *scene, Vec3 point)
     return nearest;
 }
 
-// Returns the camera's reach, the distance up to which it shows details. This is the distance to
-// the point that it looks at or, if no surface is that near, to the nearest surface.
+// Returns the camera's reach, the distance up to which the camera shows details. The reach is the
+// distance to the look-at point or, if no surface is that near, to the nearest surface. For an
+// orthographic camera, it is the picture's height.
 static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
 {
     if (viewpoint->height > 0)
@@ -86,8 +87,9 @@ static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
                      distance_to_triangles(scene, viewpoint->eye)));
 }
 
-// Returns the center of a scene without triangles, whose box has the given center. A sphere is
-// stored as sums of two floats, but an eye as floats, so only eyes need a center that is near.
+// Returns the center of the normalized coordinates of a scene without triangles. `center` is the
+// center of the scene's box. Coordinates of spheres are stored as sums of two floats, but
+// coordinates of eyes as single floats, so only eyes need a near center.
 static Vec3 center_of(const Scene *scene, Vec3 center)
 {
     const double extent = scene_extent(scene);
@@ -169,7 +171,7 @@ static bool sphere_fits(const Normalization *normalization, const Sphere *sphere
            radius >= 1 / LARGEST_RATIO;
 }
 
-// Returns the distance between floats at a distance from the center.
+// Returns the distance between neighboring floats at `distance` from the center, in scene units.
 static double step_at(const Normalization *normalization, double distance)
 {
     return scalbn(1 / normalization->scale, ilogb(distance * normalization->scale) - 23);
@@ -180,7 +182,8 @@ bool normalization_is_fine(const Normalization *normalization, const Scene *scen
     for (size_t i = 0; i < scene->viewpoints.count; i++) {
         const Viewpoint *viewpoint = &scene->viewpoints.data[i];
         const double away = vec3_extent(vec3_sub(viewpoint->eye, normalization->center));
-        // The distance to the triangles is only computed if the camera looks at a near point.
+        // reach_of visits all triangles, so it runs only if the distance to the look-at point does
+        // not suffice.
         if (viewpoint->height == 0 &&
             away <= COARSE / 2 * distance_between(viewpoint->look_at, viewpoint->eye))
             continue;

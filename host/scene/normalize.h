@@ -24,9 +24,9 @@ typedef struct {
 // 1e9 would leave too few bits for a mesh. Rays of the library use this normalization.
 Normalization normalization_of_primitives(const Scene *scene);
 
-// Returns the normalization for pictures. It differs in scenes of spheres alone, if the box around
-// the spheres is thousands of times as large as the cameras' reach (normalize.c). The center is
-// then between the cameras' eyes.
+// Returns the normalization for pictures. It differs from normalization_of_primitives in scenes
+// without triangles whose box is thousands of times as large as a camera's reach (normalize.c). The
+// center is then between the cameras' eyes.
 Normalization normalization_of(const Scene *scene);
 
 // Returns the longest side of the box that normalization_of scales, or a negative number if the box
@@ -43,8 +43,8 @@ Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 // Returns the normalized position of a point light or sun.
 Vec3 normalize_light(const Normalization *normalization, const Light *light);
 
-// Sets check_rate and check_shift of a material with a checker, and changes no other material. Even
-// cubes stay even.
+// Sets check_rate and check_shift of a material with a checker, so that the pattern stays in place.
+// Changes no other material.
 void normalize_checker(Material *material, const Normalization *normalization);
 
 // Returns the scene coordinates of a normalized point.
@@ -56,6 +56,7 @@ Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 // most 2^20. Outside these ranges, the kernels' floats could overflow or underflow.
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);
 
-// Fails if floats are too coarse for a camera: rounding may move its eye by more than 2^-12 of the
-// distance up to which the camera shows details. Such scenes have small and very distant parts.
+// Returns false with a note if floats are too coarse for a camera: rounding may move its eye by
+// more than 2^-12 of the distance up to which the camera shows details. Such scenes have small and
+// very distant parts.
 bool normalization_is_fine(const Normalization *normalization, const Scene *scene, Error *note);

@@ -49,8 +49,8 @@ bool scene_init(Scene *scene, Error *error)
            array_push(&scene->materials, mirror, error);
 }
 
-// Converts a viewpoint of the course's viewer program: two angles in degrees, and the distance from
-// the origin.
+// Converts a viewpoint of the course's viewer program, which consists of two angles in degrees and
+// the distance from the origin.
 static Viewpoint course_viewpoint(double azimuth, double rotation, double distance)
 {
     const double level = distance * cosine_of_degrees(azimuth);
@@ -77,9 +77,9 @@ bool scene_complete(Scene *scene, Error *error)
     return true;
 }
 
-// The points' projections onto each side are evenly spaced. An edge parallel to a side therefore
-// hides the points one by one, not row by row (Chiu, Shirley and Wang, "Multi-jittered sampling",
-// 1994).
+// The projections of the point lights onto each side of the area are evenly spaced. An object's
+// edge parallel to a side therefore hides the point lights one by one, not row by row (Chiu,
+// Shirley and Wang, "Multi-jittered sampling", 1994).
 bool scene_add_area_light(Scene *scene, const Light *light, const LightArea *area, Error *error)
 {
     const double cells = area->cells;
@@ -212,7 +212,8 @@ void material_set_shininess(Material *material, float shininess)
     material->exponent = by_squaring ? (uint32_t)shininess : UINT32_MAX;
 }
 
-// Returns the next material in use, or NULL after the last one. *place must be 0 at the first call.
+// Returns the material of the next sphere or non-empty object, or NULL after the last one. *place
+// must be 0 at the first call.
 static const Material *next_used(const Scene *scene, size_t *place)
 {
     const size_t spheres = scene->spheres.count;
@@ -283,8 +284,8 @@ static double largest_reflectivity(const Scene *scene)
     return largest;
 }
 
-// The bound is largest_reflectivity ^ max_level, because the weight of a ray of max_level is a
-// product of max_level reflectivities.
+// The bound is largest_reflectivity ^ max_level, because the weight of a ray of level `max_level`
+// is a product of max_level reflectivities.
 double truncation_bound(const Scene *scene, uint32_t max_level)
 {
     const double reflectivity = largest_reflectivity(scene);
@@ -337,7 +338,7 @@ const MaterialName *material_names_find(const MaterialNames *names, const char *
 
 static void keep(void *name)
 {
-    (void)name; // list owns it
+    (void)name; // the list owns it
 }
 
 void material_names_free(MaterialNames *names)

@@ -9,7 +9,7 @@
 #include "base/vec.h"
 #include "mesh/mesh.h"
 
-// These limits keep sample coordinates exact in float, and loops short.
+// The first limit keeps sample coordinates exact in float, and the second keeps loops short.
 #define PICTURE_SIZE_MAX 131072
 #define MAX_LEVEL_LIMIT  1000
 
@@ -28,17 +28,17 @@ typedef struct {
     bool is_sun;      // infinitely far away
 } Light;
 
-// A parallelogram around a light's position, divided into cells * cells cells.
+// A parallelogram around a light's position, divided into a grid of cells.
 typedef struct {
     Vec3 sides[2];
     uint32_t cells; // along each side, in [1, AREA_CELLS_MOST]
 } LightArea;
 
-// A light with an area, as scene text states it. Its points are consecutive lights of the scene.
+// A light with an area, as scene text states it. Its point lights are consecutive in Scene::lights.
 typedef struct {
     Light light;
     LightArea area;
-    size_t first; // its first point
+    size_t first; // index of its first point light
 } AreaLight;
 
 static inline Light light_white(Vec3 position, double intensity)
@@ -70,22 +70,23 @@ typedef struct {
 // {0} has no names.
 typedef struct {
     ARRAY(MaterialName *) list; // owned
-    void *tree;                 // by name; of tsearch
+    void *tree;                 // a tree of tsearch, ordered by name
 } MaterialNames;
 
-// A camera. up and look_at - eye must be neither zero nor parallel. An orthographic camera has a
-// height above 0, and its angles are not used. Its parallel rays start on a plane through the eye.
+// A camera. The vectors `up` and `look_at` - `eye` must be neither zero nor parallel. An
+// orthographic camera has a `height` above 0, and its angles are not used. Its parallel rays start
+// on a plane through the eye.
 typedef struct {
     Vec3 eye, look_at, up;
     double fov_degrees;   // vertical, between 0 and 180
     double width_degrees; // narrow pictures show at least this horizontal angle; 0 for no minimum
-    double height;        // of an orthographic picture, in scene units; 0 for a perspective camera
+    double height;        // of an orthographic picture, in scene units; 0 for a pinhole camera
     double width;         // narrow orthographic pictures show at least this width; 0 for no minimum
 } Viewpoint;
 
 typedef struct {
     ARRAY(Light) lights;
-    ARRAY(AreaLight) area_lights; // of more than one point, in the order of their points
+    ARRAY(AreaLight) area_lights; // of more than one point light, in the order of `lights`
     ARRAY(Sphere) spheres;
     ARRAY(MeshObject) objects;
     ARRAY(Material) materials;    // the course's materials, then defined and imported materials
@@ -100,13 +101,13 @@ typedef struct {
     ARRAY(char *) inputs; // paths of the files read; owned
     ARRAY(char *) notes;  // messages about the files, such as omitted parts; owned
     double mesh_seconds;  // time spent on loading meshes
-    // hash combines the XXH3 hashes of the scene's text, of its mesh files and, for a lone mesh, of
-    // the up axis, the normals and the studio. mesh_hash combines only the hashes of the mesh
+    // `hash` combines the XXH3 hashes of the scene's text, of its mesh files and, for a lone mesh,
+    // of the up axis, the normals and the studio. `mesh_hash` combines only the hashes of the mesh
     // files, and is zero without meshes.
     uint64_t hash[2], mesh_hash[2];
 } Scene;
 
-// Fills scene with the defaults of a scene file: the course's constants and four materials.
+// Fills *scene with the defaults of a scene file: the course's constants and four materials.
 bool scene_init(Scene *scene, Error *error);
 
 // Adds the course's six viewpoints if the scene has no viewpoint.
@@ -125,7 +126,7 @@ void scene_hash_mesh(Scene *scene, const void *bytes, size_t size);
 #define SCENE_HASH_SIZE 33
 void scene_hash_name(const uint64_t hash[2], char name[SCENE_HASH_SIZE]);
 
-// Appends a copy of path to the scene's inputs.
+// Appends a copy of `path` to the scene's inputs.
 bool scene_add_input(Scene *scene, const char *path, Error *error);
 
 // Appends "PATH: TEXT" to the scene's notes.
@@ -134,7 +135,7 @@ bool scene_add_note(Scene *scene, const char *path, const char *text, Error *err
 size_t scene_triangle_count(const Scene *scene);
 size_t scene_dropped_count(const Scene *scene); // triangles that were removed from meshes
 
-// Returns a triangle's number in its file. Dropped triangles are counted too.
+// Returns a triangle's number in its file, in which dropped triangles are counted too.
 uint64_t number_in_file(const MeshObject *object, size_t triangle);
 
 void scene_free(Scene *scene);
@@ -162,16 +163,17 @@ void material_names_free(MaterialNames *names);
 typedef struct {
     const char *kind; // a name for programs; NULL if nothing is missing
     const char *text; // a clause for messages
-    bool is_fault;    // the files have parts that clrt cannot draw, and nothing else
+    bool is_fault;    // the files contain only parts that clrt cannot draw
 } MissingPart;
 
 // Returns the first missing part: objects to render, or lights for surfaces that need them.
 MissingPart scene_missing(const Scene *scene);
 
 // A ray's weight is the product of the reflectivities on its path. Colors are at most 1, so the
-// error that max_level causes is at most the weight of a ray of this level.
+// error that `max_level` causes is at most the largest weight of a ray of this level.
 
-// Returns an upper bound on the error of every color if rays of max_level return the background.
+// Returns an upper bound on the error of every color if rays of level `max_level` return the
+// background.
 double truncation_bound(const Scene *scene, uint32_t max_level);
 
 bool scene_has_glass(const Scene *scene);
@@ -180,6 +182,6 @@ bool scene_has_glass(const Scene *scene);
 // this limit.
 uint32_t scene_level_limit(const Scene *scene);
 
-// Returns the smallest max_level whose truncation_bound is at most bound, but not more than
+// Returns the smallest max_level whose truncation_bound is at most `bound`, but not more than
 // scene_level_limit.
 uint32_t truncation_level(const Scene *scene, double bound);

@@ -29,7 +29,7 @@ static bool next_is(const Tokens *tokens, const char *word)
     return token_is(tokens_next(&ahead), word);
 }
 
-// If the next token is this word, skips the token and returns true.
+// If the next token is `word`, skips the token and returns true.
 static bool skip_word(Tokens *tokens, const char *word)
 {
     const bool found = next_is(tokens, word);
@@ -309,7 +309,7 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
     return parse(&parser, text, size, name);
 }
 
-// Frees the parsed scene unless ok is true. Returns ok.
+// Frees the parsed scene unless `ok`. Returns `ok`.
 static bool keep(Scene *scene, bool ok)
 {
     if (!ok)

@@ -11,7 +11,7 @@ bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Er
 // Loads a scene file or a lone mesh file (mesh_scene.h).
 bool scn_load(Scene *scene, const char *path, const SceneLoadOptions *options, Error *error);
 
-// Loads a scene file or a PLY file that is in memory. Mesh paths are relative to the folder of the
-// file `name`.
+// Loads a scene file or a PLY file with the contents `file`. Mesh paths are relative to the folder
+// of the file `name`.
 bool scn_take(Scene *scene, const File *file, const char *name, const SceneLoadOptions *options,
               Error *error);

@@ -32,7 +32,8 @@ static bool allocate(Mesh *mesh, const Scene *scene, Error *error)
     return mesh->triangles != NULL && mesh_allocate_vertices(mesh, has_normals, has_colors, error);
 }
 
-// Copies an object's vertices and triangles into mesh, from the indices `vertex` and `triangle` on.
+// Copies an object's vertices and triangles into *mesh, from the indices `vertex` and `triangle`
+// on.
 static void copy(Mesh *mesh, const MeshObject *object, const float diffuse[3], size_t vertex,
                  size_t triangle)
 {
@@ -77,8 +78,8 @@ typedef struct {
     bool is_own;         // the files' colors replace the diffuse color of current.material
 } Writer;
 
-// Writes value with `digits` digits, or with as many more as are necessary to read back the same
-// number.
+// Writes `value` with `digits` digits, or with more if this is necessary to read back the same
+// value.
 static void write_digits(FILE *stream, double value, int digits, bool is_float)
 {
     char text[32];

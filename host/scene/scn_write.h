@@ -6,11 +6,11 @@
 
 #include <stdio.h>
 
-// Writes scene to stream. The text refers to the mesh file of object i as mesh_names[i]. Returns
-// false if the stream has failed or memory runs out.
+// Writes the scene to `stream`. The text refers to the mesh file of object i as mesh_names[i].
+// Returns false if the stream has failed or memory runs out.
 bool scn_write(const Scene *scene, char *const *mesh_names, FILE *stream, Error *error);
 
-// Writes a camera statement, preceded by an up statement if camera->up differs from up.
+// Writes a `camera` statement, preceded by an `up` statement if camera->up differs from `up`.
 void scn_write_camera(const Viewpoint *camera, Vec3 up, FILE *stream);
 
 // Returns whether scene text can quote the name: it is not empty and has no quotes or line ends.

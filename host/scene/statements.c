@@ -99,8 +99,8 @@ bool materials_select(const Scene *scene, Tokens *tokens, MaterialChoice *choice
     return ok;
 }
 
-// The following functions add a file's meshes and apply the statement's transforms in the written
-// order, in fp64.
+// The following functions add a file's meshes and apply the transforms of a `mesh` statement in the
+// written order, in fp64.
 
 static Vec3 rotated(Vec3 v, Vec3 axis, double sine, double cosine)
 {
@@ -223,7 +223,8 @@ static bool read_transforms(Tokens *tokens, Objects objects)
     }
 }
 
-// Fails if a vertex is outside [-1e30, 1e30], the range that the rest of the program requires.
+// Fails if a coordinate of a vertex is outside [-1e30, 1e30], the range that the rest of the
+// program requires.
 static bool positions_in_range(const Tokens *tokens, const Mesh *mesh)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -275,7 +276,7 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
     return ok;
 }
 
-// Meshes with fewer triangles usually show flat faces on purpose.
+// Meshes with fewer triangles than this usually show flat faces on purpose.
 #define ROUND_TRIANGLES 100
 
 // Adds a note for each reflective mesh without normals, because its triangles look like separate

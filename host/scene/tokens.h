@@ -18,7 +18,7 @@ typedef struct {
     const char *next, *end;
     const char *line_start;
     const char *name;  // the file's name, for messages
-    const char *usage; // usage text of the current statement, for messages; NULL before its keyword
+    const char *usage; // usage text of the current statement, for messages; NULL before a keyword
     unsigned line;
     Token last;
     Error *error;
@@ -37,7 +37,7 @@ Token tokens_next(Tokens *tokens);
 // Returns whether the line has another token.
 bool tokens_have_more(const Tokens *tokens);
 
-// Returns whether token is exactly this word.
+// Returns whether the token is exactly `word`.
 bool token_is(Token token, const char *word);
 
 // tokens_numbers reads `count` numbers in [-COORDINATE_MOST, COORDINATE_MOST]. tokens_number_within
