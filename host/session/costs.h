@@ -3,7 +3,7 @@
 // first resolution. Wrong costs would change a picture's time, but never the picture.
 //
 // Each comment ends with the command that measures the cost again. "Trace" is the member
-// seconds.trace of --json. Commands that compile need an empty cache, for example
+// seconds.trace of --json. Commands that measure compilation require an empty cache, for example
 // XDG_CACHE_HOME=$(mktemp -d).
 #pragma once
 
@@ -34,26 +34,27 @@
 #define PACKET_COMPILE_SECONDS 1.25
 #define QUICK_COMPILE_SECONDS  0.8
 
-// The core seconds that packets save per sample in scenes with fewer than QUICK_TRIANGLES
-// triangles. In larger scenes, they save more.
+// The core seconds per sample that packets save in comparison with pair kernels, in scenes with
+// fewer than QUICK_TRIANGLES triangles. In larger scenes, packets save more.
 // Measure: trace * cores / samples.total of `clrt SCENE --tune kernel=pair --repeat 9 --json`,
 // minus the quotient with kernel=packet.
 #define QUICK_TRIANGLES  20000
 #define SAVED_PER_SAMPLE 0.3e-6
 
-// The fraction of a time limit that is lost with quick kernels, which trace at most half as many
-// samples as packets.
+// The fraction of a time limit that quick kernels waste. They trace at most half as many samples as
+// packets.
 // Measure: 1 - samples.total of `clrt SCENE --time 1 --tune kernel=pair --json` / samples.total
 // with kernel=packet.
 #define LOST_OF_LIMIT 0.5
 
-// A pixel refined toward the error E takes as long as 1 + ERROR_SAMPLES / E samples of --aa. A
-// refined sample takes about as long as four samples of --aa.
+// A pixel refined toward the error E takes as long as 1 + ERROR_SAMPLES / E samples of --aa. One
+// sample of refinement takes about as long as four samples of --aa.
 // Measure: trace of `clrt SCENE --error E --repeat 9 --json`, divided by the trace with --aa=1.
 #define ERROR_SAMPLES 0.08
 
 // A pixel refined to the contrast T takes as long as 1 + CONTRAST_SAMPLES / sqrt(T) samples of
-// --aa. The constant was 0.4 to 0.5 in a small scene, and 2.2 to 2.6 with a mesh.
+// --aa. The measured constant was 0.4 to 0.5 in a small scene, and 2.2 to 2.6 in a scene with a
+// mesh.
 // Measure: trace of `clrt SCENE --aa-adaptive=T --repeat 9 --json`, divided by the trace with
 // --aa=1.
 #define CONTRAST_SAMPLES 1

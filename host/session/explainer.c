@@ -25,7 +25,7 @@ static size_t scalar_size(const Explainer *explainer)
     return explainer->is_fp64 ? sizeof(double) : sizeof(float);
 }
 
-// Both functions return the size of the head and of `records` records, in bytes.
+// The next two functions return the size in bytes of the head and of `records` records.
 static size_t value_bytes(const Explainer *explainer, size_t records)
 {
     return (HEAD_VALUES + records * level_values(explainer)) * scalar_size(explainer);
@@ -95,10 +95,10 @@ static double scalar_at(const Explainer *explainer, const void *values, size_t p
                               : (double)((const float *)values)[place];
 }
 
-// The kernel's values for one ray or light.
+// The place of the kernel's values for one ray or light.
 typedef struct {
     const Explainer *explainer;
-    size_t value, word; // first indices in host_values and host_words
+    size_t value, word; // indices of the first ones in host_values and host_words
 } Notes;
 
 static Notes notes_of(const Explainer *explainer, uint32_t level)
@@ -210,8 +210,8 @@ static bool trace_records(Explainer *explainer, const cl_uint place[2], Error *e
                        error);
 }
 
-// Traces a sample and reads its records. If it has more rays than there is room for, makes room and
-// traces it again.
+// Traces a sample and reads its records. If the sample has more rays than the buffers have room
+// for, makes larger buffers and traces the sample again.
 static bool read_records(Explainer *explainer, const cl_uint place[2], Error *error)
 {
     if (!trace_records(explainer, place, error))
@@ -270,7 +270,7 @@ void explained_sample_free(ExplainedSample *sample)
     *sample = (ExplainedSample){0};
 }
 
-// Must match pixel_colors of kernels/render.cl.
+// Must compute the same bits as pixel_colors of kernels/render.cl.
 void explainer_mix(const Explainer *explainer, float color[3])
 {
     const uint64_t count = (uint64_t)explainer->frame.samples * explainer->frame.samples;

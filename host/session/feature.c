@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A pixel's samples are treated as a square lattice. A disk at a random place contains a point of
+// The samples of a pixel count as a square lattice. A disk at a random place contains a point of
 // the lattice if the disk's center lies within a disk of the same size around the point. The
 // probability that the disk contains a point is therefore the fraction of a lattice cell that a
-// disk around the cell's point covers. Bisection finds the diameter for which the mean over all
-// pixels is PROBABILITY.
+// disk around the cell's point covers. Bisection finds the diameter at which the mean of this
+// probability over all pixels is PROBABILITY.
 #include "session/feature.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 // A disk of this diameter always contains a point of a lattice with spacing 1.
 #define LARGEST 1.41421357
 
-// Returns the part of a unit square that a disk around the square's center covers.
+// Returns the fraction of a unit square that a disk around the square's center covers.
 static double covered_area(double diameter)
 {
     const double pi = 3.14159265358979, radius = diameter / 2;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Samples of a picture's pixels -> the smallest feature that they find.
+// The numbers of samples in a picture's pixels -> the smallest feature that the samples are likely
+// to hit.
 #pragma once
 
 #include <stddef.h>
@@ -11,7 +12,7 @@ typedef struct {
     uint64_t pixels;
 } SampleShare;
 
-// Returns the smallest diameter, in pixels, for which a disk at a random place of the picture
+// Returns the smallest diameter in pixels such that a disk at a random place of the picture
 // contains a sample with a probability of 95 %. The samples of a pixel count as a square lattice.
-// At least one of the shares must have pixels.
+// At least one share must have pixels.
 double feature_smallest(const SampleShare *shares, size_t count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws a coarse picture with one more level each time, until the rays that max_level cuts off have
+// Draws coarse pictures, each with one more level, until the rays that max_level cuts off have
 // small weights (kernels/branches.cl). Each level multiplies the time of a picture by about 1.4.
 //
 // Invariant: the sums of the weights are integers, so the level does not depend on the kernels'
@@ -11,16 +11,16 @@
 
 #include <math.h>
 
-// The largest number of pixels of the coarse picture, except for very narrow pictures.
+// The largest number of pixels in the coarse picture, except for very narrow pictures.
 #define COARSE_PIXELS 4096
 
-// A path through a ball has this many levels. Pictures have at least as many, because the coarse
-// picture can miss small pieces of glass.
+// The smallest level, which is enough for a path through a ball. The coarse picture can miss small
+// pieces of glass.
 #define LEVEL_LEAST 3
 
-// A cut ray in one of COARSE_PIXELS pixels causes at least this error, because squared errors are
-// rounded up to multiples of 2^-32. If the bound is smaller, the picture has all levels, and clrt
-// draws no coarse picture.
+// A single cut ray among COARSE_PIXELS pixels counts as at least this error, because squared errors
+// are rounded up to multiples of 2^-32. If the bound is smaller, the picture has all levels, and
+// clrt draws no coarse picture.
 #define MEASURED_LEAST 0x1p-22
 
 static RenderSettings coarse_settings(const RenderSettings *settings)
@@ -33,7 +33,8 @@ static RenderSettings coarse_settings(const RenderSettings *settings)
         .width = columns, .height = rows, .samples = 1, .tile_width = columns, .tile_height = rows};
 }
 
-// Draws the coarse picture, and stores a bound on the error that settings.max_level causes in it.
+// Draws the coarse picture. Stores a bound on the picture's error that is due to
+// settings.max_level.
 static bool measure(Renderer *renderer, const CameraData *camera, double *truncated, Error *error)
 {
     Framebuffer colors;

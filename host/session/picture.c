@@ -14,8 +14,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// If max_level causes more than this fraction of an error goal, another level costs less than the
-// samples that it saves.
+// If max_level causes more than this fraction of an error goal, one more level costs less time than
+// the samples that the level saves.
 #define TRUNCATED_MOST 0.9
 
 typedef struct {
@@ -97,7 +97,8 @@ bool session_prepare(Session *session, const SessionPicture *request, PictureRes
 }
 
 // In scenes with glass, measures the bound on the error of max_level: the root mean square of the
-// weights that max_level cuts off in the samples. The samples so far must be spread evenly.
+// weights that max_level cuts off in the samples. All samples taken before the call must be spread
+// evenly.
 static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
 {
     const Renderer *renderer = &drawing->renderer;
@@ -105,7 +106,8 @@ static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
         drawing->result->truncated = renderer_truncation(renderer, samples);
 }
 
-// Counts only the first lines of a pixel, because later samples are not spread evenly.
+// Of refined pixels, counts only the samples of the first lines, because later samples are not
+// spread evenly.
 static double adaptive_feature(const Adaptive *adaptive, size_t pixels)
 {
     const uint64_t refined = adaptive->lines.pixels.count - 1;
@@ -160,7 +162,7 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
 }
 
 // Refines toward the time or error goal. `truncated` is the part of the error goal that max_level
-// takes. If nothing is left, does nothing.
+// uses up. If `truncated` uses up the whole goal, does nothing.
 static bool refine(const PictureDrawing *drawing, Ladder *ladder, double truncated,
                    GoalOutcome *outcome, Error *error)
 {
@@ -172,7 +174,8 @@ static bool refine(const PictureDrawing *drawing, Ladder *ladder, double truncat
     return left <= 0 || goal_reach_error(ladder, sqrt(left), outcome, error);
 }
 
-// Returns whether the samples so far show that another level would save more samples than it costs.
+// Returns whether one more level would save more time than it costs, according to the samples so
+// far.
 static bool needs_level(const PictureDrawing *drawing, const Ladder *ladder)
 {
     const SessionPicture *request = drawing->request;
@@ -182,8 +185,8 @@ static bool needs_level(const PictureDrawing *drawing, const Ladder *ladder)
            pixel_requests_are_whole(&ladder->requests);
 }
 
-// Takes a sample in each pixel. If max_level causes too much of an error goal, adds a level and
-// starts again.
+// Opens a ladder, which takes a sample in each pixel. If max_level causes too much of an error
+// goal, adds a level and opens the ladder again.
 static bool open_ladder(PictureDrawing *drawing, const RefineSetup *setup, Ladder *ladder,
                         Error *error)
 {

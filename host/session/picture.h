@@ -1,52 +1,53 @@
 // SPDX-License-Identifier: MIT
 // A request for a picture -> its colors, its channels and the certainty of its pixels. Without a
-// goal, all pixels have equally many samples. With a goal, each pixel has as many as it needs.
+// goal, all pixels have equally many samples. With a goal, each pixel has as many samples as it
+// needs.
 #pragma once
 
 #include "render/aov.h"
 #include "render/certifier.h"
 #include "session/session.h"
 
-// Returns whether the number of samples may differ between pixels. Otherwise, the samples of a
-// pixel form a square with RenderSettings::samples on each side.
+// Returns whether the picture has a goal, so the number of samples may differ between pixels.
+// Without a goal, the samples of a pixel form a square with RenderSettings::samples on each side.
 static inline bool goal_is_given(const ClrtPicture *wanted)
 {
     return wanted->contrast > 0 || wanted->error > 0 || wanted->seconds > 0;
 }
 
 typedef struct {
-    ClrtPicture wanted; // only its goal and statistics
+    ClrtPicture wanted; // only the goal and `statistics` are used
     RenderSettings settings;
     Viewpoint viewpoint;
     uint32_t reference_samples; // per pixel of the reference; an even number
     uint32_t reference_level;   // the reference's max_level
     double truncated;           // bound on the error that RenderSettings::max_level causes
     bool includes_truncated;    // `truncated` is a part of the error goal
-    double level_bound; // above 0, only with glass: the error by which session_choose_level and
-                        // session_draw choose RenderSettings::max_level
-    AovSet channels;    // besides the colors; drawn by session_draw_channels
+    double level_bound;         // with glass: the allowed error, by which session_choose_level and
+                        // session_draw choose RenderSettings::max_level; 0 if the level is given
+    AovSet channels; // to draw by session_draw_channels
 } SessionPicture;
 
 typedef struct {
-    // Set by session_prepare.
+    // The following members are set by session_prepare and session_draw.
     bool is_special;   // the kernels are specialized for the scene
     bool was_compiled; // an earlier process compiled the kernels
     size_t upload_size;
     double upload_seconds, build_seconds;
     uint32_t group[2]; // size of the work-groups
-    double truncated;  // SessionPicture::truncated; with glass, session_draw measures it
-    // Set by session_draw.
+    double truncated;  // SessionPicture::truncated, or with glass, session_draw's measurement of it
+    // The following members are set by session_draw.
     RenderProgress progress;
     bool is_complete;
     bool goal_missed;
-    double estimate;  // of the RMSE, including a `truncated` of the error goal; for error and
-                      // time goals
-    double bound;     // upper bound of the RMSE with 95 % confidence
-    double feature;   // the smallest diameter that the samples find (session/feature.h)
+    double estimate;  // the RMSE, estimated for error and time goals; includes `truncated` if
+                      // SessionPicture::includes_truncated
+    double bound;     // upper bound on the RMSE with 95 % confidence
+    double feature;   // diameter of the smallest feature (session/feature.h)
     uint64_t pixels;  // drawn by this call
-    uint64_t samples; // total of these pixels
-    uint32_t *pixel_samples; // by pixel; NULL unless goal and channels are given
-    // Set by session_certify.
+    uint64_t samples; // in these pixels
+    uint32_t *pixel_samples; // by pixel; NULL unless the request has both a goal and channels
+    // The following member is set by session_certify.
     CertaintyMap certainty; // empty unless a channel needs it
 } PictureResult;
 
@@ -59,28 +60,30 @@ const KernelEntry *picture_entry(const ClrtPicture *wanted);
 // Returns the camera for `samples` sub-pixels along each side of a pixel.
 CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples);
 
-// Returns the work of drawing the request `pictures` times.
+// Returns the work of drawing the requested picture `pictures` times.
 SessionWork session_work(const SessionPicture *request, double pictures);
 
 // Uploads the scene and compiles the kernels for session_draw.
 bool session_prepare(Session *session, const SessionPicture *request, PictureResult *result,
                      Error *error);
 
-// Draws the picture into framebuffer, whose size is given by tile_frame_size. If the observer stops
-// the picture, the call returns true and result->is_complete is false. If request->level_bound is
-// above 0, the call may increase settings.max_level for an error goal.
+// Draws the picture into *framebuffer, which must have the size from tile_frame_size. If the
+// observer stops the picture, the call returns true, and result->is_complete is false. With an
+// error goal and a request->level_bound above 0, the call may increase request->settings.max_level.
 bool session_draw(Session *session, SessionPicture *request, const RenderObserver *observer,
                   Framebuffer *framebuffer, PictureResult *result, Error *error);
 
-// If a channel needs it, computes the certainty of each pixel into *result. Pixels that are certain
-// in fp64, but not in float, get the colors of fp64. Stops when the observer returns false. Fails
-// on devices without double arithmetic, denormal numbers or correctly rounded division.
+// If a requested channel needs the certainty of each pixel, computes it into *result. Pixels that
+// are certain in fp64, but not in float, get the colors of fp64. Stops when the observer returns
+// false. Fails on devices without double arithmetic, denormal numbers or correctly rounded
+// division.
 bool session_certify(Session *session, const SessionPicture *request,
                      const RenderObserver *observer, Framebuffer *framebuffer,
                      PictureResult *result, Error *error);
 
-// Computes the channels of a picture with this result into *layers. Stops when the observer returns
-// false. *layers must have the names of request->channels (aov_name_layers) and the picture's size.
+// Computes request->channels into *layers. *result must be the result of session_draw and
+// session_certify. Stops when the observer returns false. *layers must have the names of
+// request->channels (aov_name_layers) and the picture's size.
 bool session_draw_channels(Session *session, const SessionPicture *request,
                            const RenderObserver *observer, Layers *layers,
                            const PictureResult *result, Error *error);

@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-// Files of kernels, embedded at build time.
+// Source files of kernels, embedded at build time.
 extern const char rays_source[], certify_rays_source[];
 
 #define ARGUMENTS "bnnnbb"
@@ -19,7 +19,8 @@ static const KernelEntry entries[RAY_QUERIES] = {
                   .dimensions = 1},
     [RAYS_CERTAIN] = {"certify_rays", certify_rays_source, NULL, ARGUMENTS, .dimensions = 1}};
 
-// Makes the buffer unless it exists. An earlier call may have made only some of the buffers.
+// Makes the buffer unless it exists. An earlier call may have failed after it made some of the
+// buffers.
 static bool make_buffer(cl_mem *buffer, const Device *device, size_t size, Error *error)
 {
     return *buffer != NULL || device_buffer(device, size, buffer, error);
@@ -87,7 +88,7 @@ static bool compile(RayScene *scene, const Session *session, NodeLayout layout, 
     return true;
 }
 
-// Lists the triangles of all meshes.
+// Stores each triangle's mesh and its number in the mesh.
 static void name_triangles(TrianglePlace *places, const Scene *scene)
 {
     for (uint32_t mesh = 0; mesh < scene->objects.count; mesh++) {

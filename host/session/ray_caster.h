@@ -8,7 +8,8 @@
 typedef enum {
     RAYS_NEAREST, // kernels/rays.cl: the nearest hit, or whether there is one
     RAYS_ALL,     // kernels/rays.cl: the number of hits, and the nearest ones in order
-    RAYS_CERTAIN, // kernels/certify_rays.cl: whether rounding cannot change RAYS_NEAREST's hits
+    RAYS_CERTAIN, // kernels/certify_rays.cl: whether the hits of RAYS_NEAREST are independent of
+                  // rounding
     RAY_QUERIES
 } RayQuery;
 
@@ -20,33 +21,33 @@ typedef struct {
 
 // A scene for rays, in device buffers that kernels search and as triangles on the host.
 typedef struct {
-    SceneForm form;        // its triangles are as traced, in the order of their ids
+    SceneForm form;        // form.stages has the traced triangles in the order of their ids
     Normalization frame;   // of the primitives alone, so that rays do not depend on cameras
-    TrianglePlace *places; // of the triangles
+    TrianglePlace *places; // by triangle, in the order of ids; owned
     bool is_loaded, one_sided;
 } RayScene;
 
-// {0} has no kernels, buffers and scenes.
+// An empty caster, without kernels, buffers and scenes, is {0}.
 typedef struct {
-    const Kernel *kernels[RAY_QUERIES]; // for the scene of the last ray_caster_open
+    const Kernel *kernels[RAY_QUERIES]; // by query, from its last ray_caster_open
     cl_mem rays, hits, counts;          // room for one cast
     RayScene scenes[NODE_LAYOUTS];
 } RayCaster;
 
 // Makes the query's kernel, for scenes with or without spheres, and the buffers, unless they exist.
-// Without spheres, the kernel compiles in 0.85 of the time. Fails for RAYS_CERTAIN if
+// Without spheres, compiling takes 0.85 times as long as with spheres. Fails for RAYS_CERTAIN if
 // certifier_check_device rejects the device.
 bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, bool has_spheres,
                      Error *error);
 void ray_caster_close(RayCaster *caster);
 
-// Opens the query and returns the session's scene in the node layout of its kernel, or NULL on
-// failure. Compiles the scene unless the caster has it with this value of one_sided. If one_sided
-// is false, rays hit all triangles from both sides.
+// Calls ray_caster_open, and returns the session's scene in the node layout of the query's kernel,
+// or NULL on failure. Compiles the scene unless the caster has it with this value of `one_sided`.
+// If `one_sided` is false, rays hit all triangles from both sides.
 const RayScene *ray_caster_scene(RayCaster *caster, Session *session, RayQuery query,
                                  bool one_sided, Error *error);
 
-// Releases the scenes. The session's scene may change afterwards.
+// Releases the scenes. Callers must call this function before the session's scene changes.
 void ray_caster_free_scenes(RayCaster *caster);
 
 typedef struct {
@@ -64,6 +65,7 @@ typedef struct {
 #define CAST_RAYS 262144
 #define HITS_MAX  1048576
 
-// Stores the hits and, for RAYS_ALL, the numbers of hits. For RAYS_CERTAIN, stores in counts which
-// hits of the preceding cast are certain. It must have been RAYS_NEAREST with the same rays.
+// Stores the hits and, for RAYS_ALL, the numbers of hits. For RAYS_CERTAIN, stores in cast->counts
+// which hits of the preceding cast are certain. The preceding cast must have been RAYS_NEAREST with
+// the same rays.
 bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, Error *error);

@@ -3,14 +3,14 @@
 // by a fraction of a pixel. The shifts follow Roberts's R2 sequence, an additive recurrence by
 // powers of the plastic number. No shift lies on the N x N grid of --aa.
 //
-// Even and odd passes form two pictures, whose shifts start at different points. The difference of
-// the two pictures measures the reference's own error.
+// Even and odd passes form two pictures, whose shifts start at different points. The reference is
+// the mean of the two pictures, and their difference measures its error.
 //
 // The reference has the accuracy of fp64, but most passes are drawn in fp32, which is 6 to 9 times
 // faster. Some passes are drawn in both precisions. The mean difference between the precisions is
 // added to the mean of all fp32 passes. The sum's expected value is the picture in fp64 (Giles,
-// Multilevel Monte Carlo Path Simulation, 2008). The difference is nearly always zero, so few
-// passes suffice.
+// Multilevel Monte Carlo Path Simulation, 2008). This difference is nearly always zero, so few
+// passes in fp64 suffice.
 #include "session/reference.h"
 
 #include "render/tile_pass.h"
@@ -27,7 +27,7 @@
 
 typedef struct {
     Renderer fast, exact; // fp32 and fp64
-    CameraData camera;    // the picture's, for one sample per pixel
+    CameraData camera;    // the requested camera, for one sample per pixel
     const RenderObserver *observer;
     Framebuffer pass;              // picture of the latest pass
     double (*halves[2])[3];        // pictures of the even passes and of the odd passes
@@ -66,7 +66,7 @@ static bool tile_done(void *context, const RenderProgress *progress)
     return !reference->stopped;
 }
 
-// Draws a pass, multiplies it by weight, and adds it to the even or the odd picture.
+// Draws a pass, multiplies its colors by `weight`, and adds them to the even or the odd picture.
 static bool add_pass(Reference *reference, Renderer *renderer, double weight, Error *error)
 {
     CameraData camera = reference->camera;
@@ -105,8 +105,8 @@ static bool draw_passes(Reference *reference, Error *error)
     return ok;
 }
 
-// Stores the mean of the even and the odd picture. Returns the mean's RMSE, estimated from the
-// difference of the two pictures.
+// Stores the mean of the even and the odd picture in *mean. Returns the mean's RMSE, estimated from
+// the difference of the two pictures.
 static double join_halves(const Reference *reference, Framebuffer *mean)
 {
     const size_t pixels = (size_t)mean->width * mean->height;

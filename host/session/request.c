@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Checks the members of a ClrtPicture and replaces members of value 0 by defaults.
+// Checks the members of a ClrtPicture, and replaces members with the value 0 by defaults.
 #include "session/request.h"
 
 #include "scene/camera.h"
 
 #include <math.h>
 
-// Omitted reflections may cause this fraction of the error goal. The fraction is small because more
-// levels cost less time than more samples.
+// Omitted reflections may use up this fraction of the error goal. The fraction is small, because
+// additional levels cost less time than additional samples.
 #define TRUNCATION_PART 0.25
 
-// TRUNCATION_PART for scenes with glass. This fraction is larger, because each level multiplies the
-// time by about 1.4.
+// This fraction replaces TRUNCATION_PART in scenes with glass. It is larger, because each level of
+// glass multiplies the time by about 1.4.
 #define GLASS_PART 0.7
 
-// The default samples per pixel and axis if the scene is a mesh file.
+// The default of RenderSettings::samples if the scene is a mesh file.
 #define MESH_SAMPLES 3
 
 // The default side of a tile in pixels.
@@ -25,7 +25,8 @@
 
 #define TURN_MOST 1e9 // degrees
 
-// Smaller error goals need fp64. The limit is four times fp32's measured error, 4e-5.
+// Error goals below this limit require fp64. The limit is four times 4e-5, which is the measured
+// error of fp32.
 #define ERROR_OF_FP64 1.6e-4
 
 bool request_needs_fp64(const ClrtPicture *wanted)
@@ -116,14 +117,15 @@ static uint32_t limited_level(uint32_t level, const Scene *scene)
     return level < limit ? level : limit;
 }
 
-// Returns the largest error that a chosen level may cause.
+// Returns the largest error that a max_level may cause if an error bound determines it.
 static double level_bound(const ClrtPicture *wanted, const Scene *scene)
 {
     const double part = scene_has_glass(scene) ? GLASS_PART : TRUNCATION_PART;
     return wanted->truncation > 0 ? wanted->truncation : wanted->error * part;
 }
 
-// With glass, a chosen level is preliminary (session_choose_level).
+// In scenes with glass, session_choose_level may replace a max_level that an error bound
+// determines.
 static uint32_t max_level_of(const ClrtPicture *wanted, const Scene *scene)
 {
     if (chooses_level(wanted))
@@ -152,7 +154,7 @@ static uint32_t samples_of(const ClrtPicture *wanted, const Scene *scene)
 }
 
 // Replaces the size of the whole picture by the crop's size and position. Returns false if the crop
-// is empty or leaves the picture.
+// is empty or exceeds the picture.
 static bool crop_settings(RenderSettings *settings, const ClrtPicture *wanted)
 {
     const uint32_t width = settings->width, height = settings->height;

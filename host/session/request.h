@@ -22,20 +22,20 @@ typedef enum {
 // A rule that a request breaks. `other` is NULL unless the rule is REQUEST_CONFLICT.
 typedef struct {
     RequestRule rule;
-    const char *setting, *other; // members of ClrtPicture, channels, "crop", "tile" or "fp64"
+    const char *setting, *other; // a member of ClrtPicture, a channel, "crop", "tile" or "fp64"
     double value, low, high;     // for REQUEST_NUMBER; REQUEST_FP64 has no `high`
 } RequestFault;
 
-// Returns whether a request with these channels and this precision keeps all rules that do not
-// depend on the scene. If not, fills *fault.
+// Returns whether a request with these channels and this precision obeys all rules that do not
+// depend on the scene. If the request breaks a rule, fills *fault.
 bool request_check(const ClrtPicture *wanted, AovSet channels, ClrtPrecision precision,
                    RequestFault *fault);
 
-// Returns whether the error goal is too small for fp32. request_check rejects such a goal in fp32.
+// Returns whether the error goal is too small for fp32. With fp32, request_check rejects this goal.
 bool request_needs_fp64(const ClrtPicture *wanted);
 
 // Completes a request with the scene's defaults. request_check must have accepted the request. If
-// camera is NULL, the scene must have the view wanted->view. Returns false if the crop is empty or
-// leaves the picture.
+// `camera` is NULL, the scene must have the view wanted->view. Returns false if the crop is empty
+// or exceeds the picture.
 bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpoint *camera,
                      SessionPicture *picture);

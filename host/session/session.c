@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Opens the device, and chooses and makes kernels. session_begin opens the device on a background
-// thread while the caller's thread reads the scene. Making the kernel on the background thread,
-// too, would save no measurable time.
+// thread while the caller's thread reads the scene. Making kernels on this thread as well would
+// save no measurable time.
 //
-// Two choices save time and never change a picture. Small pictures use kernels that compile faster,
-// and kernels are specialized for the scene if this saves more time than compiling them takes
-// (costs.h).
+// Two choices save time and never change a picture. Small pictures use kernels that compile faster.
+// Kernels are specialized for the scene if this saves more time than compiling takes (costs.h).
 #include "session/session.h"
 
 #include "base/clock.h"
@@ -37,7 +36,7 @@ static void *run_thread(void *context)
 void session_begin(Session *session)
 {
     session->is_running = device_thread_start(&session->thread, run_thread, session);
-    if (!session->is_running) // fall back to opening the device on this thread
+    if (!session->is_running) // fall back to the caller's thread
         run_thread(session);
 }
 
@@ -61,9 +60,9 @@ static bool is_compiled(const Session *session, const KernelEntry *entry, Kernel
     return kernel_set_has(&session->kernels, &spec);
 }
 
-// Pair kernels compile faster than packets, but trace more slowly. Until packets are compiled, pair
-// kernels draw small pictures of small scenes, if this saves time in total. With a kernel_folder,
-// keeps the choice that open_device made.
+// Pair kernels compile faster than packets, but trace more slowly. If packets are not in the cache,
+// pair kernels draw small pictures of small scenes if this saves time in total. With a
+// kernel_folder, the choice of open_device remains.
 static void choose_quick_kernels(Session *session, const SessionWork *work)
 {
     const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP32};

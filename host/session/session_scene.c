@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compiles the session's scene. Each form is compiled when a kernel first needs it.
+// Compiles the session's scene. Each form is compiled when a kernel first requires it.
 #include "accel/sphere_tree.h"
 #include "session/costs.h"
 #include "session/session.h"
