@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// clrt check: reads the scene, examines its geometry, casts rays to find leaks if there is a
-// device, and writes a report. The text lists each mesh with its findings. JSON contains every
-// count, even if it is 0.
+// clrt check: reads the scene, examines its geometry, casts rays to find leaks, and writes a
+// report. Without a device, it casts no rays. The text lists each mesh with its findings. JSON
+// contains every count, even if it is 0.
 #include "cli/commands.h"
 
 #include "base/clock.h"
@@ -34,7 +34,7 @@ static json_t *leaks_json(const Check *check, const MeshCensus *census)
                 FIELD("hidden", facts->hidden), FIELD("cap", json_count(LEAKS_AIMS)));
 }
 
-// Returns the counts of an object's faults. The leaks are in the member "leak_test" instead.
+// Returns the counts of an object's faults except leaks, which the member "leak_test" contains.
 static json_t *faults_json(const MeshCensus *census)
 {
     json_t *all = json_object();
@@ -104,7 +104,7 @@ static json_t *report_json(const Check *check)
                   FIELD("seconds", check->seconds));
 }
 
-// Writes the findings of a mesh, or of the whole scene if mesh is NOTHING. The findings start at
+// Writes the findings of a mesh, or of the whole scene if `mesh` is NOTHING. The findings start at
 // index *next, and *next advances past them.
 static void write_findings(const Check *check, uint32_t mesh, size_t *next, FILE *stream)
 {
@@ -168,7 +168,8 @@ static void write_mesh(const Check *check, const json_t *mesh, size_t object, FI
     fputs(facts->leaks > 0 && !facts->closed ? ", because it is not closed\n" : "\n", stream);
 }
 
-// Writes the numbers of objects. If the file is a lone mesh, clrt has added its spheres and lights.
+// Writes the numbers of meshes, triangles, spheres and lights. Omits spheres and lights that clrt
+// has added to a lone mesh.
 static void write_counts(const Check *check, FILE *stream)
 {
     const Scene *scene = check->scene;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The commands of clrt. Each command returns the exit status, and fills error unless it returns
-// EXIT_DONE. check and compare leave error empty if they return EXIT_FAULTS, because their reports
-// contain the reason.
+// The commands of clrt. Each command returns the exit status, and fills *error unless it returns
+// EXIT_DONE. If check and compare return EXIT_FAULTS, *error is empty, because the reports contain
+// the reason.
 #pragma once
 
 #include "base/file_plan.h"
@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 // A command that traces. If the command reads a scene, it stores the scene in *scene. The caller
-// has opened the session's cache, and frees the scene afterwards.
+// opens the session's cache before the call, and frees the scene after the call.
 typedef ExitCode TracingCommand(const Options *options, Session *session, Scene *scene,
                                 Error *error);
 
@@ -33,8 +33,8 @@ TracingCommand explain_scene;
 // clrt explain SCENE X,Y: prints how clrt computes a pixel's color.
 TracingCommand explain_pixel;
 
-// clrt check: reports faults of a scene's geometry. A missing or failing device is an error only if
-// the options name a device or fp64. Otherwise, the report omits the leaks.
+// clrt check: reports faults of a scene's geometry. Without a working device, the report omits the
+// leaks. If the options name a device or fp64, a missing or failing device is an error.
 TracingCommand check_scene;
 
 // clrt devices: lists the OpenCL devices like `clinfo -l`, as versioned JSON, or in both forms.
@@ -55,10 +55,10 @@ ExitCode merge_parts(const Options *options, Error *error);
 // clrt convert: writes a scene or mesh as scene text with binary PLY meshes, or as one PLY mesh.
 ExitCode convert_scene(const Options *options, Error *error);
 
-// The next two functions handle the files that the options name. If `scene` is not NULL, they also
-// handle the scene's files.
+// The next two functions concern the files that the options name and, if `scene` is not NULL, the
+// scene's files.
 
-// Adds these files to `plan`.
+// Adds the files to *plan.
 bool command_files_add(FilePlan *plan, const Options *options, const Scene *scene, Error *error);
 
 // Fails if an output would replace an input or another output. main calls this function before any

@@ -3,10 +3,11 @@
 // blame the library, because its caller may be at fault. For example, abort() stops in the C
 // library, but its caller is at fault.
 //
-// LLVM installs its own handlers while it compiles a kernel. Its SIGABRT handler does not call
-// clrt's handler. If two threads crash at once, its other handlers do not restore clrt's handlers.
-// The executable therefore overrides the C library's sigaction and ignores requests to replace
-// clrt's handlers. Only SIGFPE may get another handler: PoCL uses it to skip divisions by zero.
+// LLVM installs its own handlers while it compiles a kernel. LLVM's SIGABRT handler does not call
+// clrt's handler. If two threads crash at once, LLVM's other handlers do not restore clrt's
+// handlers. The executable therefore overrides the C library's sigaction and ignores requests to
+// replace clrt's handlers. Only SIGFPE may get another handler: PoCL uses it to skip divisions by
+// zero.
 #include "cli/crash.h"
 
 #include "cli/options/options.h"
@@ -53,7 +54,8 @@ static void print_message(const char *message)
     (void)written; // if standard error is closed, there is no message
 }
 
-// Prints the message and ends the process. If several threads crash, the others wait.
+// Prints the message and ends the process. If several threads crash, only the first one prints a
+// message.
 static _Noreturn void end(const char *message)
 {
     while (atomic_flag_test_and_set(&has_ended))
@@ -110,7 +112,7 @@ static bool is_kept(int number)
     return number == SIGSEGV || number == SIGBUS || number == SIGILL || number == SIGABRT;
 }
 
-// The C library's internal name of sigaction.
+// The C library's sigaction under its internal name.
 extern int __sigaction(int number, const struct sigaction *action, struct sigaction *before);
 
 __attribute__((visibility("default"))) int sigaction(int number, const struct sigaction *action,

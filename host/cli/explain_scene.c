@@ -32,7 +32,8 @@ static json_t *count_reason(uint32_t count)
     return count > 0 ? json_sprintf("%u of them", count) : json_string("there are none");
 }
 
-// Returns why a trait is needed or not. Reasons without numbers come from the table of traits.
+// Returns the reason why the scene needs a trait or does not need it. Reasons without numbers come
+// from the table of traits.
 static json_t *part_reason(const Session *session, const SceneForm *form, const Trait *trait,
                            bool is_needed)
 {
@@ -61,8 +62,8 @@ static json_t *part_reason(const Session *session, const SceneForm *form, const 
     }
 }
 
-// Describes the kernel features that can be omitted when the kernels are compiled. General programs
-// also contain features that the scene does not need.
+// Lists the kernel features that the compiler can omit. General programs also contain features that
+// the scene does not need.
 static json_t *parts_json(const Session *session, const SceneForm *form, bool counts,
                           bool is_special)
 {
@@ -132,7 +133,7 @@ static json_t *report_json(const Options *options, const Session *session, const
                   FIELD("uploaded_bytes", arrays_json(&form->flat)));
 }
 
-// Prints the heading and the features that match both flags. Prints nothing if none match.
+// Prints the heading and the features that match both flags. Prints nothing if no feature matches.
 static void write_parts(const json_t *parts, const char *heading, bool is_needed, bool is_compiled)
 {
     for (size_t i = 0; i < json_array_size(parts); i++) {

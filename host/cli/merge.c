@@ -2,8 +2,8 @@
 // clrt merge: joins the parts of a picture. A first pass checks all parts, and a second pass copies
 // their tiles into the whole picture. All parts must have the same scene, version and settings, and
 // each part must occur once. If can_join() is true, compressed tiles are copied, and the picture is
-// never in memory. Otherwise, tiles are decoded into a picture in memory. This picture is allocated
-// only if no part is missing.
+// never in memory. Otherwise, tiles are decoded into a picture in memory, which is allocated after
+// the first pass.
 #include "cli/commands.h"
 
 #include "base/output_file.h"
@@ -19,14 +19,14 @@ typedef struct {
     const Options *options;
     Framebuffer framebuffer; // empty if `joins` is true
     Layers layers;
-    Provenance provenance; // of the first part, but with the devices of all parts
+    Provenance provenance; // of the first part, with the devices of all parts
     StoredTiles first;     // settings of the first part that can be opened
     const char *first_path;
     const char **paths; // by part, NULL for a missing part; the array is owned
     bool joins;         // copies compressed tiles into an EXR file instead of decoding them
     ExrJoin join;
     bool is_checked; // the first pass is complete, and no part is missing
-    Error unopened;  // the reason why a part cannot be opened
+    Error unopened;  // the reason why a file cannot be opened; empty if all can
     bool is_damaged; // a part cannot be used
 } Merging;
 
@@ -55,7 +55,7 @@ static const char *mismatch_of(const Merging *merging, const StoredTiles *tiles,
     return stored_tiles_has(image, &merging->layers) ? NULL : "other channels";
 }
 
-// Returns whether the list has the name. The list separates names by "; ".
+// Returns whether the list contains the name. The names in the list are separated by "; ".
 static bool has_name(const char *list, const char *name)
 {
     const size_t length = strlen(name);
@@ -80,8 +80,8 @@ static void note_device(Merging *merging, const StoredImage *image)
     }
 }
 
-// Returns whether parts can be joined without decoding. The output must be an EXR file with the
-// parts' tile size, and no hash of the pixels may be requested.
+// Returns whether parts can be joined without decoding their tiles. The output must be an EXR file
+// with the parts' tile size, and no hash of the pixels may be requested.
 static bool can_join(const Options *options, const ExrFile *file)
 {
     return image_format_takes_layers(options->format) && file->tile_width == EXR_TILE &&
@@ -223,7 +223,7 @@ static bool visit_parts(Merging *merging, FILE *stream, Error *error)
 typedef struct {
     Merging *merging;
     const ImageSettings *settings;
-    Error *error; // about a part
+    Error *error; // receives faults of parts
 } Joining;
 
 // Writes the joined picture. If a part cannot be used, returns false and sets errno to 0.

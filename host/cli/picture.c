@@ -154,7 +154,8 @@ static bool write_statistics(Picture *picture, Error *error)
     return options->json_path == NULL || report_write_json(picture, options->json_path, error);
 }
 
-// Before any work, checks SOURCE_DATE_EPOCH, and whether the outputs can be written and resumed.
+// Checks SOURCE_DATE_EPOCH, and whether the outputs can be written and resumed. This comes before
+// any work.
 static ExitCode check_files(Picture *picture, Error *error)
 {
     const Options *options = picture->options;
@@ -170,7 +171,7 @@ static ExitCode check_files(Picture *picture, Error *error)
                                                                                  : EXIT_SCENE;
 }
 
-// Fails if a picture is too large for its format.
+// Fails if the picture, or the reference, is too large for the format of its file.
 static bool check_sizes(const Options *options, const RenderSettings *settings, Error *error)
 {
     const uint32_t width = settings->width, height = settings->height;
@@ -227,7 +228,8 @@ static void set_view(Picture *picture, uint32_t number)
                                                 scene->has_course_views, picture->turned);
 }
 
-// Creates a black picture and copies the finished tiles of an earlier run into it.
+// Creates a black picture. With --resume, copies the finished tiles of an earlier run into the
+// picture.
 static bool begin_picture(Picture *picture, Error *error)
 {
     Provenance own;

@@ -6,7 +6,7 @@
 #include "jobs/resume.h"
 #include "session/picture.h"
 
-// A picture's reference, and the picture's difference from it.
+// A picture's reference, and the picture's difference from the reference.
 typedef struct {
     Framebuffer picture; // empty without --reference
     uint32_t samples;    // per pixel; 0 until the difference is measured
@@ -27,13 +27,13 @@ typedef struct {
     Framebuffer framebuffer;
     Framebuffer film; // all frames of an animated file, in a column; empty for other files
     MeasuredReference reference;
-    Layers layers;        // the channels besides the colors
+    Layers layers;        // the channels other than the colors
     Resume resume;        // empty without --resume
     int stopped_by;       // the signal that stopped the picture, or 0
-    double start, moment; // when the command began; when the previous frame ended, at first start
+    double start, moment; // begin of the command; end of the previous frame, initially `start`
 
     // For reports.
-    const SceneForm *form; // the scene for the picture's kernels
+    const SceneForm *form; // the scene in the layout of the picture's kernels
     PictureResult drawn;
     bool complete; // all colors and channels are drawn
     StageSeconds stages;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Computes a finished picture's certainty, and its error against a reference.
+// Computes the certainty of a finished picture, and the picture's error against a reference.
 #pragma once
 
 #include "cli/picture_data.h"
 
-// Appends the error channel. The error of a pixel is the largest difference of its colors from the
-// reference. Does nothing if there is no reference, if the file's format has no channels, or if
-// --aov has already added the error channel.
+// Appends the error channel to *layers. The error of a pixel is the largest difference between its
+// color components and the reference's. Does nothing if there is no reference, if the file's format
+// has no channels, or if --aov has already added the error channel.
 void reference_name_layer(const Options *options, Layers *layers);
 
 // With --reference, draws the reference of the picture (session/reference.h), measures and prints
@@ -18,5 +18,6 @@ bool reference_measure(Picture *picture, Error *error);
 bool reference_write(const Picture *picture, Error *error);
 
 // With --aov certainty, computes the certainty of each pixel of a finished picture. If only fp64 is
-// exact enough for a pixel, replaces the pixel's color. Does nothing to a picture that was stopped.
+// exact enough for a pixel, the pixel gets the color of fp64. Does nothing to a picture that was
+// stopped.
 bool picture_certify(Picture *picture, Error *error);

@@ -2,7 +2,7 @@
 // Handles SIGINT, SIGTERM and SIGHUP, and makes stacks large enough for compilers. The handler of
 // each signal runs only once. After the first tile has begun, the handler only sets a flag, so the
 // first signal never interrupts the writing of traced tiles. The second signal ends the process.
-// Before the first tile, the first signal ends the process too, because compilation cannot be
+// Before the first tile, even the first signal ends the process, because compilation cannot be
 // interrupted.
 #include "cli/process.h"
 

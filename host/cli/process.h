@@ -15,10 +15,10 @@ void stop_watch(void);
 // result of stop_signal.
 void stop_wait_for_tiles(void);
 
-// Returns the signal that requested the stop, or 0.
+// Returns the number of the latest signal that arrived after stop_wait_for_tiles, or 0.
 int stop_signal(void);
 
 // Calls work(context) with a stack that is large enough for compilers, regardless of `ulimit -s`.
-// Returns when `work` has returned. If the limit is below 8 MiB, work runs on a new thread with a
-// larger stack, and threads of drivers get larger stacks too.
+// Returns when `work` has returned. If this limit is below 8 MiB, `work` runs on a new thread with
+// a larger stack, and threads of drivers get larger stacks too.
 void stack_run(void *(*work)(void *context), void *context);

@@ -92,8 +92,8 @@ void progress_show_loading(bool begins)
     show("loading the scene", show_slow, begins);
 }
 
-// Estimates the remaining time from the tiles drawn by this process. Tiles of an earlier run do not
-// count, because this process spent no time on them.
+// Prints the progress. The remaining time is estimated from the tiles that this process has drawn.
+// Tiles of an earlier run do not count, because this process spent no time on them.
 static void print_progress(Progress *progress, const RenderProgress *render)
 {
     const double elapsed = clock_seconds() - progress->start;

@@ -9,7 +9,7 @@ typedef struct {
     bool silent;
     bool terminal;    // standard error is a terminal, so one line is rewritten
     double start;     // from clock_seconds
-    unsigned printed; // percent in the last line of a log
+    unsigned printed; // percentage in the last line that was printed to a log
     bool line_open;   // the terminal shows the rewritten line
 } Progress;
 
@@ -21,12 +21,13 @@ bool progress_on_terminal(void);
 // Implements Cache::announce for terminals. Shows the elapsed seconds while kernels are compiled.
 void progress_show_compiling(bool begins);
 
-// Shows the elapsed seconds while a scene is loaded or its tree is built, after the first 0.5 s.
+// Shows the elapsed seconds while a scene is loaded or its tree is built, if this takes more than
+// 0.5 s.
 void progress_show_loading(bool begins);
 
-// Implements RenderObserver::tile_done, and prints the progress of tracing; context is a Progress.
-// Returns false after a signal, which stops tracing.
+// Implements RenderObserver::tile_done for a `context` of type Progress. Prints the progress of
+// tracing. Returns false after a signal, which stops tracing.
 bool progress_tile_done(void *context, const RenderProgress *progress);
 
-// Clears the rewritten line. Returns the signal that requested the stop, or 0.
+// Clears the rewritten line. Returns stop_signal().
 int progress_end(Progress *progress);

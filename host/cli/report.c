@@ -81,7 +81,7 @@ static json_t *settings_json(const Picture *picture)
                 FIELD("precision", kernel_precision_name(choice->precision)));
 }
 
-// Returns null for refined pictures, which are drawn in several passes without tiles.
+// Returns JSON's null for pictures with a goal, which are not drawn tile by tile.
 static json_t *tiles_json(const Picture *picture)
 {
     const uint64_t found = picture->request.settings.ready_tiles;
@@ -278,7 +278,8 @@ static json_t *stored_samples_json(const Picture *picture)
                : json_count(picture->request.settings.samples);
 }
 
-// If the file has counts of tests, adds what they depend on: the tree's builder and node layout.
+// If the file has channels that count tests, adds the settings on which these counts depend: the
+// tree's builder and the node layout.
 static void add_tree(json_t *json, const Picture *picture)
 {
     if (!aov_needs(picture->options->aovs, AOV_NEEDS_TESTS))

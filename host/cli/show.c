@@ -11,8 +11,8 @@
 
 #include <math.h>
 
-// The number of seconds that the process waits for its worker thread after the window is closed.
-// The thread may be compiling, and PoCL's files must not be removed while it compiles.
+// After the window is closed, the process waits at most this many seconds for the worker thread to
+// end. The thread may be compiling, and PoCL's files must not be removed during compilation.
 #define PATIENCE 10
 
 void show_write_keys(FILE *stream)
@@ -22,7 +22,7 @@ void show_write_keys(FILE *stream)
 
 ExitCode show_scene(const Options *options, Session *session, Scene *scene, Error *error)
 {
-    (void)scene; // the window reads scenes again and again
+    (void)scene; // the window reads the scene itself
     static const ExitCode codes[] = {[VIEWER_CLOSED] = EXIT_DONE,
                                      [VIEWER_NO_WINDOW] = EXIT_USAGE,
                                      [VIEWER_NO_SCENE] = EXIT_SCENE,
@@ -45,7 +45,8 @@ ExitCode show_scene(const Options *options, Session *session, Scene *scene, Erro
         .statistics = options->picture.statistics,
         .verbose = options->verbose,
         .patience = PATIENCE};
-    // This check comes first, because a missing scene must be reported even without a display.
+    // This check comes before the window opens, because a missing scene must be reported even
+    // without a display.
     if (!file_check(options->scene_path, error))
         return EXIT_SCENE;
     return codes[viewer_run(&settings, error)];

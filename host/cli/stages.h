@@ -7,7 +7,7 @@
 #include "session/picture.h"
 
 typedef struct {
-    double parse, load, build; // of the text, of its meshes, and of the tree and the arrays
+    double parse, load, build; // of the scene's text, of its meshes, of the tree and arrays
 } StageSeconds;
 
 // Returns the seconds since *moment, and sets *moment to the current time.
@@ -26,15 +26,15 @@ void stage_begin(Session *session, const Options *options);
 // Reads the scene as scn_load does, from the file that the options name or from standard input.
 bool stage_read(Scene *scene, const Options *options, Error *error);
 
-// Reads and checks the scene, and gives it to the session.
+// Reads and checks the scene, and passes it to the session.
 bool stage_load(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
                 Error *error);
 
-// Calls stage_begin and stage_load, and checks the scene's files against the outputs.
+// Calls stage_begin and stage_load. Fails if an output would replace a file of the scene.
 ExitCode stage_start(Session *session, Scene *scene, const Options *options, StageSeconds *seconds,
                      Error *error);
 
-// Fills `request` from the options and the scene.
+// Fills *request from the options and the scene.
 bool stage_request(SessionPicture *request, const Options *options, const Scene *scene,
                    Error *error);
 
@@ -43,6 +43,6 @@ bool stage_request(SessionPicture *request, const Options *options, const Scene 
 const SceneForm *stage_build(Session *session, const Options *options, Error *error);
 
 // Waits for the device, chooses the kernels for the device, the scene and the work, and calls
-// stage_build. Adds the time of stage_build to seconds->build. work may be NULL.
+// stage_build. Adds the time of stage_build to seconds->build. `work` may be NULL.
 ExitCode stage_prepare(Session *session, const Options *options, const SessionWork *work,
                        StageSeconds *seconds, Error *error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// clrt warm [SCENE]: compiles the general kernels and, if a scene is given, the kernels specialized
-// for it. With a scene, "--tune specialize=always" omits the general kernels, and
+// clrt warm [SCENE]: compiles the general kernels and, if a scene is given, kernels specialized for
+// the scene. With a scene, "--tune specialize=always" omits the general kernels, and
 // "specialize=never" omits the specialized kernels.
 #include "cli/commands.h"
 #include "cli/stages.h"

@@ -71,7 +71,7 @@ static const char *option_of_setting(const char *setting)
     return setting;
 }
 
-// Checks the request for a picture by request_check, because the tables of options lack its rules.
+// Checks the request for a picture by request_check, whose rules are not in the tables of options.
 static bool check_request(const Options *options, Error *error)
 {
     RequestFault fault;
@@ -124,7 +124,8 @@ static bool check_window(const Options *options, Error *error)
 #endif
 }
 
-// Advice for films (animated files) in unsupported formats. check_format appends the output path.
+// The advice if the format of a film (an animated file) is unsupported. check_format appends the
+// output path.
 #define FILM "; for a film, draw -o turn.####.png and run ffmpeg -framerate 20 -i turn.%04d.png "
 
 static bool check_format(Options *options, Error *error)

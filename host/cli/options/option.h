@@ -61,7 +61,7 @@ enum {
     FOR_KERNELS = FOR_SCENE | FOR_GENERAL | FOR_WARM               // compiles kernels
 };
 
-// Parses text and stores the value in options. text is NULL if the argument was omitted.
+// Parses `text` and stores the value in *options. `text` is NULL if the argument was omitted.
 typedef bool SetOption(Options *options, const char *text, Error *error);
 
 typedef struct {
@@ -71,7 +71,7 @@ typedef struct {
     OptionKind kind;
     size_t offset;        // of the field in Options
     int64_t limit;        // for OPTION_COUNT, OPTION_AREA and OPTION_ACTION
-    const char *fallback; // the text if the command line omits the argument
+    const char *fallback; // used if the command line omits the argument
     SetOption *set;       // for OPTION_ODD
     OptionGroup group;
     OptionClass class;
@@ -87,7 +87,7 @@ const char *option_key(const Option *option);
 // Returns whether the option's argument is a file name.
 bool option_names_file(const Option *option);
 
-// Parses text and stores the value. On failure, the message names the option or, for auto/N, the
+// Parses `text` and stores the value. On failure, the message names the option or, for auto/N, the
 // environment variable.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);
 
@@ -133,8 +133,8 @@ extern const size_t exclusion_count;
 // given together with one on the right.
 void exclusion_write(const Exclusion *exclusion, char text[EXCLUSION_TEXT_SIZE]);
 
-// Checks the options of a command and their combination. Sets options that depend on others, such
-// as the picture's format.
+// Checks the options of a command and the combination of the options. Sets options that depend on
+// others, such as the picture's format.
 bool options_check(Options *options, const Command *command, Error *error);
 
 // The setters of the options of kind OPTION_ODD. set_pixel parses an operand instead of an option.
@@ -157,5 +157,5 @@ extern const char *const option_group_names[OPTION_GROUPS];
 extern const char *const option_class_names[OPTION_CLASSES];
 extern const char *const option_class_meanings[OPTION_CLASSES];
 
-// Returns whether the command line contains the option. name must be in option_table.
+// Returns whether the command line contains the option. `name` must be in option_table.
 bool option_is_given(const Options *options, const char *name);

@@ -20,9 +20,9 @@ typedef struct {
     uint32_t index, count; // index from 1 to count; 0, 0: the whole job
 } Share;
 
-// Parses `text`. If `text` is malformed or not 1 <= I <= N <= `most`, returns false and leaves
-// error empty. Returns false and fills error if the environment variable is missing, not a number
-// or out of range.
+// Parses `text`. If `text` is malformed or violates 1 <= I <= N <= most, returns false and leaves
+// *error empty. If the environment variable is missing, not a number or out of range, returns false
+// and fills *error.
 bool share_parse(Share *share, const char *text, uint32_t most, Error *error);
 
 // Returns the index of the share's first item among `total` items. Shares are runs of consecutive
@@ -37,20 +37,20 @@ typedef struct {
     uint32_t first, last, step; // last is 0 without a range
     uint32_t turntable;         // steps per full turn; 0: frames are views
     bool is_film;               // one animated file instead of numbered files
-    Share share;                // of these frames; frames_complete applies and clears it
-    bool skips_finished;        // skip frames whose files exist, and write only whole frames
+    Share share;                // of the frames above; frames_complete applies and clears it
+    bool skips_finished;        // skip frames whose files exist, and write only complete frames
 } Frames;
 
 // Parses a range ("A-B" or "A-B:S"), a share, or a range and a share with a comma between them.
-// Returns false on failure, and fills error as share_parse does.
+// Returns false on failure, and fills *error as share_parse does.
 bool frames_parse(Frames *frames, const char *text, Error *error);
 
 // Returns whether --frames or --turntable is given.
 bool frames_are_many(const Frames *frames);
 
-// Completes the selection of frames. If there is no range, selects all steps of the turntable. Then
-// reduces the range to the share. Fails if there is neither a range nor a turntable, or if there
-// are fewer frames than shares.
+// Completes the selection of frames. Without a range, selects all steps of the turntable. Then
+// reduces the range to the share, if any. Fails if there is neither a range nor a turntable, or if
+// there are fewer frames than shares.
 bool frames_complete(Frames *frames, Error *error);
 
 // Returns the number of frames, which is 1 without --frames and --turntable.
@@ -60,7 +60,7 @@ uint32_t frames_count(const Frames *frames);
 uint32_t frames_at(const Frames *frames, uint32_t place);
 
 // Returns the path of a frame's file. The number with leading zeros replaces the last run of '#'
-// after the last slash of pattern. Without a '#', the number is inserted before the ending, as in
+// after the last slash of `pattern`. Without a '#', the number is inserted before the ending, as in
 // ".0001.png". The caller frees the path. Returns NULL if memory is exhausted.
 char *frames_name(const char *pattern, uint32_t number, Error *error);
 
@@ -71,10 +71,10 @@ typedef struct {
     double corners[4]; // left, top, right and bottom; right and bottom are exclusive
 } Crop;
 
-// Returns false if text is malformed.
+// Returns false if `text` is malformed.
 bool crop_parse(Crop *crop, const char *text);
 
-// Sets the crop of a picture whose size is set. Rounds fractions to the nearest pixel edge, so
+// Sets the crop of *picture, whose size must be set. Rounds fractions to the nearest pixel edge, so
 // neighboring crops neither overlap nor leave gaps. Fails if the crop is empty or too large.
 bool crop_apply(const Crop *crop, ClrtPicture *picture, Error *error);
 
@@ -128,18 +128,17 @@ typedef struct {
     char **part_paths;      // part_count file names of ACTION_MERGE
     int part_count;
     const char *other_path;  // the second picture of ACTION_COMPARE; the output of ACTION_CONVERT
-    const char *output_path; // "-": standard output; NULL without -o, also if only a hash
-                             // is printed
-    const char *format;      // of the output; "pfm" if the picture is only hashed; otherwise NULL
-    AovSet aovs;             // channels besides the colors
+    const char *output_path; // "-": standard output; NULL without -o
+    const char *format;      // of the output; "pfm" if there is only a hash; NULL without both
+    AovSet aovs;             // channels other than the colors
     ClrtPicture picture;     // without crop, camera and truncation, which need the scene
     ClrtSettings renderer;
     SceneLoadOptions load;
     Crop crop;
     uint32_t part, parts; // part counts from 1; 0, 0: the whole picture
-    bool resume;          // for one picture; frames have skips_finished
+    bool resume;          // of a single picture; frames use skips_finished
     Frames frames;
-    bool fits_level; // use the smallest max_level whose error is invisible in a file of the format
+    bool fits_level; // use the smallest max_level whose error is invisible in a file of this format
     bool reference;  // measure the picture against a reference
     const char *reference_path; // the file for the reference; NULL: do not write it
     uint32_t repeat;            // the number of times to draw the picture, at least 1
@@ -147,7 +146,7 @@ typedef struct {
     double exposure;           // in stops
     bool no_metadata;          // omit the metadata of picture files
     bool hash;                 // print the hash of the pixels, or check it
-    const char *expected_hash; // NULL: print it
+    const char *expected_hash; // NULL: none, so print the hash
     const char *keys;          // key presses to play in the window; NULL for none
     BadGeometry bad_geometry;
     Limits limits;         // of ACTION_COMPARE
@@ -169,5 +168,5 @@ static inline bool options_read_input(const Options *options)
     return strcmp(options->scene_path, "-") == 0;
 }
 
-// Parses the command line into options, or fails with a message.
+// Parses the command line into *options.
 bool options_parse(Options *options, int count, char **arguments, Error *error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parses the command line into Options. getopt splits the command line, option.c parses and stores
-// the values, and check.c checks their combination. If clrt does not have an option, the message
-// suggests a similar one.
+// the values, and check.c checks their combination. The message about an unknown option suggests a
+// similar one.
 #include "cli/options/options.h"
 
 #include "base/word.h"
@@ -112,8 +112,8 @@ static bool mark_given(Options *options, size_t row, Error *error)
 }
 
 // Returns the row of the command. If `name` is empty, the options select the row. Otherwise,
-// returns the last row of this name that needs at most `count` operands. If all rows of this name
-// need more operands, returns the first of them.
+// returns the last row of this name that requires at most `count` operands. If all rows of this
+// name require more operands, returns the first of these rows. Returns NULL for an unknown name.
 static const Command *find_command(const Options *options, const char *name, int count)
 {
     const unsigned picture = options->output_path != NULL ? FOR_FILE

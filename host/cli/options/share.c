@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses shares, and divides items among them.
+// Parses shares, and divides items among shares.
 #include "cli/options/options.h"
 
 #include "base/number.h"
