@@ -25,14 +25,14 @@ static size_t folder_length(const Files *files)
     return (size_t)(strrchr(files->model, '/') - files->model) + 1;
 }
 
-// Returns whether file is in folder or in a subfolder. Neither path may contain links.
+// Returns whether `file` is in `folder` or in a subfolder. Neither path may contain links.
 static bool is_below(const char *file, const char *folder)
 {
     const size_t length = strcmp(folder, "/") == 0 ? 0 : strlen(folder);
     return strncmp(file, folder, length) == 0 && file[length] == '/';
 }
 
-// Returns whether path is in the model's folder or below. Links are resolved first, because the
+// Returns whether `path` is in the model's folder or below. Links are resolved first, because the
 // folder may contain hostile links.
 static bool stays_inside(const Files *files, const char *path)
 {

@@ -21,7 +21,7 @@ typedef struct {
     char missing[256];         // path of the first material library that was not opened, or ""
 } Files;
 
-// Initializes files for the model at this path. `files` borrows the path.
+// Initializes *files for the model at the path `model`, which *files borrows.
 void files_init(Files *files, const char *model);
 
 // Reads the model file. Returns false on failure.

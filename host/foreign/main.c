@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program clrt-foreign. `clrt-foreign MODEL` reads a model with Assimp. `clrt-foreign PICTURE
 // FORMAT MODULE` reads a picture with OpenImageIO. Both write records (base/foreign.h) to standard
-// output, with 8-bit values converted to float. Only clrt and its library run this program.
+// output. The 8-bit values of a picture become floats. Only clrt and its library run this program.
 #include "foreign/process_limits.h"
 #include "foreign/send.h"
 #include "image/image_module.h"
@@ -18,7 +18,7 @@
 #include "foreign/model.h"
 
 // Sends the model. Puts "./" in front of a relative path, so that Assimp searches the model's
-// folder for companion files.
+// folder for the other files of the model.
 static bool send_model(FILE *stream, const char *name, Error *error)
 {
     Files files;
@@ -58,7 +58,7 @@ static void send_content(FILE *stream, const ImageModuleContent *content)
     send_values(stream, content);
 }
 
-// Sends a record FOREIGN_PICTURE. words holds the file's path, the name of its format in
+// Sends a record FOREIGN_PICTURE. `words` holds the file's path, the name of its format in
 // OpenImageIO, and the path of the module that calls OpenImageIO. Returns false and stores the
 // reason if the file cannot be read.
 static bool send_picture(FILE *stream, char *const words[3], Error *error)

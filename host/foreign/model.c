@@ -71,7 +71,8 @@ static unsigned count_corners(const char *line, size_t size)
 }
 
 // Returns false if the polygons of an OBJ file take too long. This check reads the file's text
-// before Assimp does, because Assimp 5.4 takes at least n * n steps to read a face of n corners.
+// before Assimp does, because Assimp 5.4 takes at least n * n steps even to read a face of n
+// corners.
 static bool check_obj(const File *file, Error *error)
 {
     Polygons polygons = {0};

@@ -270,7 +270,7 @@ static uint32_t number_of_material(Sender *sender, const struct aiMesh *mesh)
 }
 
 // Reserves memory for `count` more vertices. If any vertex of the part has a normal, vertices
-// without one get zero vectors.
+// without normals get zero vectors.
 static bool reserve_vertices(Sender *sender, size_t count, bool has_normals, bool has_colors)
 {
     Mesh *mesh = &sender->part.mesh;

@@ -13,7 +13,7 @@ typedef struct {
     bool is_textured; // the color of a part has a texture, which clrt does not render
 } PartCounts;
 
-// Sends each part after its material. keeps_normals is false if the file format has one normal per
+// Sends each part after its material. `keeps_normals` is false for file formats with one normal per
 // triangle, because the triangle's corners determine this normal.
 bool parts_send(FILE *stream, const struct aiScene *scene, bool keeps_normals, PartCounts *counts,
                 Error *error);

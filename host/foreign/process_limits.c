@@ -20,11 +20,11 @@
 #define MEMORY_LEAST      ((rlim_t)256 << 20) // bytes that even the shortest file may use
 #define MEMORY_FACTOR     128                 // bytes of memory per byte of a file
 #define MEMORY_PER_THREAD ((rlim_t)16 << 20)  // bytes; mostly stack
-#define STACK_LIMIT       ((rlim_t)8 << 20)   // bytes; a deeper tree of nodes crashes this process
+#define STACK_LIMIT       ((rlim_t)8 << 20)   // bytes; very deep trees of nodes crash this process
 #define FILE_LIMIT        32                  // open files
 #define PROCESSOR_SECONDS 8                   // processor time for the shortest file
 #define SECONDS           120                 // elapsed time
-#define BYTES_PER_SECOND  2000000 // a file adds a second of processor time for this many bytes
+#define BYTES_PER_SECOND  2000000 // each file adds a second of processor time per this many bytes
 
 // AddressSanitizer maps more memory than any limit could allow, so builds with it do not limit
 // memory. gcc defines a macro for AddressSanitizer, and clang has __has_feature.
@@ -102,7 +102,8 @@ void limits_allow_file(uint64_t bytes)
     raise_limit(RLIMIT_AS, bytes < MEMORY_MOST ? bytes * MEMORY_FACTOR : MEMORY_MOST);
 }
 
-// Allows memory for the picture's values, as much again for the decoder, and some for each thread.
+// Allows memory for the most values that clrt accepts from the file, as much again for the decoder,
+// MEMORY_PER_THREAD for each thread, and MEMORY_LEAST.
 void limits_take_picture(uint64_t bytes)
 {
     const rlim_t most = mapped_memory() + 2 * sizeof(float) * stored_values_most(bytes) +

@@ -15,7 +15,7 @@ void send_bytes(FILE *stream, ForeignKind kind, const void *bytes, size_t size);
 __attribute__((format(printf, 3, 4))) void send_text(FILE *stream, ForeignKind kind,
                                                      const char *format, ...);
 
-// Sends the hash of a file's `size` bytes, and its path.
+// Sends the hash of a file's `size` bytes, and the file's path.
 void send_file(FILE *stream, const char *path, const void *bytes, size_t size);
 
 void send_part(FILE *stream, const ForeignPart *part);

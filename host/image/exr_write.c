@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a picture as a tiled EXR file. The file of a part contains only the part's tiles. Its
-// header and the size of its table of tiles are the whole picture's. clrt merge can then copy tiles
-// without decoding them.
+// Writes a picture as a tiled EXR file. The file of a part contains only the part's tiles. The
+// file's header and the size of its table of tiles are the whole picture's, so that clrt merge can
+// copy tiles without decoding them.
 //
 // OpenEXRCore writes the header and compresses the tiles, but it cannot omit tiles. The code here
 // therefore writes the table and the tiles itself. Threads compress tiles concurrently, but write
@@ -59,7 +59,8 @@ static bool add_channels(exr_context_t context, const Layers *layers)
     return ok;
 }
 
-// clrt merge copies tiles without decoding them, so EXR files contain no hash of the pixels.
+// clrt merge cannot compute a hash of pixels that it does not decode, so EXR files contain no such
+// hash.
 static bool add_texts(exr_context_t context, const ImageSettings *settings)
 {
     bool ok = true;
@@ -93,7 +94,7 @@ typedef struct {
     FILE *stream;
     uint64_t *starts; // the positions of the tiles in the file
     pthread_mutex_t lock;
-    pthread_cond_t turn; // signaled after each change of next
+    pthread_cond_t turn; // signaled after each change of `next`
     uint32_t next;       // number of the tile to write next
     atomic_bool has_failed;
 } TileWriter;

@@ -12,6 +12,6 @@ bool exr_write_begin(exr_context_t *context, const ImageSettings *settings, uint
                      uint32_t height, FILE *stream);
 
 // Writes EXR in tiles: a whole picture, or the tiles of settings->part. The stream must be empty.
-// Returns false on failure. The reason is in cause or, if cause is empty, in errno.
+// Returns false on failure. The reason is in *cause or, if *cause is empty, in errno.
 bool exr_write(const Framebuffer *framebuffer, const ImageSettings *settings, FILE *stream,
                Error *cause);

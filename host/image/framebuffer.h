@@ -36,7 +36,7 @@ typedef struct {
     uint32_t *values; // width * height * count integers or bits of floats, top row first; owned
 } Layers;
 
-// Allocates the values and sets them to zero. The caller must have set list and count.
+// Allocates the values and sets them to zero. The caller must have set `list` and `count`.
 bool layers_make(Layers *layers, uint32_t width, uint32_t height, Error *error);
 void layers_free(Layers *layers);
 
@@ -47,7 +47,7 @@ static inline uint32_t *layers_at(const Layers *layers, uint32_t x, uint32_t y)
 
 typedef enum { ENCODE_RAW, ENCODE_SRGB } Encoding;
 
-// Multiplies `count` values by gain, limits them to 1 and rounds them to bytes.
-// ENCODE_SRGB applies the sRGB curve (IEC 61966-2-1) before rounding.
+// Multiplies `count` values by `gain`, limits them to 1 and rounds them to bytes. ENCODE_SRGB
+// applies the sRGB curve (IEC 61966-2-1) before rounding.
 void encode_channels(const float *values, size_t count, Encoding encoding, double gain,
                      unsigned char *bytes);

@@ -14,10 +14,10 @@
 #include <string.h>
 #include <strings.h>
 
-// libjpeg ends the process if a side is longer.
+// libjpeg ends the process if a side is longer than this.
 #define JPEG_SIDE_MAX 65500
 
-// OpenImageIO writes longer sides modulo 65536, without an error.
+// OpenImageIO writes sides longer than this modulo 65536, without an error.
 #define GIF_SIDE_MAX 65535
 
 typedef struct {
@@ -107,7 +107,7 @@ static unsigned char *encode_bytes(const Framebuffer *framebuffer, const ImageSe
     return bytes;
 }
 
-// The next two functions store the reason for a failure in cause. image_write adds the file name.
+// The next two functions store the reason for a failure in *cause. image_write adds the file name.
 static bool write_by_module(const Framebuffer *framebuffer, const char *path, const Format *format,
                             const ImageSettings *settings, Error *cause)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a Framebuffer to a file. libpng writes PNG, pfm.c writes PFM, and OpenEXRCore writes EXR.
 // OpenImageIO writes the other formats, if clrt is built with it. Loading OpenImageIO takes 0.1 s,
-// so clrt loads it only for these formats.
+// so clrt loads it only for the other formats.
 #pragma once
 
 #include "image/image_settings.h"
@@ -12,7 +12,7 @@ const char *image_format_of_path(const char *path);
 // Returns the format called `name`, or NULL if this build writes no such format. Ignores case.
 const char *image_format_named(const char *name);
 
-// Returns whether the format stores floats. format must be one that this build writes.
+// Returns whether the format stores floats. This build must write the format.
 bool image_format_is_float(const char *format);
 
 // Returns whether a format stores layers. Only EXR does.
@@ -28,6 +28,6 @@ double image_format_half_step(const char *format, Encoding encoding);
 // Returns whether the format can store a picture of this size.
 bool image_check_size(const char *format, uint32_t width, uint32_t height, Error *error);
 
-// Writes the picture to path, or to standard output if path is "-" (base/output_file.h).
+// Writes the picture to `path`, or to standard output if `path` is "-" (base/output_file.h).
 bool image_write(const Framebuffer *framebuffer, const char *path, const ImageSettings *settings,
                  Error *error);

@@ -64,7 +64,7 @@ bool write_frames(OIIO::ImageOutput &output, const OIIO::ImageSpec &whole,
 }
 
 // Writes the picture. Closes the writer even after a failure, because the caller then frees the
-// memory to which it writes.
+// memory to which the writer writes.
 bool write_all(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec,
                const ImageModulePicture &picture)
 {
@@ -195,7 +195,7 @@ bool read_picture(const char *path, const char *format, ImageModuleContent &cont
     return ok;
 }
 
-// Returns whether work succeeds without an exception. Otherwise, message receives the reason.
+// Returns whether `work` succeeds without an exception. Otherwise, stores the reason in `message`.
 template <typename Work> int guarded(char *message, size_t message_size, Work work)
 {
     std::string text;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The C interface of the module that contains all C++ and calls OpenImageIO. */
+/* The C interface of the module that contains all of clrt's C++ and calls OpenImageIO. */
 #pragma once
 
 #include "image/stored_image.h"
@@ -14,15 +14,15 @@ extern "C" {
 typedef struct {
     const char *path;
     const char *format; /* OpenImageIO's name of the format */
-    const void *pixels; /* width * height * 3 of unsigned char or float, top row first */
+    const void *pixels; /* width * height * 3 values, unsigned char or float, top row first */
     int width, height;
-    int frames; /* of an animation, below each other; 0: one picture */
+    int frames; /* frames of an animation, one below the other; 0 for a single picture */
     int is_float;
     const char *const *texts; /* text_count pairs of name and value */
     size_t text_count;
 } ImageModulePicture;
 
-/* Writes the picture. Returns 0 on failure, with the reason in message. */
+/* Writes the picture. Returns 0 on failure, with the reason in `message`. */
 typedef int ImageModuleWrite(const ImageModulePicture *picture, char *message, size_t message_size);
 #define IMAGE_MODULE_WRITE "clrt_image_module_write"
 ImageModuleWrite clrt_image_module_write;
@@ -37,8 +37,8 @@ typedef struct {
                     a pixel together, top row first */
 } ImageModuleContent;
 
-/* Reads a file in this OpenImageIO format. Returns 0 on failure, with the reason in message. The
-   values are never freed, because the process reads only one file. */
+/* Reads a file in the OpenImageIO format `format`. Returns 0 on failure, with the reason in
+   `message`. The values are never freed, because the process reads only one file. */
 typedef int ImageModuleRead(const char *path, const char *format, ImageModuleContent *content,
                             char *message, size_t message_size);
 #define IMAGE_MODULE_READ "clrt_image_module_read"

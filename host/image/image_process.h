@@ -13,11 +13,11 @@ typedef void ModuleFunction(void);
 ModuleFunction *open_module(const char *name, Error *cause);
 
 typedef struct {
-    const char *path, *format; // format is OpenImageIO's name
+    const char *path, *format; // the file, and OpenImageIO's name of its format
     uint64_t bytes;            // size of the file
 } ImageRequest;
 
-// Reads the file in the given OpenImageIO format, and validates everything that the child sends. On
-// failure, returns false and stores the reason without the file name in *cause. The caller frees
+// Reads the file in the given OpenImageIO format, and validates everything that clrt-foreign sends.
+// On failure, returns false and stores the reason without the file name in *cause. The caller frees
 // the image in both cases.
 bool image_process_read(StoredImage *image, const ImageRequest *request, Error *cause);

@@ -5,7 +5,7 @@
 #include "image/stored_image.h"
 
 // The file's first bytes, not its name, determine the format. libpng reads PNG, and pfm.c reads
-// PFM. In builds with OpenImageIO, a child process reads the other formats that clrt writes, except
-// GIF, and may crash without harm. On failure, returns false with a message that names the file.
-// The caller frees the image.
+// PFM. In builds with OpenImageIO, clrt-foreign reads the other formats that clrt writes, except
+// GIF. It may crash without harm. On failure, returns false with a message that names the file. The
+// caller frees the image.
 bool image_read(StoredImage *image, const char *path, Error *error);

@@ -4,8 +4,9 @@
 
 #include "image/framebuffer.h"
 
-// A text in the file. PNG and EXR store it under its name, but EXR renames the date and omits the
-// hash of the pixels. TIFF and JPEG store clrt:NAME texts as lines of a description.
+// A text in the file. PNG and EXR files store it under `name`, but EXR files have another name for
+// the date and omit the hash of the pixels. TIFF and JPEG files store clrt:NAME texts as lines of a
+// description.
 typedef struct {
     const char *name, *value;
 } ImageText;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reports as JSON and as text. A report is described once, by a list of fields, which becomes a
-// JSON object. The text of the report is a template that names fields of this object, so text and
-// JSON always agree.
+// JSON object. The report's text comes from a template that names fields of this object, so text
+// and JSON always agree.
 #pragma once
 
 #include "base/error.h"
@@ -10,14 +10,14 @@
 #include <stdint.h>
 #include <stdio.h>
 
-// Returns path as a JSON string, or a JSON null if path is NULL. If path is not UTF-8, '?' replaces
-// all bytes beyond ASCII.
+// Returns `path` as a JSON string, or a JSON null if `path` is NULL. If `path` is not UTF-8, '?'
+// replaces all bytes beyond ASCII.
 json_t *json_file_path(const char *path);
 
 json_t *json_count(uint64_t count);
 json_t *json_two(uint32_t one, uint32_t other);
 
-// Returns a JSON null if value is not finite, because JSON has no infinity.
+// Returns a JSON null if `value` is not finite, because JSON has no infinity.
 json_t *json_finite(double value);
 
 json_t *json_flag(bool value);
@@ -52,10 +52,10 @@ json_t *json_of(const JsonField *fields, size_t count);
 // Prints as fprintf does, and replaces control characters as text_hide_controls does.
 __attribute__((format(printf, 2, 3))) void text_print(FILE *stream, const char *format, ...);
 
-// Prints text, and replaces its placeholders by the report's values: {GROUP.NAME} for integers and
-// strings, {NAME .3f} or {NAME .3g} for reals, {NAME .3g%} for shares in percent, and {NAME .3v}
-// for arrays of reals. A null value prints as infinity. A null report prints nothing.
+// Prints `text`, and replaces its placeholders by the report's values: {GROUP.NAME} for integers
+// and strings, {NAME .3f} or {NAME .3g} for reals, {NAME .3g%} for shares in percent, and {NAME
+// .3v} for arrays of reals. A null value prints as infinity. A null report prints nothing.
 void json_print(const json_t *report, const char *text, FILE *stream);
 
-// Writes root with sorted keys to path ("-": standard output), and releases root.
+// Writes `root` with sorted keys to `path` ("-": standard output), and releases `root`.
 bool json_file_write(json_t *root, const char *path, Error *error);

@@ -20,7 +20,7 @@ static bool read_header(StoredImage *image, FILE *stream, double *scale, Error *
 {
     char kind[32], words[3][32];
     int64_t sides[2];
-    // A single space follows the header.
+    // A single white-space character follows the header.
     bool ok = fscanf(stream, "%31s%31s%31s%31s", kind, words[0], words[1], words[2]) == 4 &&
               isspace(getc(stream)) && (strcmp(kind, "PF") == 0 || strcmp(kind, "Pf") == 0);
     for (int i = 0; ok && i < 3; i++) {

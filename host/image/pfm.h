@@ -11,7 +11,7 @@
 // Returns false on a write error.
 bool pfm_write(const Framebuffer *framebuffer, FILE *stream);
 
-// Reads PFM with three channels or one, in either byte order. Ignores the magnitude of the scale.
-// Rejects pictures of more than `most` values. On failure, returns false and stores the reason
-// without the file name in *cause. The caller frees the image in both cases.
+// Reads PFM with three channels or one, in either byte order. Ignores the magnitude of the header's
+// scale. Rejects pictures of more than `most` values. On failure, returns false and stores the
+// reason without the file name in *cause. The caller frees the image in both cases.
 bool pfm_read(StoredImage *image, FILE *stream, uint64_t most, Error *cause);

@@ -12,9 +12,9 @@
 #include <zlib.h>
 
 // This filter and strategy make the smallest files of all settings that take at most about 20 ms
-// per megapixel. Paeth turns rendered surfaces into runs of zeros. Strategies that also search for
-// other matches take more time or make larger files. All compression levels above 0 find the same
-// runs, so the code sets no level.
+// per megapixel. The Paeth filter turns rendered surfaces into runs of zeros. Strategies that also
+// search for other matches take more time or make larger files. All compression levels above 0 find
+// the same runs, so the code sets no level.
 #define FILTER   PNG_FILTER_PAETH
 #define STRATEGY Z_RLE
 

@@ -7,8 +7,8 @@
 
 #include <stdio.h>
 
-// Writes PNG with 8 bits per channel and the encoding and texts of settings. Returns false on
-// failure. The reason is in error or, if error is empty, in errno.
+// Writes PNG with 8 bits per channel and the encoding, exposure and texts of `settings`. Returns
+// false on failure. The reason is in *error or, if *error is empty, in errno.
 bool png_file_write(const Framebuffer *framebuffer, const ImageSettings *settings, FILE *stream,
                     Error *error);
 

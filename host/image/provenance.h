@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The texts in a picture's file that record how clrt made it. All are strings, because PNG stores
-// no other type.
+// The texts in a picture's file that record how clrt made the picture. All values are strings,
+// because PNG stores no other type.
 #pragma once
 
 #include "image/image_file.h"
@@ -20,9 +20,9 @@ typedef struct {
 // Returns whether SOURCE_DATE_EPOCH is unset or a valid number of seconds since 1970.
 bool provenance_check_date(Error *error);
 
-// Writes settings as one line of compact JSON. The text is empty if the JSON does not fit.
+// Writes `settings` as one line of compact JSON. The text is empty if the JSON does not fit.
 void provenance_write_settings(char text[STORED_TEXT_SIZE], const json_t *settings);
 
-// Fills list with the members software, date and texts. The caller must have filled texts. The list
-// has a date only if SOURCE_DATE_EPOCH is set and valid.
+// Fills `software`, `date` and `list`. The caller must have filled `texts`. The list has a date
+// only if SOURCE_DATE_EPOCH is set and valid.
 void provenance_list(Provenance *provenance);

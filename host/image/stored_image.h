@@ -45,7 +45,7 @@ void stored_image_free(StoredImage *image);
 // Returns the largest number of values that clrt accepts from a file of `bytes` bytes.
 uint64_t stored_values_most(uint64_t bytes);
 
-// Returns whether a picture of this size is within the limits and has at most `most` values.
+// Returns whether the image's size is within the limits above and has at most `most` values.
 bool stored_image_check_size(const StoredImage *image, uint64_t most, Error *cause);
 
 // Allocates the values of an image whose size and channel count are set and checked.
