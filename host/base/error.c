@@ -6,10 +6,19 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+// Returns whether the bytes are a control character from U+0080 to U+009F in UTF-8.
+static bool is_second_control(const char *bytes)
+{
+    const unsigned char last = (unsigned char)bytes[1];
+    return bytes[0] == '\xc2' && last >= 0x80 && last < 0xa0;
+}
+
 void text_hide_controls(char *text)
 {
     for (char *c = text; *c != '\0'; c++)
-        if (iscntrl((unsigned char)*c) && *c != '\n' && *c != '\t')
+        if (is_second_control(c))
+            c[0] = c[1] = '?';
+        else if (iscntrl((unsigned char)*c) && *c != '\n' && *c != '\t')
             *c = '?';
 }
 

@@ -11,8 +11,8 @@ typedef struct {
     char text[4096]; // empty without a failure; long enough for most build logs
 } Error;
 
-// Replaces control characters by '?', because terminals interpret them and names of files may
-// contain them. Keeps line feeds and tabs.
+// Replaces each byte of control characters by '?', because terminals interpret them and names of
+// files may contain them. The text is UTF-8. Keeps line feeds and tabs.
 void text_hide_controls(char *text);
 
 // Records the message after text_hide_controls, and returns false, so that a caller can `return

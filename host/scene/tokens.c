@@ -5,7 +5,6 @@
 #include "base/limits.h"
 #include "base/number.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -108,7 +107,7 @@ bool token_is(Token token, const char *word)
            memcmp(token.text, word, token.length) == 0;
 }
 
-// Writes the token for a message: in quotes, shortened, and with ? for control characters.
+// Writes the token for a message: in quotes and shortened.
 static void describe_token(Token token, char *out, size_t size)
 {
     if (token.text == NULL) {
@@ -117,9 +116,6 @@ static void describe_token(Token token, char *out, size_t size)
     }
     const int shown = token.length > 40 ? 40 : (int)token.length;
     snprintf(out, size, "'%.*s'%s", shown, token.text, token.length > 40 ? "..." : "");
-    for (char *c = out; *c != '\0'; c++)
-        if (iscntrl((unsigned char)*c))
-            *c = '?';
 }
 
 bool tokens_fail(const Tokens *tokens, Token token, const char *format, ...)

@@ -64,15 +64,17 @@ class Streams(Talk):
             self.assertNotRegex(done.stderr, rb"[\x1b\r]")
 
     def test_names_are_printed_without_control_characters(self):
-        scene = "a\33[31m.scn"
-        (self.work / scene).write_text('define "b\33" matte\nmaterial "b\33"\nmesh open.ply\n')
-        (self.work / "c\33.ply").write_bytes(self.bytes_of("open.ply"))
-        for words in (["check", scene], ["convert", scene, "d\33.ply", "-v"],
-                      ["explain", "c\33.ply", "4,4", "-s", "8x8"],
-                      [scene, "-s", "8x8", "-o", "d\33.pfm", "-v", "--frames", "1-1"]):
-            done = self.run_clrt(*words, content=b"")
-            self.assertIn(b"?", done.stdout + done.stderr, words)
-            self.assertNotIn(b"\33", done.stdout + done.stderr, words)
+        for control in "\33", "\x9b":
+            scene, mesh = f"a{control}31m.scn", f"c{control}.ply"
+            (self.work / scene).write_text(f"define b{control} matte\nmaterial b{control}\n"
+                                           "mesh open.ply\n", encoding="utf-8")
+            (self.work / mesh).write_bytes(self.bytes_of("open.ply"))
+            for words in (["check", scene], ["convert", scene, f"d{control}.ply", "-v"],
+                          ["explain", mesh, "4,4", "-s", "8x8"], [f"none{control}.scn", "--hash"],
+                          [scene, "-s", "8x8", "-o", f"d{control}.pfm", "-v", "--frames", "1-1"]):
+                done = self.run_clrt(*words, content=b"")
+                self.assertIn(b"?", done.stdout + done.stderr, words)
+                self.assertNotIn(control.encode(), done.stdout + done.stderr, words)
 
     def test_a_picture_on_standard_output_is_whole_beside_talk(self):
         done = self.run_clrt(*SMALL, "-o", "-", "--format", "pfm", "-v", content=b"")
