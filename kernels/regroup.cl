@@ -13,66 +13,12 @@
 #ifndef CLRT_REGROUP_CL
 #define CLRT_REGROUP_CL
 #include "beam_walk.cl"
+#include "lane_moves.cl"
 
 #if CLRT_WIDE_NODES
 
 // Groups of fewer rays are traced ray by ray, which is faster.
 #define SMALLEST_BEAM 6
-
-#if CLRT_LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_compresssi512_mask)
-typedef int LaneRegister __attribute__((vector_size(64)));
-
-// Returns v with the lanes selected by `bits` moved to the front, in order.
-static inline UInt compressed(UInt v, uint bits)
-{
-    return as_uint16(__builtin_ia32_compresssi512_mask((LaneRegister)as_int16(v),
-                                                       (LaneRegister)as_int16(v), (ushort)bits));
-}
-
-// Inverts compressed(): moves the first lanes of v back to the lanes selected by `bits`. The other
-// lanes come from `rest`.
-static inline UInt expanded(UInt v, uint bits, UInt rest)
-{
-    return as_uint16(__builtin_ia32_expandsi512_mask((LaneRegister)as_int16(v),
-                                                     (LaneRegister)as_int16(rest), (ushort)bits));
-}
-#elif CLRT_LANES == 8 && defined(__AVX2__)
-// Returns the numbers of the lanes whose bits are set, in order. Scenes of meshes take 1 to 2 %
-// less time than with the loops below, scenes of many balls 3 to 4 %.
-static inline UInt lanes_in_order(uint bits)
-{
-    ulong order = 0; // a byte for each lane
-    for (uint lane = CLRT_LANES; lane-- > 0;)
-        order = (bits >> lane & 1) != 0 ? order << 8 | lane : order;
-    return convert_uint8(as_uchar8(order));
-}
-
-static inline UInt compressed(UInt v, uint bits)
-{
-    return permuted(v, lanes_in_order(bits));
-}
-
-static inline UInt expanded(UInt v, uint bits, UInt rest)
-{
-    const UInt before = (UInt)(bits) & (uint8)(0, 1, 3, 7, 15, 31, 63, 127);
-    return lanes_of(bits) ? permuted(v, popcount(before)) : rest;
-}
-#else
-static inline UInt compressed(UInt v, uint bits)
-{
-    UInt front = v;
-    for (uint place = 0; bits != 0; bits &= bits - 1)
-        ((uint *)&front)[place++] = lane_uint(&v, lowest_bit(bits));
-    return front;
-}
-
-static inline UInt expanded(UInt v, uint bits, UInt rest)
-{
-    for (uint place = 0; bits != 0; bits &= bits - 1)
-        ((uint *)&rest)[lowest_bit(bits)] = lane_uint(&v, place++);
-    return rest;
-}
-#endif
 
 // The words of a ray in a list: the ray, the primitive on which it starts, and its hit.
 enum {
@@ -112,25 +58,26 @@ static inline Real3 list_read3(const RayList *list, uint word, uint place)
                     as_real(list_read(list, word + 2, place)));
 }
 
-static inline void list_append3(RayList *list, uint word, Real3 v, uint bits)
+static inline void list_append3(RayList *list, uint word, Real3 v, LaneChoice chosen)
 {
-    list_write(list, word, list->count, compressed(as_bits(v.x), bits));
-    list_write(list, word + 1, list->count, compressed(as_bits(v.y), bits));
-    list_write(list, word + 2, list->count, compressed(as_bits(v.z), bits));
+    list_write(list, word, list->count, compressed(as_bits(v.x), chosen));
+    list_write(list, word + 1, list->count, compressed(as_bits(v.y), chosen));
+    list_write(list, word + 2, list->count, compressed(as_bits(v.z), chosen));
 }
 
 // Appends the lanes whose bits are set.
 static inline void list_append(RayList *list, const Ray *ray, const Hit *hit, uint bits)
 {
-    list_append3(list, WORD_ORIGIN, ray->origin, bits);
-    list_append3(list, WORD_DIRECTION, ray->direction, bits);
-    list_write(list, WORD_OWN, list->count, compressed(ray->own, bits));
-    list_write(list, WORD_OWN_INDEX, list->count, compressed(ray->own_index, bits));
-    list_write(list, WORD_T, list->count, compressed(as_bits(hit->t), bits));
-    list_write(list, WORD_ID, list->count, compressed(hit->id, bits));
-    list_write(list, WORD_INDEX, list->count, compressed(hit->index, bits));
+    const LaneChoice chosen = lane_choice(bits);
+    list_append3(list, WORD_ORIGIN, ray->origin, chosen);
+    list_append3(list, WORD_DIRECTION, ray->direction, chosen);
+    list_write(list, WORD_OWN, list->count, compressed(ray->own, chosen));
+    list_write(list, WORD_OWN_INDEX, list->count, compressed(ray->own_index, chosen));
+    list_write(list, WORD_T, list->count, compressed(as_bits(hit->t), chosen));
+    list_write(list, WORD_ID, list->count, compressed(hit->id, chosen));
+    list_write(list, WORD_INDEX, list->count, compressed(hit->index, chosen));
 #if CLRT_ALL_HITS
-    list_write(list, WORD_NUMBER, list->count, compressed(ray->number, bits));
+    list_write(list, WORD_NUMBER, list->count, compressed(ray->number, chosen));
 #endif
     list->count += popcount(bits);
 }
