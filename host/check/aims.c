@@ -22,8 +22,8 @@
 #define COORDINATE_ERROR 0x1p-22
 
 // An aim at an edge divides the edge at this fraction, measured from the point with the lower
-// index. The fraction is not 1/2, because a midpoint may need no rounding, and points that need it
-// are the harder test.
+// index. The fraction is not 1/2, because a midpoint may need no rounding, and rounded aims are the
+// harder test.
 #define EDGE_PART 0.4
 
 // The distance between an open edge and the aim beyond it, in radii of the mesh. This distance far
@@ -74,7 +74,7 @@ static double height_at(const Triangles *triangles, uint32_t triangle, int corne
 }
 
 // Returns the triangle's angle at a corner. Normals are weighted by these angles, so that their sum
-// does not depend on the triangulation of faces.
+// does not depend on how flat polygons are divided into triangles.
 static double angle_at(const Triangles *triangles, uint32_t triangle, int corner)
 {
     const Vec3 apex = corner_of(triangles, triangle, corner);
@@ -256,8 +256,8 @@ static double error_at(const Aim *aim, double distance)
     return LENGTH_ERROR * distance + COORDINATE_ERROR * vec3_extent(aim->point);
 }
 
-// Makes a ray from origin to the aim and sets the aim's tolerance. Returns false if a triangle
-// around the aim may face away from origin, or if rounding could make the ray miss the triangles.
+// Makes a ray from `origin` to the aim and sets the aim's tolerance. Returns false if a triangle
+// around the aim may face away from `origin`, or if rounding could make the ray miss the triangles.
 static bool shoot(Aim *aim, Vec3 origin, double least_facing, RayData *ray)
 {
     const Vec3 back = vec3_sub(origin, aim->point);

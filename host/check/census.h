@@ -35,7 +35,7 @@ typedef struct {
 } MeshCensus;
 
 // Finds duplicate triangles and the faults after FAULT_LEAKS, counts the edges, and finds whether
-// the mesh is closed.
+// the mesh is closed and whether it is inside out.
 bool mesh_faults_find(MeshCensus *census, const Mesh *mesh, const Edges *edges, Error *error);
 
 typedef struct {

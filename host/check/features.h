@@ -9,7 +9,7 @@
 // The smallest edge or height of all triangles, in steps. A step is the distance between
 // neighboring floats at the triangle's largest coordinate.
 typedef struct {
-    double steps; // the length in steps; INFINITY if there is no length
+    double steps; // the length in steps; INFINITY if there is no such edge or height
     double size;  // the length in the scene's units
     size_t triangle;
 } Feature;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Turns counts and measurements into findings with texts. The check fails if the scene cannot be
-// drawn, or if a fault can cause holes or wrong pixels. These faults are values that are not
-// finite, triangles without area, leaks of closed meshes, and duplicates of meshes, triangles or
-// spheres. Other findings may be intended by the author of the scene.
+// drawn, if it has only points, or if a fault can cause holes or wrong pixels. Such faults are
+// values that are not finite, triangles without area, leaks of closed meshes, and duplicates of
+// meshes, triangles or spheres. The scene's author may intend all other findings.
 #include "check/findings.h"
 
 #include "scene/camera.h"
@@ -14,8 +14,8 @@
 typedef struct {
     size_t count;  // views whose eye is inside a sphere or a closed mesh
     size_t view;   // the first such view; views are numbered from 1
-    size_t sphere; // the sphere that contains its eye; spheres are numbered from 1; 0 for a mesh
-    size_t object; // the mesh that contains its eye, if sphere is 0
+    size_t sphere; // the sphere that contains the view's eye, numbered from 1; 0 for a mesh
+    size_t object; // the mesh that contains the view's eye, if `sphere` is 0
 } EnclosedEyes;
 
 // A mesh contains a point if its triangles cover more than half of all directions from the point.
@@ -24,8 +24,8 @@ typedef struct {
 
 #define TAU 6.283185307179586477
 
-// A corner is out of view beyond this distance from the picture's center. The unit is half of the
-// picture's side. The margin above 1 exceeds rounding errors.
+// A corner is out of view beyond this distance from the picture's center, in halves of the
+// picture's side. The excess over 1 is larger than rounding errors.
 #define MARGIN 1.001
 
 static Vec3 seen_from(Vec3 eye, const Mesh *mesh, uint32_t vertex)
@@ -146,13 +146,13 @@ static bool is_out_of_view(const Scene *scene, const Normalization *normalizatio
 // than this, the change is visible.
 #define FEW_STEPS 16.0
 
-// Advice on short edges blames the mesh's offset, or the scene's size, only if this length is more
-// than MUCH times the mesh's size.
+// Advice on short edges blames the mesh's offset, or the scene's size, only if the offset or the
+// scene's size is more than MUCH times the mesh's size.
 #define MUCH 4.0
 
 typedef struct {
     const char *kind;
-    const char *one, *many; // the words for one and for several, which `rest` follows
+    const char *one, *many; // words for one and for several, to be followed by `rest`
     const char *rest;
     bool fails;
     const char *place; // printed before the index of the first vertex or triangle
@@ -248,8 +248,8 @@ static void add_shape(Check *check, size_t object)
         "it is outside every camera's view, so only reflections and shadows can show it");
 }
 
-// Adds at most one finding of advice on an object. Advice to recenter the file comes first, because
-// tracing cannot restore details that the file has lost.
+// Adds at most one finding that advises on an object. Advice to recenter the file takes precedence,
+// because tracing cannot restore details that the file has lost.
 static void add_advice(Check *check, size_t object, double scene_size)
 {
     const Features *features = &check->census.meshes[object].features;

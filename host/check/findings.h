@@ -13,7 +13,7 @@ typedef struct {
     const Scene *scene; // borrowed
     Normalization normalization;
     Census census;
-    const char *device; // its name; NULL if no rays were traced
+    const char *device; // the device's name; NULL if no rays were traced
     Error scale_fault;  // the reason why the scene cannot be drawn; empty if it can be drawn
     Error device_fault; // the reason why no rays could be traced; empty otherwise
     ARRAY(ClrtFinding) findings; // for each object in order, then for the scene

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Takes the census of a scene, and counts the leaks of each mesh. For a mesh, compiles a scene that
-// contains only the mesh. Then casts rays at the mesh's edges and points (check/aims.h), and counts
-// the rays that pass through. The mesh is two-sided, and in the coordinates of its whole scene.
+// Takes the census of a scene, and counts the leaks of each mesh. For each mesh, compiles a scene
+// that contains only this mesh, two-sided and in the normalized coordinates of the whole scene.
+// Then casts rays at the mesh's edges and points (check/aims.h), and counts the rays that pass
+// through.
 #include "check/measure.h"
 
 #include "check/aims.h"
@@ -95,7 +96,7 @@ static void sum_up(const Aims *aims, const MeshObject *given, MeshCensus *census
         census->faults[FAULT_LEAKS] = census->leaks;
 }
 
-// Fills the facts about aims, rays and leaks in census.
+// Fills the facts about aims, rays and leaks in *census.
 static bool count_mesh_leaks(MeshCensus *census, RayCaster *caster, const MeshObject *given,
                              const Normalization *normalization, const Session *session,
                              Error *error)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scene -> the measurements of a check. The program and the library check scenes in these steps:
-// measure, trace, and find.
+// Scene -> the measurements of a check. The program and the library check scenes in three steps:
+// check_measure, check_trace and check_find.
 #pragma once
 
 #include "check/findings.h"
