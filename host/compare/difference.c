@@ -140,7 +140,7 @@ static int kind_named(const char *name, size_t length)
     return -1;
 }
 
-// Parses one NAME=VALUE between start and end. Values other than PSNR may be in percent.
+// Parses the text NAME=VALUE from `start` to `end`. Values other than PSNR may be in percent.
 static bool parse_limit(Limits *limits, const char *start, const char *end, Error *cause)
 {
     const char *equals = memchr(start, '=', (size_t)(end - start));
@@ -193,10 +193,10 @@ bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *diffe
 }
 
 // The following functions find the cause of each pixel's difference. The channels primitive, shadow
-// and bounces describe only the ray through a pixel's center. The first of these channels that
+// and bounces describe only the ray through a pixel's center. In this order, the first channel that
 // differs determines the cause. If all three agree and both pictures have the same samples, the
-// cause is rounding. The difference may be large, because rounding can change a sample's hit. If
-// the samples differ, every difference above ROUNDING_MOST counts as coverage.
+// cause is rounding. Such a difference may be large, because rounding can change a sample's hit. If
+// all three agree but the samples differ, every difference above ROUNDING_MOST counts as coverage.
 
 // The largest change of a color in [0, 1] by rounding, if rounding changes no hit and no shadow.
 #define ROUNDING_MOST 1e-5
@@ -254,8 +254,8 @@ static bool differ(const Side sides[2], size_t pixel, int channel)
     return memcmp(&a, &b, sizeof a) != 0;
 }
 
-// Each picture has a path at this pixel. Returns whether --max-level ended the shorter path, and
-// the picture of the longer path has a higher --max-level.
+// Each picture has a path of rays at this pixel. Returns whether --max-level ended the shorter
+// path, and the picture with the longer path has a higher --max-level.
 static bool is_truncated(const Side sides[2], size_t pixel)
 {
     const float bounces[] = {side_value(&sides[0], pixel, BOUNCES),

@@ -10,7 +10,7 @@
 // a difference of one 8-bit step slightly larger than 1/255.
 #define DIFFERENCE_ROUNDING 0x1p-22
 
-// The channel with the ids of first hits.
+// The name of the channel with the ids of first hits.
 #define DIFFERENCE_HITS "primitive"
 
 typedef struct {
@@ -18,10 +18,10 @@ typedef struct {
     uint64_t pixels;
     double rmse;
     double maximum;
-    uint32_t maximum_x, maximum_y, maximum_color; // of the first maximum
-    uint64_t off_by_1, off_by_4;                  // pixels off by more than 1/255, and 4/255
-    bool has_hits;                                // both files have the channel of first hits
-    uint64_t wrong_hits;                          // pixels with different first hits
+    uint32_t maximum_x, maximum_y, maximum_color; // where the maximum first occurs
+    uint64_t off_by_1, off_by_4; // pixels off by more than 1/255, and by more than 4/255
+    bool has_hits;               // both files have the channel of first hits
+    uint64_t wrong_hits;         // pixels with different first hits
 } Difference;
 
 // The two pictures, and the channel indices of their colors.
@@ -41,9 +41,9 @@ void difference_measure(Difference *difference, const ComparedImages *compared);
 // Returns the PSNR in decibels, for a peak of 1; INFINITY for equal pictures.
 double difference_psnr(const Difference *difference);
 
-// Makes a picture of the absolute differences of two pictures. With for_the_eye, each color is
-// sqrt(difference / (64/255)), at most 1. The scale does not depend on the pictures, so users can
-// compare maps.
+// Makes a picture of the absolute differences of two pictures. With `for_the_eye`, each color is
+// sqrt(difference / (64/255)), at most 1. This scale does not depend on the pictures, so users can
+// compare several such results.
 bool difference_picture_make(Framebuffer *picture, const ComparedImages *compared, bool for_the_eye,
                              Error *error);
 
@@ -62,13 +62,15 @@ typedef struct {
     double values[LIMIT_KINDS];
 } Limits;
 
-// Adds the limits in text. Returns false if the text is invalid; cause then holds the reason.
+// Parses limits such as "rmse=0.01,max=10%" and adds them to *limits. If `text` is invalid, returns
+// false and stores the reason in *cause.
 bool limits_parse(Limits *limits, const char *text, Error *cause);
 
 // The names of limits in --fail and in reports.
 extern const char *const limit_names[LIMIT_KINDS];
 
-// Returns the measured value to which the limit applies, or NAN if the files lack its channel.
+// Returns the measured value to which the limit applies, or NAN if the files lack the channel for
+// this limit.
 double limit_measured(LimitKind kind, const Difference *difference);
 
 // Returns whether the measured value is within the limit. NAN is outside every limit.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prints the light that reaches a surface: a line for each light, or for all points of an area.
+// Prints the light that reaches a surface: a line for each light, or for all points of an area
+// light.
 #include "explain/lights.h"
 
 #include "image/json_file.h"
@@ -71,7 +72,7 @@ static void print_light(const ExplainReport *report, const ExplainedRay *ray, si
     fputs("\n", stream);
 }
 
-// The points of an area light, by state, and their sums.
+// The points of an area light, counted by state, and the sums of their light.
 typedef struct {
     size_t counts[CLRT_LIGHT_BEHIND_FACE + 1]; // by ClrtLightState
     size_t first_blocked;                      // index of the first blocked point

@@ -18,14 +18,14 @@ typedef struct {
     bool is_brief; // only the first sample and its important rays, with fewer facts and digits
 } ExplainReport;
 
-// Prints the text `full` or, in brief reports, the text `brief`.
+// Prints values of `json` by the template `full` or, in brief reports, by the template `brief`.
 void explain_print(const ExplainReport *report, const json_t *json, const char *full,
                    const char *brief, FILE *stream);
 
 // Prints a sphere's number, or a triangle's number and file. Brief reports omit the file's folder.
 void explain_print_primitive(const ExplainReport *report, const json_t *primitive, FILE *stream);
 
-// Prints a line for each light. All points of an area light share one line, except if glass colors
-// their light.
+// Prints a line for each light. All points of an area light share one line, unless glass colors the
+// light from a point.
 void explain_print_lights(const ExplainReport *report, const ExplainedRay *ray,
                           const json_t *lights, FILE *stream);

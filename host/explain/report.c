@@ -8,7 +8,8 @@
 
 #include <assert.h>
 
-// Brief reports omit rays whose weight is below this, because they hardly change an 8-bit color.
+// Brief reports omit rays whose weight is below this, because such rays hardly change an 8-bit
+// color.
 #define BRIEF_WEIGHT (1 / 255.0)
 
 // Returns the name of a defined or imported material, or the number of a predefined material.
@@ -54,7 +55,7 @@ static bool is_white(const double color[3])
     return color[0] == 1 && color[1] == 1 && color[2] == 1;
 }
 
-// Adds the color of the glass along a ray, unless this color is white.
+// Adds the color of the glass along a ray to `json`, unless this color is white.
 static json_t *with_tint(json_t *json, const double tint[3])
 {
     if (!is_white(tint))
@@ -233,8 +234,8 @@ static void print_sample(const ExplainReport *report, const ExplainedSample *sam
     explain_print(report, json, "  the sample's color {color .6v}\n", "", stream);
 }
 
-// Traces the samples and adds their JSON to list. Prints all samples or, in brief reports, only the
-// first. If stream is NULL, prints nothing.
+// Traces the samples and adds their JSON to `list`. Prints all samples or, in brief reports, only
+// the first. If `stream` is NULL, prints nothing.
 static bool explain_samples(const ExplainReport *report, Explainer *explainer, json_t *list,
                             FILE *stream, Error *error)
 {
@@ -255,7 +256,8 @@ static bool explain_samples(const ExplainReport *report, Explainer *explainer, j
     return true;
 }
 
-// Returns the whole report, or NULL if the device fails. Prints the samples unless stream is NULL.
+// Returns the whole report, or NULL if the device fails. Prints the samples unless `stream` is
+// NULL.
 static json_t *report_json(const ExplainReport *report, Explainer *explainer, FILE *stream,
                            Error *error)
 {

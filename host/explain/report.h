@@ -4,7 +4,7 @@
 
 #include "explain/lights.h"
 
-// Traces the pixel's samples with explainer and writes them as text. Returns false if the device
+// Traces the pixel's samples with `explainer` and writes them as text. Returns false if the device
 // fails.
 bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE *stream,
                         Error *error);

@@ -54,9 +54,9 @@ typedef struct {
     int output;
 } TileJoin;
 
-// Fills bytes with the tile's head and compressed data. Returns false if the tile is damaged, or if
-// its size has changed since the first pass. The last tile's size is not checked, because no tile
-// starts after it.
+// Fills `bytes` with the tile's head and compressed data. Returns false if the tile is damaged, or
+// if its size has changed since the first pass. The last tile's size is not checked, because no
+// tile starts after it.
 static bool read_tile(const TileJoin *work, const exr_chunk_info_t *tile, unsigned char *bytes)
 {
     const ExrJoin *join = work->join;

@@ -11,12 +11,13 @@
 #include <stdatomic.h>
 
 typedef struct {
-    uint64_t count;         // tiles of the whole picture
-    uint64_t *starts;       // the tiles' sizes during the first pass, then their positions; owned
-    atomic_int write_error; // the errno of a failed write; 0 without one
+    uint64_t count;   // tiles of the whole picture
+    uint64_t *starts; // the tiles' sizes during the first pass, then the tiles' positions; owned
+    atomic_int write_error; // the errno of a failed write; 0 if no write has failed
 } ExrJoin;
 
-// Allocates join->starts for the whole picture. The caller frees it. `file` may be any part.
+// Allocates join->starts for the whole picture. The caller frees join->starts. `file` may be any of
+// the parts.
 bool exr_join_begin(ExrJoin *join, const ExrFile *file, Error *error);
 
 // First pass: records the sizes of the part's tiles. Fails if a tile is missing.

@@ -24,15 +24,15 @@
 typedef struct {
     FILE *stream;     // NULL if closed
     const char *path; // borrowed
-    uint64_t records; // records read and written
+    uint64_t records; // number of records read and written
     bool is_busy;     // journal_open or journal_claim failed because of another process
 } Journal;
 
-// Opens the journal at path for reading, or creates one with this key. Fails if the journal has
+// Opens the journal at `path` for reading, or creates one with `key`. Fails if the journal has
 // another key, or if another process has locked the journal.
 bool journal_open(Journal *journal, const char *path, const uint64_t key[2], Error *error);
 
-// Reads the next record, which must have size bytes. Returns false at the end or at a damaged
+// Reads the next record, which must have `size` bytes. Returns false at the end or at a damaged
 // record. All records must be read before journal_claim.
 bool journal_read(Journal *journal, void *bytes, size_t size);
 
@@ -42,5 +42,6 @@ bool journal_claim(Journal *journal, Error *error);
 
 bool journal_add(Journal *journal, const void *bytes, size_t size, Error *error);
 
-// Closes the journal. Deletes its file if is_done, unless another process has claimed the journal.
+// Closes the journal. Deletes its file if `is_done`, unless another process has claimed the
+// journal.
 void journal_close(Journal *journal, bool is_done);

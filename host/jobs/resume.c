@@ -108,7 +108,7 @@ static void read_journal(Resume *resume, RenderSettings *settings, const Framebu
     }
 }
 
-// Copies the tiles of a complete EXR file into framebuffer. Requires the journal's lock, because
+// Copies the tiles of a complete EXR file into `framebuffer`. Requires the journal's lock, because
 // another run might be about to write the file. Ignores an incomplete EXR file.
 static bool restore_stored(Resume *resume, const Provenance *own, RenderSettings *settings,
                            Framebuffer *framebuffer, Error *error)
@@ -131,7 +131,7 @@ static bool restore_tiles(Resume *resume, const Provenance *own, RenderSettings 
         return false;
     read_journal(resume, settings, framebuffer);
     if (settings->ready_tiles == 0 && !restore_stored(resume, own, settings, framebuffer, error)) {
-        journal_close(&resume->journal, true); // the journal has no tiles
+        journal_close(&resume->journal, true); // deletes the journal, which has no tiles
         return false;
     }
     const bool ok = journal_claim(&resume->journal, error);

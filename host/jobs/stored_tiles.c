@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the settings of an EXR file and copies its tiles. The files of one picture store equal
-// settings, except for the entries `part` and `tile`.
+// Reads the settings of an EXR file and copies its tiles. The files of a picture's parts store
+// equal settings, except for the entries `part` and `tile`.
 #include "jobs/stored_tiles.h"
 
 #include "base/thread_pool.h"
@@ -137,8 +137,8 @@ typedef struct {
     const RenderSettings *settings;
     TileWork *work;
     const void *context;
-    pthread_mutex_t lock; // protects failed and error
-    uint32_t failed;      // the lowest number of a failed tile
+    pthread_mutex_t lock; // protects `failed` and `error`
+    uint32_t failed;      // the lowest number of a failed tile; UINT32_MAX if none has failed
     Error *error;
 } TileRun;
 

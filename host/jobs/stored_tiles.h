@@ -11,9 +11,9 @@
 #include <jansson.h>
 
 typedef struct {
-    RenderSettings settings; // only sizes, left, top, tile size, part and parts are set
+    RenderSettings settings; // only the sizes, `left`, `top`, `part` and `parts` are set
     Encoding encoding;
-    json_t *whole; // the settings text without `part` and `tile`; owned
+    json_t *whole; // the stored settings without the entries `part` and `tile`; owned
 } StoredTiles;
 
 // Reads the settings from the image's texts, which come from a file and are untrusted. Returns
@@ -21,13 +21,13 @@ typedef struct {
 bool stored_tiles_read(StoredTiles *tiles, const StoredImage *image);
 void stored_tiles_free(StoredTiles *tiles);
 
-// Appends the image's channels, except its colors, to layers. Returns false if the image lacks
+// Appends the image's channels, except its colors, to `layers`. Returns false if the image lacks
 // colors or has a channel unknown to --aov.
 bool stored_tiles_name_layers(const StoredImage *image, Layers *layers);
 
 bool stored_tiles_has_colors(const StoredImage *image);
 
-// Returns whether the image's channels are exactly the three colors and these layers.
+// Returns whether the image's channels are exactly the three colors and `layers`.
 bool stored_tiles_has(const StoredImage *image, const Layers *layers);
 
 // Fills `part` for image_write. The caller frees part->tiles.
@@ -36,8 +36,8 @@ bool stored_tiles_list(const RenderSettings *settings, ImagePart *part, Error *e
 // Processes one tile. Threads call this function concurrently for different tiles.
 typedef bool TileWork(const void *context, const Tile *tile, Error *error);
 
-// Calls work for tiles 0 to count - 1 on all processors. If tiles fail, returns false and the error
-// of the failed tile with the lowest number.
+// Calls `work` for tiles 0 to `count` - 1 on all processors. If tiles fail, returns false and the
+// error of the failed tile with the lowest number.
 bool stored_tiles_run(const RenderSettings *settings, uint64_t count, TileWork *work,
                       const void *context, Error *error);
 
@@ -45,15 +45,15 @@ bool stored_tiles_run(const RenderSettings *settings, uint64_t count, TileWork *
 bool stored_tiles_find(const ExrFile *file, const Tile *tile, exr_chunk_info_t *found,
                        Error *error);
 
-// The target of copied tiles. framebuffer receives the colors, and layers->values receives the
+// The target of copied tiles. `framebuffer` receives the colors, and layers->values receives the
 // channels in layers->list.
 typedef struct {
     Framebuffer *framebuffer;
     Layers *layers;
-    bool is_whole; // both have the whole picture's size; otherwise the size of tile_frame_size
+    bool is_whole; // both have the whole picture's size, not the size from tile_frame_size
 } TileTarget;
 
-// Copies tiles 0 to count - 1 of the file. The file must have colors, the channels of
+// Copies tiles 0 to `count` - 1 of the file. The file must have colors, the channels of
 // target->layers, and the tile size of the settings.
 bool stored_tiles_copy(const RenderSettings *settings, uint64_t count, const ExrFile *file,
                        const TileTarget *target, Error *error);
