@@ -4,7 +4,8 @@
 
 #include <stddef.h>
 
-// All these constants except the last come from the viewer of the UvA course (scene/scene.c).
+// All of these constants except DEGREES_PER_RADIAN come from the viewer of the UvA course
+// (scene/scene.c).
 
 #define DEGREES_PER_PIXEL  0.25
 #define LENGTH_PER_PIXEL   0.15
@@ -77,7 +78,7 @@ static double limited(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
-// Turns the camera by a mouse drag. Limits the azimuth (controls.h).
+// Turns the camera by a mouse drag, and limits the azimuth (controls.h).
 static void orbit_turn(Orbit *orbit, double right, double down)
 {
     orbit->rotation = fmod(orbit->rotation - DEGREES_PER_PIXEL * right, 360);
@@ -86,7 +87,7 @@ static void orbit_turn(Orbit *orbit, double right, double down)
 }
 
 // Shows objects at the pivot in the size that they have in a perspective picture from this
-// distance. An orthographic camera does not move.
+// distance. An orthographic camera does not move, but the height of its picture changes.
 static void set_shown_distance(Orbit *orbit, double distance)
 {
     const double shown = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);
@@ -182,7 +183,7 @@ static void change_depth(State *state, const StateScene *scene, int step)
 static const struct {
     const char *name, *help;
     int keys[2];    // 0 if unused
-    size_t toggled; // of a bool in State
+    size_t toggled; // offset of a bool in State
     unsigned command;
 } actions[] = {
 #define NO_KEY        {0}, 0, 0
@@ -221,7 +222,8 @@ void controls_write_help(FILE *stream)
         fprintf(stream, "%s  %s\n", actions[i].name, actions[i].help);
 }
 
-// Applies the key if a row of the table has it. Returns the row's command.
+// If a row of the table has the key, toggles the row's setting and returns the row's command.
+// Otherwise, returns 0.
 static unsigned apply_action(State *state, int key)
 {
     size_t i = 0;

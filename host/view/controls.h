@@ -14,15 +14,15 @@ typedef struct {
     Vec3 axes[3];     // unit length; the last is up
     // The eye's angle in degrees below the plane through the pivot that is perpendicular to up. The
     // angle is negative if the eye is above this plane. The viewer of the UvA course
-    // (scene/scene.c) calls it azimuth too.
+    // (scene/scene.c) also calls this angle azimuth.
     double azimuth;
     double rotation; // degrees around up
     double distance; // from the eye to the pivot
-    double unit;     // length unit of steps and limits; 1 for the six default cameras
+    double unit;     // unit of the steps and limits of distances; 1 for the six default cameras
 } Orbit;
 
-// Returns the orbit of a camera. If is_course, the camera is one of the six default cameras, which
-// orbit the origin. Other cameras orbit their look_at point.
+// Returns the orbit of a camera. If `is_course` is true, the camera is one of the six default
+// cameras, which orbit the origin. Other cameras orbit their look_at point.
 Orbit orbit_of(const Viewpoint *viewpoint, bool is_course);
 
 // Returns the camera at the orbit's current position.
@@ -43,8 +43,9 @@ typedef enum {
 typedef struct {
     EventKind kind;
     int key;
-    // The drag in screen coordinates. For EVENT_WHEEL, `down` counts notches, positive away from
-    // the user. For EVENT_CLICK, (right, down) is the pixel's position from the upper left corner.
+    // The drag in screen coordinates. For EVENT_WHEEL, `down` counts notches, and notches away from
+    // the user are positive. For EVENT_CLICK, (right, down) is the pixel's position from the upper
+    // left corner.
     double right, down;
 } Event;
 
@@ -58,7 +59,7 @@ enum {
     COMMAND_UP = 32
 };
 
-// The properties of a scene that the state depends on.
+// The properties of a scene on which the state depends.
 typedef struct {
     const Viewpoint *viewpoints;
     size_t viewpoint_count;
@@ -71,13 +72,13 @@ typedef struct {
     bool smooth; // anti-aliased when the camera rests
     bool uses_bvh;
     bool boxes, normals; // drawn over the picture
-    bool help, text;     // overlays that are displayed
+    bool help, text;     // the displayed overlays
     bool turning;        // the camera turns automatically
     bool full_screen;
     uint32_t box_depth; // depth of the displayed boxes; 1: the root; 0: all leaves
     int exposure;       // in half stops
     uint32_t view;      // number of the latest viewpoint, from 1
-    bool moved;         // the camera has left this viewpoint
+    bool moved;         // the camera has moved since `view` was selected
     Orbit orbit;
     Viewpoint camera;
 } State;
@@ -88,7 +89,7 @@ State state_begin(const StateScene *scene, State state);
 // Applies an event to the state and returns the bits of the event's commands.
 unsigned state_apply(State *state, const Event *event, const StateScene *scene);
 
-// If the camera turns automatically, advances its rotation by `seconds` seconds.
+// If the camera turns automatically, turns it by the angle of `seconds` seconds.
 void state_advance(State *state, double seconds);
 
 // Switches to a scene that was read again. A camera that has not moved takes its viewpoint from the

@@ -10,8 +10,8 @@
 #define WAKE_STEP 0.03
 
 // For this many seconds, a request for another camera does not stop PASS_MOVING, so that pictures
-// of a moving camera appear at all. Afterwards, the request stops the pass, because the pass may
-// take very long in a large scene without a tree.
+// of a moving camera appear at all. After this time, the request stops the pass, because the pass
+// may take very long in a large scene without a tree.
 #define MOVING_SECONDS 0.5
 
 // A pass in progress.
@@ -81,8 +81,8 @@ static bool tile_done(void *context, const RenderProgress *progress)
 }
 
 // Updates the measured time per sample. `part` is the finished fraction of the pass. The first
-// measurement replaces the guess. Each later measurement raises the time by at most half, because
-// other processes may have slowed the picture.
+// measurement replaces the guess. A later measurement raises the time by at most half, because
+// other processes may have slowed the pass.
 static void update_sample_cost(Worker *worker, const Pass *pass, double seconds, double part)
 {
     const RenderSettings *settings = &pass->settings;
@@ -129,8 +129,8 @@ static void finish_pass(Worker *worker, const Job *job, Layer *layer, double sec
     end_update(worker);
 }
 
-// Reports that a picture cannot be traced. Stores the picture in status->reached, so that the
-// worker tries again only after a different request.
+// Reports that the requested picture cannot be traced. Stores the picture in status->reached as if
+// it were complete, so that the worker tries again only after a different request.
 static void report_failure(Worker *worker, const Job *job, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
@@ -196,8 +196,8 @@ static bool prepare(Worker *worker, Error *error)
     return session_prepare(&worker->session, &(SessionPicture){0}, &worker->drawn, error);
 }
 
-// Traces the model from now on. Without a tree, rays test all triangles. On failure, the worker
-// keeps the previous model.
+// Passes the model to the session, which then traces it. If the request's uses_bvh is false, rays
+// test all triangles. On failure, the worker keeps the previous model.
 static bool take(Worker *worker, const Job *job, Model *model, Error *error)
 {
     Session *session = &worker->session;
@@ -235,7 +235,7 @@ static void renew(Worker *worker, Error *error)
         *kernels = before;
 }
 
-// Publishes the model for the window. has_tree is false while the model's tree is not built.
+// Publishes the model for the window. `has_tree` is false while the model's tree is not built.
 static void publish(Worker *worker, Model *model, bool has_tree)
 {
     WorkerStatus *status = begin_update(worker);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scene file -> Model: the scene, its normalized triangles and their tree. Both the OpenGL view and
-// the ray-traced view draw a model. Models are reference-counted, because one thread makes a model
-// and others read it.
+// Scene file -> Model: the scene, the scene's normalized triangles, and a tree over the triangles.
+// Both the OpenGL view and the ray-traced view draw a model. Models are reference-counted, because
+// one thread makes a model and others read it.
 #pragma once
 
 #include "scene/scn.h"
@@ -11,14 +11,14 @@
 
 typedef struct {
     atomic_uint holders;
-    const char *path; // the path as given
+    const char *path; // as given to model_load
     Scene scene;
     Normalization normalization;
-    CompileStages stages; // without a tree until it is built
+    CompileStages stages; // without a tree until model_build_tree returns
 } Model;
 
-// Reads the scene or mesh at path. Returns a model with one reference, or NULL on failure. The
-// string path must outlive the model.
+// Reads the scene or mesh file at `path`. Returns a model with one reference, or NULL on failure.
+// The string `path` must outlive the model.
 Model *model_load(const char *path, const SceneLoadOptions *options, uint32_t threads,
                   Error *error);
 

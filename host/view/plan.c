@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Chooses the sizes of passes and of their tiles by the measured time per sample. Tracing may take
-// only part of a frame's time, because displaying takes time too and tracing times vary.
+// Chooses the next pass. The measured time per sample determines the sizes of pictures and tiles.
+// Tracing may take only part of a frame's time, because displaying takes time too and tracing times
+// vary.
 #include "view/plan.h"
 
 #include "session/costs.h"
@@ -23,8 +24,8 @@ static double pixel_count(const PlanRequest *request, uint32_t divisor)
     return (double)divided(request->full.width, divisor) * divided(request->full.height, divisor);
 }
 
-// Returns the smallest divisor that meets the time limit, or the largest divisor if no divisor
-// meets the limit.
+// Returns the smallest divisor with which tracing takes at most TRACE_SECONDS, or the largest
+// divisor if tracing always takes longer.
 static uint32_t moving_divisor(const PlanRequest *request)
 {
     static const uint32_t divisors[] = {1, 2, 3, 4, 6, 8, 12, 16};

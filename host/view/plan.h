@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Chooses the next pass, so that the camera moves smoothly and a resting picture becomes sharp
-// (compare Bergman, Fuchs, Grant and Spach, "Image rendering by adaptive refinement", 1986). The
-// first pass should take at most a frame's time, at a lower resolution if necessary. The next pass
-// traces all pixels with one sample, and another pass traces all samples. The last pass counts rays
-// and triangle tests.
+// Chooses the next pass that draws the window's picture, so that the camera moves smoothly and a
+// resting picture becomes sharp (compare Bergman, Fuchs, Grant and Spach, "Image rendering by
+// adaptive refinement", 1986). The first pass should take at most a frame's time, at a lower
+// resolution if necessary. The next pass traces all pixels with one sample, and another pass traces
+// all samples. The last pass counts rays and triangle tests.
 #pragma once
 
 #include "session/session.h"
@@ -14,10 +14,10 @@ typedef struct {
     bool is_wanted;
     uint64_t subject; // identifies scene, camera and size; pictures of other subjects do not count
     RenderSettings full;   // of the full picture with all samples
-    double sample_seconds; // tracing time per sample, guessed at first, then measured
+    double sample_seconds; // tracing time per sample, first guessed, then measured
 } PlanRequest;
 
-// The best picture so far.
+// The best complete picture so far.
 typedef struct {
     uint64_t subject; // 0 for none
     uint32_t divisor, samples;

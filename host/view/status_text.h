@@ -9,7 +9,7 @@
 
 #define STATUS_TEXT_SIZE 8192
 
-// The data that the texts show.
+// The data shown by the texts.
 typedef struct {
     const State *state;
     const WorkerRequest *request; // the latest request, with the window's size in pixels
@@ -19,7 +19,7 @@ typedef struct {
     uint32_t samples;   // along each side of a pixel, with anti-aliasing
     uint32_t box_count; // number of displayed boxes
     // The strings below are empty if there is nothing to report.
-    const char *notice;      // the names of pictures just saved
+    const char *notice;      // names the pictures that were saved last
     const char *missing;     // missing objects or lights of the scene
     const char *hint;        // the key for help
     const char *failure;     // failure of the scene, the device or the window
@@ -39,7 +39,7 @@ StatusText status_text_panel;
 
 StatusText status_text_title;
 
-// Stores one of these texts in `size` bytes. Longer texts are truncated.
+// Stores the text that `write` writes in the `size` bytes of `text`. Longer texts are truncated.
 void status_text_store(StatusText *write, const Figures *figures, char *text, size_t size);
 
 // Writes the orbit's angles and distance, and then the camera as statements of a scene file.

@@ -84,7 +84,7 @@ static void play_key(Viewer *viewer)
     take_event(viewer, &event);
 }
 
-// Removes an old hint, notices that the camera rests, and advances a camera that turns
+// Removes an expired hint, notices that the camera rests, and advances a camera that turns
 // automatically. In the ray-traced view, a turning camera waits until the picture of its current
 // position is traced. No camera turns while a save is requested.
 static void advance(Viewer *viewer)

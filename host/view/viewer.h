@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shows a scene file in a window, drawn by OpenGL or ray traced.
+// Shows a scene file in a window, by OpenGL or by ray tracing.
 #pragma once
 
 #include "image/image_file.h"
@@ -14,7 +14,7 @@ typedef struct {
     bool smooth, uses_bvh;  // initial values; smooth: resting pictures are anti-aliased
     Encoding encoding;
     int exposure;       // initial, in half stops
-    WorkerSetup worker; // without canvas and wake
+    WorkerSetup worker; // viewer_run sets canvas and wake
     const char *keys;   // keys to play, starting in the OpenGL view; NULL for none
     bool statistics;    // print frame times at the end
     bool verbose;       // print the state whenever it changes

@@ -41,10 +41,10 @@ typedef struct {
     Model *model; // holds a reference; NULL until the first scene is read
     StateScene scene;
     State state;
-    ARRAY(char *) dropped; // owned paths of dropped files; the worker may still read these
+    ARRAY(char *) dropped; // owned paths of dropped files; the worker may still read these strings
     Watch scene_files, kernel_files;
-    double polled;            // time of the latest check of these files
-    bool is_failure_followed; // the scene's folder is watched too, because a read failed
+    double polled;            // time of the latest check of the watched files
+    bool is_failure_followed; // the scene's folder is watched too, because the latest read failed
     bool wants_save;
     FrameTimes frame_times;
     uint64_t explained;    // request.explains of the displayed explanation; 0 for none
@@ -75,7 +75,7 @@ bool viewer_take_drop(Viewer *viewer, Error *error);
 // Requests a new read of changed scene files, and a new build of changed kernels.
 void viewer_follow_files(Viewer *viewer);
 
-// Reopens the window and rebuilds its contents if the driver has lost the context.
+// If the driver has lost the OpenGL context, reopens the window and rebuilds its contents.
 bool viewer_recover(Viewer *viewer, Error *error);
 
 // Returns whether the effects of all keys played so far are complete.

@@ -12,8 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
-// The following functions save pictures. The files are named after the scene, with the first unused
-// number.
+// The following functions save pictures. The names of the files contain the scene's name and the
+// first unused number.
 
 #define NAME_SIZE 512
 
@@ -30,8 +30,7 @@ static bool is_free(const char *stem, const char *ending)
     return access(path, F_OK) != 0;
 }
 
-// Stores the saved files' name without an extension. The name is the start of the scene file's name
-// and a number.
+// Stores the name of the files without an ending: the start of the scene file's name, and a number.
 static void write_stem(char stem[NAME_SIZE], const char *scene_path)
 {
     const char *slash = strrchr(scene_path, '/');
@@ -205,8 +204,8 @@ static void print_news(Viewer *viewer, const Figures *figures)
         fprintf(stderr, "clrt: %s\n", text);
 }
 
-// Times the frame if the camera turns. In the traced view, frames that show the previous frame's
-// picture are neither timed nor counted.
+// Records the time of the frame if the camera turns. In the traced view, ignores frames that show
+// the same picture as the frame before.
 static void count_frame(Viewer *viewer)
 {
     const bool is_new =
@@ -235,9 +234,9 @@ bool viewer_draw(Viewer *viewer, Error *error)
     return true;
 }
 
-// Saves the displayed picture and the traced picture. Holds the canvas's lock while reading the
-// traced picture. In the OpenGL view, or if there is no traced picture, saves the displayed picture
-// twice.
+// Saves the displayed picture and the traced picture. Holds the canvas's lock meanwhile, because
+// another pass could overwrite the traced picture. In the OpenGL view, or if there is no traced
+// picture, saves the displayed picture twice.
 static bool save(Viewer *viewer, const Framebuffer *shown)
 {
     char state[STATE_SIZE];

@@ -30,7 +30,7 @@ typedef struct {
 } Frame;
 
 // Makes the objects that need no model, in the current OpenGL context. The caller closes the views,
-// even after a failure. A missing font is no failure, but no_font receives the reason.
+// even after a failure. A missing font is no failure, but the reason is stored in *no_font.
 bool views_open(Views *views, Error *no_font, Error *error);
 void views_close(Views *views);
 

@@ -9,7 +9,8 @@
 
 typedef struct {
     char *path;        // path of a file, or of a folder whose files are watched; owned
-    uint64_t accepted; // signature (see watch.c) when a change was last reported, or at first
+    uint64_t accepted; // signature (see watch.c) at the latest reported change or, before any
+                       // change, at the start
     uint64_t seen;     // the latest signature
 } Watched;
 
@@ -18,7 +19,7 @@ typedef struct {
     uint64_t seen; // hash of the latest signatures
 } Watch;
 
-// Replaces the set of watched files. A file that was watched before keeps its accepted signature,
+// Replaces the set of watched files. Files that were watched before keep their accepted signatures,
 // so no change is lost.
 bool watch_set(Watch *watch, const char *const *paths, size_t count, Error *error);
 

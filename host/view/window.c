@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Opens a window by GLFW, and converts GLFW's callbacks to events. Letters are read as characters
-// instead of keys, so that every keyboard layout works. The callbacks find the Window by GLFW's
-// user pointer.
+// Opens a window by GLFW, and converts GLFW's callbacks to events. Letters arrive as characters
+// instead of keys, so every keyboard layout works. The callbacks find the Window by GLFW's user
+// pointer.
 #include "view/window.h"
 
 #include <epoxy/gl.h>
@@ -138,7 +138,7 @@ static void take_scroll(GLFWwindow *handle, double right, double down)
     add_event(handle, (Event){.kind = EVENT_WHEEL, .right = right, .down = down});
 }
 
-// Keeps only the first of several files, because the window shows one scene.
+// Keeps only the first of several dropped files, because the window shows one scene.
 static void take_drop(GLFWwindow *handle, int count, const char **paths)
 {
     Window *window = glfwGetWindowUserPointer(handle);
@@ -176,7 +176,7 @@ static void listen(Window *window)
     glfwGetCursorPos(window->handle, &window->mouse_x, &window->mouse_y);
 }
 
-// If the size exceeds the screen, shrinks it and keeps the aspect ratio.
+// If the size exceeds the screen, shrinks the size and keeps the aspect ratio.
 static void fit_screen(uint32_t *width, uint32_t *height)
 {
     int x, y, room_x = 0, room_y = 0;

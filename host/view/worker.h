@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A worker thread reads scenes and traces pictures, so that the window need not wait. The window
-// posts requests and polls the status. Besides these, the two threads share only the canvas and
+// A worker thread reads scenes and traces pictures, so the window never waits. The window posts
+// requests and polls the status. The two threads share only the request, the status, the canvas and
 // published models.
 //
 // A request is not a queue of commands. It describes the whole picture that the window needs now.
@@ -49,7 +49,8 @@ typedef struct {
     uint64_t models;     // number of published models
     bool has_tree;       // the latest model's tree is built
     const char *busy;    // the current operation; empty while tracing or idle
-    WorkerRequest done;  // finished loads, renewals and explains; current uses_bvh, camera and gain
+    WorkerRequest done;  // finished loads, renewals and explains; uses_bvh, camera and gain of the
+                         // latest picture
     PlanReached reached;
     double progress;                    // finished fraction of the current pass
     double frame_seconds;               // tracing time of the latest complete picture
@@ -80,9 +81,9 @@ void worker_poll(Worker *worker, WorkerStatus *status);
 // model yet.
 Model *worker_model(Worker *worker);
 
-// Returns whether the request is finished. The last pass, PASS_COUNT, is not required.
+// Returns whether the request is finished, except for PASS_COUNT.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
-// Stops and frees the worker. If the worker does not stop within this many seconds, worker_stop
+// Stops and frees the worker. If the worker does not stop within `seconds` seconds, worker_stop
 // frees nothing and returns false. The process must then end.
 bool worker_stop(Worker *worker, double seconds);

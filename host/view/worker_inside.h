@@ -17,7 +17,7 @@ struct Worker {
     // Only the worker thread uses the members below.
     Session session;
     Model *traced;         // the session's model, with a reference; may be NULL
-    PictureResult drawn;   // the latest picture
+    PictureResult drawn;   // result of the latest picture
     double sample_seconds; // tracing time per sample
     bool has_measured;     // sample_seconds is measured, not guessed
     double woken;          // clock time of the latest status update
@@ -31,7 +31,8 @@ typedef struct {
     Pass pass;
 } Job;
 
-// Returns the settings of the picture that the request describes, with tiles of one pixel.
+// Returns the settings of the requested picture. Its tiles have one pixel, and plan_pass chooses
+// larger tiles.
 RenderSettings worker_settings(const Worker *worker, const WorkerRequest *request);
 
 // Each function runs one kind of job. The first load also opens the device.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The canvas has two layers. One layer contains the latest complete picture, and a pass fills the
-// other layer.
+// The canvas has two layers. One layer contains the latest complete picture. The next pass fills
+// the other layer.
 #include "view/draw/canvas.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 // the tiles of the picture in progress.
 //
 // Invariant: the tracing thread first writes a tile and then counts it under the lock. The window's
-// thread reads only counted tiles, and holds the lock meanwhile.
+// thread reads only counted tiles, and only while it holds the lock.
 #pragma once
 
 #include "image/image_file.h"
@@ -12,7 +12,7 @@
 #include <pthread.h>
 
 typedef struct {
-    Framebuffer framebuffer; // used only by the tracing thread until the layer is complete
+    Framebuffer framebuffer; // until the layer is complete, only the tracing thread uses it
     unsigned char *bytes;    // 8-bit colors for the window, three bytes per pixel, top row first
     uint64_t pass;           // version of the bytes, from Canvas::passes; 0: empty
     RenderSettings settings; // size and tiles of this pass
@@ -25,7 +25,7 @@ typedef struct {
 
 typedef struct {
     Layer layers[CANVAS_LAYERS];
-    uint64_t passes; // number of versions so far
+    uint64_t passes; // number of versions of all layers so far
     Encoding encoding;
     pthread_mutex_t mutex;
 } Canvas;
@@ -33,18 +33,19 @@ typedef struct {
 void canvas_open(Canvas *canvas, Encoding encoding);
 void canvas_close(Canvas *canvas);
 
-// Prepares a layer for a new picture of this size, and keeps the latest complete picture. Returns
-// NULL if memory runs out.
+// Prepares a layer for a new picture with these settings, and keeps the latest complete picture.
+// Returns NULL if memory runs out.
 Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidden, Error *error);
 
-// Encodes the new tiles up to tiles_done, with colors multiplied by gain, and then counts them.
+// Encodes the new tiles up to `tiles_done`, with colors multiplied by `gain`, and then counts these
+// tiles.
 void canvas_add_tiles(Canvas *canvas, Layer *layer, uint64_t tiles_done, double gain);
 
-// Ends a picture. If is_whole, the layer becomes the latest complete picture. Otherwise, it becomes
-// empty.
+// Ends a picture. If `is_whole` is true, the layer becomes the latest complete picture. Otherwise,
+// the layer becomes empty.
 void canvas_end(Canvas *canvas, Layer *layer, bool is_whole);
 
-// Encodes the latest complete picture again, with colors multiplied by gain. No other picture may
+// Encodes the latest complete picture again, with colors multiplied by `gain`. No other picture may
 // be in progress.
 void canvas_encode_again(Canvas *canvas, double gain);
 

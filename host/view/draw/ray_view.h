@@ -9,7 +9,7 @@
 
 // OpenGL's copy of a layer.
 typedef struct {
-    GLuint texture, frame; // the frame reads the texture
+    GLuint texture, frame; // `frame` is a framebuffer that reads `texture`
     uint64_t pass, tiles;
 } LayerCopy;
 

@@ -29,7 +29,8 @@ static bool has_colors(const Scene *scene)
     return found;
 }
 
-// Copies vectors to the current buffer, unless the mesh has none of this kind.
+// Copies vectors to the current buffer. Does nothing if `vectors` is NULL, because the mesh has no
+// vectors of this kind.
 static void fill_vectors(size_t offset, const void *vectors, size_t count)
 {
     if (vectors != NULL)
@@ -59,7 +60,8 @@ void triangle_view_load(const Drawing *view, const Model *model)
     drawing_fill(view, 1, triangles->corners, triangles->count * sizeof *triangles->corners);
 }
 
-// Draws the next object with these vectors or, if it has none, with one value for all vertices.
+// Makes the next draw call read the attribute from the buffer or, if `vectors` is NULL, use one
+// value for all vertices.
 static void use_vectors(GLuint attribute, const void *vectors)
 {
     (vectors != NULL ? glEnableVertexAttribArray : glDisableVertexAttribArray)(attribute);
@@ -107,11 +109,11 @@ void triangle_view_draw(const Drawing *view, const Model *model, const Lens *len
 // is computed in fp64. In fp32, rounding would lose the eye's height above a ground sphere of
 // radius 1e9.
 
-// Floats per sphere: center, radius, and the material's vectors. An unused float of the material,
-// at HEIGHT_PLACE, holds the eye's height above the sphere.
+// Floats per sphere: center, radius, and the material's vectors. The float at HEIGHT_PLACE, which
+// no material uses, holds the eye's height above the sphere.
 #define SPHERE_NUMBERS (4 + 4 * MATERIAL_VECTORS)
 #define HEIGHT_PLACE   13
-#define CUBE_VERTICES  36 // of the cube's triangles (spheres.glsl)
+#define CUBE_VERTICES  36 // of the triangles of a cube (spheres.glsl)
 
 bool sphere_view_open(Drawing *view, Error *error)
 {
@@ -157,7 +159,8 @@ void sphere_view_draw(const Drawing *view, const Model *model, const Lens *lens,
     glUnmapBuffer(GL_ARRAY_BUFFER);
     lens_apply(lens, view->program);
     light_apply(scene, &model->normalization, tone, view->program);
-    // Draws only back faces, which cover the sphere even if the eye is inside the cube.
+    // Draws only the back faces of the cube, which cover the sphere even if the eye is inside the
+    // cube.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
     glDrawArraysInstanced(GL_TRIANGLES, 0, CUBE_VERTICES, (GLsizei)count);
@@ -203,8 +206,8 @@ typedef struct {
     Error *error;
 } Collection;
 
-// Adds the boxes of a subtree at collection->depth. The subtree's root is the node with this number
-// and depth. The depth of the tree bounds the recursion.
+// Adds the boxes at collection->depth in a subtree. The subtree's root is node `number`, which has
+// depth `depth`. The depth of the tree bounds the recursion.
 static bool collect(const Collection *collection, uint32_t number, uint32_t depth)
 {
     const BvhNode *node = &collection->bvh->nodes[number];

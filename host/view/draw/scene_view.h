@@ -11,24 +11,24 @@ bool triangle_view_open(Drawing *view, Error *error);
 // Copies the model's triangles into the OpenGL buffers, in place of the previous triangles.
 void triangle_view_load(const Drawing *view, const Model *model);
 
-// Draws the triangles as seen through lens, with colors converted by tone.
+// Draws the triangles as seen through *lens, with colors converted by *tone.
 void triangle_view_draw(const Drawing *view, const Model *model, const Lens *lens,
                         const Tone *tone);
 
 bool sphere_view_open(Drawing *view, Error *error);
 
-// Draws spheres by a ray in each pixel, so their outlines are exact. If memory runs out, draws
-// nothing.
+// Draws the spheres by casting a ray in each pixel, so their outlines are exact. If memory runs
+// out, draws nothing.
 void sphere_view_draw(const Drawing *view, const Model *model, const Lens *lens, const Tone *tone);
 
-// Draws boxes, or their diagonals, in one color.
+// A view that draws boxes, or diagonals of boxes, in one color.
 typedef struct {
     Drawing drawing;
     bool is_diagonal;
     uint32_t count; // of loaded boxes
 } LineView;
 
-// If is_diagonal, the view draws a line from each box's `low` to its `high`. In these lines, `low`
+// If `is_diagonal` is true, the view draws a line from each box's `low` to its `high`, and `low`
 // may exceed `high`.
 bool line_view_open(LineView *view, bool is_diagonal, Error *error);
 
@@ -42,8 +42,8 @@ typedef ARRAY(Box) Boxes;
 uint32_t boxes_deepest(const Bvh *bvh);
 
 // Fills an empty array with the boxes of the inner nodes at this depth. The root has depth 1. If
-// depth is 0, fills the array with the boxes of all leaves. The caller frees the array, also after
-// a failure.
+// `depth` is 0, fills the array with the boxes of all leaves. The caller frees the array, also
+// after a failure.
 bool boxes_make(Boxes *boxes, const Bvh *bvh, uint32_t depth, Error *error);
 void boxes_free(Boxes *boxes);
 

@@ -110,7 +110,7 @@ void shader_set_vector(GLuint program, const char *name, const float v[3])
     glUniform3fv(glGetUniformLocation(program, name), 1, v);
 }
 
-// The following functions convert a camera.
+// The following functions convert a camera to the uniforms of lens.glsl.
 
 // The depth range of an orthographic picture ends at least this far behind the origin of normalized
 // coordinates. All triangles are within this distance of the origin.
@@ -140,8 +140,8 @@ void lens_apply(const Lens *lens, GLuint program)
 
 // The following functions convert a scene's lights and materials to the shaders' layout.
 
-// Returns one light for the scene's lights [first, end). It has their total intensity, and the mean
-// of their colors and normalized positions, weighted by intensity.
+// Returns one light that replaces the scene's lights [first, end). It has the total intensity of
+// these lights, and the means of their colors and normalized positions, weighted by intensity.
 static Light mean_light(const Scene *scene, size_t first, size_t end,
                         const Normalization *normalization)
 {

@@ -15,8 +15,9 @@ extern const char shader_triangles[], shader_spheres[], shader_lines[], shader_t
 
 #define ATTRIBUTES_MOST 8
 
-// A shader and its attributes. Each element of buffer 0, a vertex or an instance, has the floats of
-// all attributes, in this order.
+// A shader and its attributes. Buffer 0 has an element for each vertex or, if has_instances is
+// true, for each instance. An element has the floats of all attributes, in the order of
+// `attributes`.
 typedef struct {
     const char *shader;
     bool has_instances;
@@ -26,13 +27,14 @@ typedef struct {
     } attributes[ATTRIBUTES_MOST];
 } DrawingLayout;
 
-// A program and its buffers: the attributes, and the corners of triangles.
+// A program and its buffers. Buffer 0 has the attributes, and buffer 1 has the corners of
+// triangles.
 typedef struct {
     GLuint program, array, buffers[2];
 } Drawing;
 
-// Compiles the shader and makes empty buffers. On failure, error receives the driver's message. The
-// caller closes the drawing, even after a failure.
+// Compiles the shader and makes empty buffers. On failure, stores the driver's message in *error.
+// The caller closes the drawing, even after a failure.
 bool drawing_open(Drawing *drawing, const DrawingLayout *layout, Error *error);
 void drawing_close(Drawing *drawing);
 
@@ -41,7 +43,7 @@ void drawing_use(const Drawing *drawing);
 
 void drawing_fill(const Drawing *drawing, int buffer, const void *bytes, size_t size);
 
-// Sets a uniform of the current program. Ignores names that the program does not use.
+// Sets a uniform of `program`, which must be current. Ignores names that the program does not use.
 void shader_set_vector(GLuint program, const char *name, const float v[3]);
 
 // The following declarations convert the scene's lights and materials to the uniforms of
@@ -73,11 +75,11 @@ typedef struct {
     CameraData camera;   // in normalized coordinates; a step is half a pixel
     Vec3 eye;            // in normalized coordinates, in fp64
     float width, height; // of the picture, in pixels
-    float farthest;      // greater distances all have depth 1; 0 for perspective
+    float farthest;      // distances above this one all have depth 1; 0 for perspective
 } Lens;
 
 Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uint32_t width,
              uint32_t height);
 
-// Sets the lens's uniforms in the current program.
+// Sets the uniforms of lens.glsl in `program`, which must be current.
 void lens_apply(const Lens *lens, GLuint program);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The target has two framebuffers. OpenGL draws into the first. A blit copies the first to the
-// second, which is displayed. If the first is twice as large, the blit averages its pixels.
+// The target has two framebuffers. OpenGL draws into the first framebuffer. A blit copies the first
+// to the second framebuffer, which is displayed. If the first is twice as large, the blit averages
+// pixels.
 #include "view/draw/target.h"
 
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// An offscreen picture. An anti-aliased picture is larger than the window. clrt does not read the
-// window's own buffer, because its pixels are undefined where other windows cover the window.
+// An offscreen picture, which is larger than the window if the picture is anti-aliased. clrt saves
+// this picture instead of the window's buffer, which has undefined pixels where other windows cover
+// the window.
 #pragma once
 
 #include "image/framebuffer.h"
@@ -8,7 +9,7 @@
 #include <epoxy/gl.h>
 
 typedef struct {
-    GLuint frames[2];       // the drawn framebuffer, and the displayed framebuffer
+    GLuint frames[2];       // framebuffers: the drawn one, and the displayed one
     GLuint buffers[3];      // color and depth of frames[0], color of frames[1]
     uint32_t width, height; // size of the displayed frame
     uint32_t factor;        // ratio of the drawn frame's sides to the displayed frame's sides

@@ -19,7 +19,7 @@
 #define TEXTURE_SIDE 14   // a texture of this width and height holds all characters
 #define FOLDER       "/usr/share/fonts/truetype/"
 
-// The fonts in the order in which they are tried. Fixed paths avoid a dependency on fontconfig.
+// The fonts, in the order in which clrt tries them. Fixed paths avoid a dependency on fontconfig.
 // tools/setup installs the first font.
 static const char *const font_paths[] = {
     FOLDER "dejavu/DejaVuSans.ttf", FOLDER "liberation/LiberationSans-Regular.ttf",
@@ -108,7 +108,7 @@ void text_view_close(TextView *view)
     *view = (TextView){0};
 }
 
-// Adds a character's rectangle to the text to draw. If memory runs out, the character is missing.
+// Adds a character's rectangle to view->quads. If memory runs out, the character is not drawn.
 static void add_quad(TextView *view, const stbtt_aligned_quad *place, const float color[4])
 {
     Error error = {0};
@@ -123,7 +123,7 @@ typedef struct {
     float x, y;   // of the upper left corner
     float right;  // the right end of lines
     float widest; // the largest x so far
-    bool draws;   // whether to draw characters, or only to measure them
+    bool draws;   // false: only measures characters
     const float *color;
 } Pen;
 
@@ -236,8 +236,9 @@ static float draw_text(TextView *view, const char *text, const TextOverlay *over
     return pen.y;
 }
 
-// Shortens the text until it fits this width at font size 1. Repeatedly removes the last comma and
-// the phrase after it. If no comma is left, removes single characters.
+// Shortens the text until its width at font size 1 is at most `width`. First removes phrases at the
+// end, each with the comma before it. If no comma is left, removes single characters and ends the
+// text with dots.
 static void shorten(const Font *font, char *text, float width)
 {
     static const char dots[] = "...";

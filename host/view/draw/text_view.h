@@ -38,7 +38,7 @@ typedef struct {
     float density;          // pixels per 1/96 inch
 } TextOverlay;
 
-// Opens the view. If no font is found, the view draws nothing and no_font receives a message.
+// Opens the view. If no font is found, the view draws nothing, and *no_font contains the reason.
 bool text_view_open(TextView *view, Error *no_font, Error *error);
 void text_view_close(TextView *view);
 

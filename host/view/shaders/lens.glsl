@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Projects points in the same way as the camera of traced pictures. Perspective pictures have no
-// far plane. Their depth is 1 - nearest / distance. The depth of orthographic pictures is distance
-// / farthest.
+// Projects points in the same way as the camera of traced pictures. In perspective pictures, the
+// depth is 1 - nearest / distance, so there is no far plane. In orthographic pictures, the depth is
+// distance / farthest.
 uniform vec3 eye, forward;
 uniform vec3 right_step, down_step;   // half a pixel at distance 1
 uniform vec2 size;                    // of the picture in pixels
 uniform float farthest;               // 0 for a perspective picture
 
-// Points up to this distance have depth 0, so the point drawn last is visible. The distance is in
-// normalized coordinates, in which the longest side of the triangles' box is 1 to 2.
+// Points up to this distance all have depth 0, so the one that is drawn last is visible. The
+// distance is in normalized coordinates, in which the longest side of the triangles' box is 1 to 2.
 const float nearest = 0.01;
 
 // Returns the depth of a point. `offset` is the point relative to the eye.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shades the scene's materials under its lights, without shadows. Mirrors reflect the background.
-// Glass covers every second pixel with its color, so that objects behind the glass stay visible. As
-// in the traced picture, a light counts only if the shading normal and the face both point toward
-// it.
+// Shades materials under the scene's lights, without shadows. Mirrors reflect the background. Glass
+// covers every second pixel with its color, so that objects behind the glass stay visible. As in
+// the traced picture, a light counts only if the shading normal and the face both point toward it.
 #define LIGHTS       64
 #define SILHOUETTE   0.5 // shader numbers below this are silhouettes
 #define BLINN_PHONG  1.5
@@ -33,9 +32,9 @@ vec3 encoded(vec3 color)
 }
 
 // Returns the color of the cube behind the surface, as in the traced picture (kernels/material.cl).
-// Interpolated places are less precise than traced points, so this function moves them 32 times as
-// far behind the surface. It does not move them along axes parallel to the surface, because a move
-// of this length would cross the edges of solids.
+// Interpolated places are less precise than traced points, so this function moves places 32 times
+// as far behind the surface. It does not move places along axes parallel to the surface, because
+// moves of this length would cross the edges of solids.
 vec3 checked(Surface surface)
 {
     float move = (surface.even.w + 1.0) / 16384.0;

@@ -9,7 +9,7 @@ out vec3 place, bend, paint;
 void main()
 {
     place = position;
-    vec3 sizes = abs(normal); // dividing by the largest prevents overflow
+    vec3 sizes = abs(normal); // dividing by the largest component prevents overflow
     float largest = max(max(sizes.x, sizes.y), sizes.z);
     bend = largest > 0.0 ? normalize(normal / largest) : normal;
     paint = tint;
