@@ -17,8 +17,8 @@ from .library import (NOTHING, ArgumentError, choices, ffi, fractions, lib, numb
 class Picture(np.ndarray):
     """A picture: a float32 array of shape (height, width, 3), R G B in [0, 1], top row first.
 
-    channels maps the names of the requested channels to arrays of shape (height, width) or
-    (height, width, components). result has the members of ClrtResult in clrt.h.
+    `channels` maps the names of the requested channels to arrays of shape (height, width) or
+    (height, width, components). `result` has the members of ClrtResult in clrt.h.
     """
 
     channels: Mapping[str, np.ndarray] = {}
@@ -33,7 +33,7 @@ class Picture(np.ndarray):
             return None
         height, width, _ = self.shape
         lines = np.zeros((height, 1 + 3 * width), np.uint8)
-        # This rounds as encode_channels in host/image/encode.c does. fmin turns a NaN into 1.
+        # Rounds as encode_channels in host/image/encode.c does. fmin turns NaN into 1.
         shown = np.fmax(np.fmin(self, 1), 0).astype(np.float64)
         lines[:, 1:] = (shown * 255 + 0.5).reshape(height, -1)
         header = binary.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
@@ -45,7 +45,7 @@ class Picture(np.ndarray):
 
 @functools.cache
 def channel_kinds() -> dict[str, tuple[int, type, str]]:
-    """The channels that render can make: name -> (components, dtype, help)."""
+    """The channels that Renderer.render can draw: name -> (components, dtype, help)."""
     kinds = [result_of("channel_get", i) for i in range(lib.clrt_channel_count())]
     return {kind["name"]: (kind["components"], np.uint32 if kind["is_integer"] else np.float32,
                            kind["help"]) for kind in kinds}
@@ -91,13 +91,14 @@ class Hits:
     """The hits of rays. Arrays have one element per ray, or per crossing of trace_all.
 
     distance: float64, in lengths of the ray's direction; infinity without a hit. primitive, mesh,
-    face: uint32, clrt.NOTHING without a hit. primitive is an id, as in `starts` and in the channel
-    "primitive": first all spheres, then all faces except those with two corners at one place. mesh
-    and face count from 0, in the given order, and are clrt.NOTHING for spheres. weights: float64
-    (n, 2), of the face's second and third corner; u and v are its columns. normal: float64 (n, 3),
-    the unit normal of the front. front: bool, whether the ray comes from the front. certain: bool,
-    whether rounding cannot have changed the primitive; only on request, and not from trace_all.
-    ray: the rays' numbers, only from trace_all. Arrays that were not requested are None.
+    face: uint32, clrt.NOTHING without a hit. `primitive` is an id, as in `starts` and in the
+    channel "primitive": first all spheres, then all faces except those with two corners at one
+    place. `mesh` and `face` count from 0, in the given order, and are clrt.NOTHING for spheres.
+    weights: float64 (n, 2), barycentric, of the face's second and third corner; u and v are the
+    columns. normal: float64 (n, 3), the unit normal of the front side. front: bool, whether the ray
+    hits the front side. certain: bool, whether rounding cannot have changed the primitive; only on
+    request, and not from trace_all. ray: the number of the ray, only from trace_all. Arrays that
+    were not requested are None.
     """
 
     distance: np.ndarray | None = field(default=None, metadata={"distances": "f8"})
@@ -131,7 +132,7 @@ RESULTS = tuple(name for name in _ARRAYS if name != "certain")
 
 
 def rays(origins, directions, *, near=None, far=None, starts=None, **settings):
-    """A ClrtRays. Renderer.trace describes the arguments. The settings are further members."""
+    """A ClrtRays. Renderer.trace describes the arguments. `settings` are more of its members."""
     origins = numbers(origins, np.float64, "origins")
     directions = numbers(directions, np.float64, "directions")
     axis = next((array.shape[:1] for array in (origins, directions) if array.shape != (3,)), ())
@@ -158,7 +159,7 @@ def hit_arrays(results, count, room=1):
 
 
 def rows(values, dtype, what, is_dense=False):
-    """An array of the shape (n, 3) with contiguous rows. Copies only if it must."""
+    """An array of the shape (n, 3) with contiguous rows. Copies `values` only if necessary."""
     made = threes(numbers(values, dtype, what), what, "n")
     size, (row, column) = made.itemsize, made.strides
     is_in_rows = column == size and row >= 3 * size and made.flags.aligned

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Calls libclrt. cffi reads clrt.h, so every struct is defined once."""
+"""Calls libclrt. cffi reads clrt.h, so Python does not define the structs again."""
 
 import contextlib
 import os
@@ -20,12 +20,12 @@ NOTHING = 0xFFFFFFFF
 _NUMBERS = {"double": "a number", "_Bool": "True or False",
             "uint32_t": f"an integer from 0 to {NOTHING}"}
 ffi = cffi.FFI()
-_user: list[int] = []  # the id of the process that uses devices
+_user: list[int] = []  # the id of the first process that used a device, if any
 _kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
 
 class Error(Exception):
-    """A call of the library failed. The text says why."""
+    """A call of the library failed. The text contains the reason."""
 
 
 class ArgumentError(Error, ValueError):
@@ -37,7 +37,7 @@ class SceneError(Error):
 
 
 class DeviceError(Error, RuntimeError):
-    """There is no device, or the device failed."""
+    """There is no device, the device failed, or memory ran out."""
 
 
 class Stopped(Error):
@@ -48,14 +48,14 @@ _FAULTS = {1: Stopped, 2: ArgumentError, 3: SceneError, 4: DeviceError}
 
 
 def _declarations():
-    """The text of clrt.h, which is beside this file or in host/library, as cffi can read it."""
+    """The declarations of clrt.h for cffi. The file is in this folder or in host/library."""
     places = (_FOLDER / "clrt.h", _FOLDER.parents[1] / "library" / "clrt.h")
     header = next(place for place in places if place.exists()).read_text(encoding="utf-8")
     return re.sub(r'//.*|^#.*|^extern "C" {|^}$|CLRT_API ', "", header, flags=re.MULTILINE)
 
 
 def _open():
-    """Opens $CLRT_LIBRARY, the wheel's library or the system's."""
+    """Opens $CLRT_LIBRARY if it is set, otherwise the wheel's library, otherwise the system's."""
     own = _FOLDER / "libclrt.so.0"
     try:
         # With this setting, PoCL compiles kernels in three quarters of the time. The program has
@@ -72,7 +72,7 @@ lib = _open()
 
 
 def use_device():
-    """Raises in forks of a process that has used a device, because the driver hangs there."""
+    """Raises in forks of a process that has used a device, because drivers hang in such forks."""
     _user[:] = _user or [os.getpid()]
     if _user[0] != os.getpid():
         raise DeviceError("a fork of a process that has used a device cannot use one: fork earlier,"
@@ -80,7 +80,7 @@ def use_device():
 
 
 def call(name, *arguments):
-    """Calls clrt_NAME with a ClrtError as the last argument. Raises the library's error."""
+    """Calls clrt_NAME with a ClrtError as the last argument, which is raised if the call fails."""
     error = ffi.new("ClrtError *")
     result = getattr(lib, "clrt_" + name)(*arguments, error)
     if not result:
@@ -90,7 +90,7 @@ def call(name, *arguments):
 
 
 def struct(kind, **members):
-    """Makes a struct of clrt.h. Its arrays live as long as the struct. None means the default."""
+    """Makes a struct of clrt.h, and keeps its arrays alive. None means the default."""
     types = {name: field.type for name, field in ffi.typeof(kind).fields}
     if unknown := set(members) - set(types):
         raise TypeError(f"there is no setting {', '.join(map(repr, unknown))}")
@@ -138,14 +138,14 @@ def result_of(name, *arguments):
 
 
 def instance(value, kind, what):
-    """The value, which must be of this class."""
+    """Returns the value. Raises unless it is an instance of `kind`."""
     if not isinstance(value, kind):
         raise ArgumentError(f"{what} is of the type {type(value).__name__}, not {kind.__name__}")
     return value
 
 
 def number(value, what, kind="double"):
-    """The value as a number of C. Raises unless this type of C can hold it."""
+    """The value as a number of the C type `kind`. Raises if the type cannot hold the value."""
     try:
         return ffi.new(kind + " *", value)[0]
     except (OverflowError, TypeError):
@@ -154,7 +154,7 @@ def number(value, what, kind="double"):
 
 
 def numbers(values, dtype, what, shape=None):
-    """An array of this dtype and shape. Copies only if it must. Raises if uint32 cannot hold it."""
+    """The values as an array. Copies only if necessary. Raises if uint32 cannot hold a value."""
     try:
         values = np.asarray(values)
         values = values if shape is None else np.broadcast_to(values, shape)
@@ -167,7 +167,7 @@ def numbers(values, dtype, what, shape=None):
 
 
 def fractions(values):
-    """An array. Integers of one or two bytes become numbers in [0, 1], as when clrt reads files."""
+    """The values as an array. uint8 and uint16 become numbers in [0, 1], as in picture files."""
     values = np.asarray(values)
     most = {"uint8": 255, "uint16": 65535}.get(values.dtype.name)
     return (values / most).astype(np.float32) if most else values
@@ -188,7 +188,7 @@ def vector(values, what):
 
 
 def parts(values, what, *names):
-    """The values as a tuple, which must have an element for each name."""
+    """The values as a tuple. Raises unless it has one element for each name."""
     made = tuple(values) if np.iterable(values) else ()
     if len(made) != len(names):
         raise ArgumentError(f"{what} is {values!r}, not ({', '.join(names)})")
@@ -196,7 +196,7 @@ def parts(values, what, *names):
 
 
 def choices(names, given, what):
-    """The given names as keys of a dict. One string is one name."""
+    """The given names as keys of a dict, without repetitions. A string counts as one name."""
     given = dict.fromkeys([given] if isinstance(given, str) else given)
     for name in given:
         choice(names, name, what)
@@ -204,7 +204,7 @@ def choices(names, given, what):
 
 
 def choice(names, given, what):
-    """The index of a name among the names of an enumeration of clrt.h."""
+    """The index of the given name in `names`. Raises if the name is not there."""
     if given not in names:
         raise ArgumentError(f"{what} is {given!r}, not one of {', '.join(names)}")
     return names.index(given)
@@ -212,7 +212,7 @@ def choice(names, given, what):
 
 @contextlib.contextmanager
 def progress_of(progress):
-    """Yields a ClrtProgress that calls progress or, for True, shows a bar by tqdm; or NULL."""
+    """Yields a ClrtProgress that calls `progress` or, if it is True, shows a bar. None: NULL."""
     faults, advance = [], _bar() if progress is True else progress
     callback = advance and ffi.callback(
         "ClrtProgress", lambda _, *parts: not faults and advance(*parts) is not False, error=False,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Devices, which draw pictures and cast rays."""
+"""Renderers, which draw pictures and cast rays on devices."""
 
 import functools
 import threading
@@ -19,11 +19,11 @@ Progress = bool | Callable[[int, int], bool | None] | None
 class Renderer:
     """A device that draws pictures and casts rays. Keeps the last scene's tree between calls.
 
-    device: as `clrt --device`: "cpu", "gpu", a part of a name or PLATFORM:DEVICE. threads: their
-    number for trees, refining and converting rays; PoCL's own threads follow
-    POCL_MAX_PTHREAD_COUNT. precision: "fp32" or "fp64". Python's threads may share a renderer, but
-    wait for each other. Most calls take `progress`: a function of (done, all) that may return False
-    to stop the call, or True for a bar by tqdm.
+    device: as for `clrt --device`: "cpu", "gpu", a part of a name or PLATFORM:DEVICE. threads: the
+    number of threads for trees, refining and converting rays; POCL_MAX_PTHREAD_COUNT limits PoCL's
+    own threads. precision: "fp32" or "fp64". Python's threads may share a renderer, but wait for
+    each other. Most calls take `progress`: True for a bar by tqdm, or a function of (done, all)
+    that may return False to stop the call.
     """
 
     def __init__(self, device: str | None = None, threads: int = 0, precision: str = "fp32"):
@@ -37,11 +37,11 @@ class Renderer:
         """Draws the scene and returns a Picture.
 
         width, height: in pixels; 0 is the scene's size. channels: names as in `clrt --aov`, such as
-        "depth", "primitive", "normal", "certainty". crop: (left, top, width, height). camera: a
-        Camera to use instead of view, the number of the scene's view, from 1. Further settings are
-        members of ClrtPicture in clrt.h, such as samples (N for N x N per pixel), error, max_level
-        and statistics. An error below 1.6e-4 requires Renderer(precision="fp64").
-        reference_samples draws a reference in fp64.
+        "depth", "primitive", "normal", "certainty". crop: (left, top, width, height). view: the
+        number of the scene's view, from 1. camera: a Camera to use instead of a view. Further
+        settings are members of ClrtPicture in clrt.h, such as samples (N of N x N samples per
+        pixel), error, max_level and statistics. An error below 1.6e-4 requires
+        Renderer(precision="fp64"). With reference_samples, draws the picture's reference.
         """
         picture = _request(width, height, result=struct("ClrtResult"), **settings)
         info = instance(scene, Scene, "scene").info
@@ -61,9 +61,9 @@ class Renderer:
 
     def explain(self, scene: Scene, x: int, y: int, width: int = 0, height: int = 0,
                 **settings: Any) -> dict[str, Any]:
-        """How clrt computes the color of the pixel in column x and row y, as a dict.
+        """Explains the color of the pixel in column x and row y. Returns a dict.
 
-        Its "samples" have "rays", and these have "lights"; clrt.h describes the members.
+        The dict has "samples", each sample "rays", and each ray "lights". clrt.h has their members.
         """
         place = [number(x, "x", "uint32_t"), number(y, "y", "uint32_t")]
         explanation = self._run("explain", scene, _request(width, height, **settings), place, None)
@@ -74,10 +74,11 @@ class Renderer:
         """Finds the nearest hit of each ray and returns Hits.
 
         origins, directions: (n, 3) numbers, or three for all rays; float64 arrays are not copied.
-        results: names of arrays of Hits; "certain" takes the longest. Limits: near and far limit
-        the distance, one number or n. starts: the primitive on which each ray starts
-        (Hits.primitive), or clrt.NOTHING; the ray does not hit this primitive again. one_sided:
-        rays pass through the backs of faces that are not two_sided.
+        results: names of arrays of Hits; "certain" takes longer than the others. near, far: limits
+        of the distance, as n numbers or as one for all rays. starts: the primitive on which each
+        ray starts (Hits.primitive), or clrt.NOTHING; the ray does not hit this primitive again,
+        except a sphere from inside. one_sided: rays pass through the backs of faces that are not
+        two_sided.
         """
         given = rays(origins, directions, **limits)
         target, arrays = hit_arrays(results, given.count)
@@ -108,9 +109,9 @@ class Renderer:
         return self._flags("occluded", scene, rays(origins, directions, **limits), progress)
 
     def contains(self, scene: Scene, points: ArrayLike, *, progress: Progress = None) -> np.ndarray:
-        """Whether each point is inside of an odd number of meshes and spheres, as bools.
+        """Whether each point is inside an odd number of meshes and spheres, as bools.
 
-        The meshes must be closed. Results for open meshes are meaningless; `check` finds these.
+        The meshes must be closed, which `check` finds out. Results for open meshes are meaningless.
         """
         points = rows(points, np.float64, "points")
         given = struct("ClrtRays", count=len(points), origins=points,
@@ -120,8 +121,8 @@ class Renderer:
     def check(self, scene: Scene) -> dict[str, Any]:
         """The facts about the scene's geometry that `clrt check` reports, as a dict.
 
-        "fine" says whether no finding is a fault. "meshes" and "findings" are lists of dicts, whose
-        members are those of ClrtCheckedMesh and ClrtFinding in clrt.h.
+        "fine" is True if no finding is a fault. "meshes" and "findings" are lists of dicts with the
+        members of ClrtCheckedMesh and ClrtFinding in clrt.h.
         """
         check = ffi.gc(self._call("check", scene), lib.clrt_check_free)
         info = result_of("check_get_info", check)
@@ -145,7 +146,7 @@ class Renderer:
 
 
 def _request(width, height, crop=None, camera=None, max_level=None, **settings):
-    """A ClrtPicture, whose members are the settings."""
+    """A ClrtPicture with the settings as its members."""
     rectangle = zip(("left", "top", "crop_width", "crop_height"),
                     parts(crop or (0, 0, 0, 0), "crop", "left", "top", "width", "height"))
     camera = None if camera is None else instance(camera, Camera, "camera")._struct()
@@ -154,7 +155,7 @@ def _request(width, height, crop=None, camera=None, max_level=None, **settings):
 
 
 def _explained(explanation, *place):
-    """The part of an explanation at a place: numbers of a sample, a ray and a light."""
+    """The part of an explanation at `place`: (), or the numbers of a sample, a ray and a light."""
     kind, *parts = ("pixel", "sample", "ray", "light")[len(place):]
     values = result_of("explanation_get_" + kind, explanation,
                        *(place if len(place) < 2 else [place]))
@@ -165,10 +166,10 @@ def _explained(explanation, *place):
 
 
 def devices() -> list[dict[str, Any]]:
-    """The OpenCL devices, as dicts. "device" is the name for Renderer(device=)."""
+    """The OpenCL devices, as dicts. A dict's "device" is the argument of Renderer(device=)."""
     use_device()
     return [result_of("device_get", i) for i in range(result_of("device_count"))]
 
 
-# Returns the renderer that Scene.render and trimesh use by default. The first call opens it.
+# Returns the renderer that Scene.render and trimesh.py use by default. The first call opens it.
 default_renderer = functools.cache(Renderer)

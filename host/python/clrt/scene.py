@@ -18,10 +18,10 @@ _MATERIALS = ("silhouette", "matte", "blinn_phong", "mirror")
 
 @dataclasses.dataclass
 class Camera:
-    """A camera at `eye`. `fov` is its vertical field of view in degrees.
+    """A camera at `eye`. `fov` is the vertical field of view in degrees.
 
-    If `height` is above 0, the camera is orthographic. Its pictures have this height in scene units.
-    Narrow pictures show at least `width` units, or in perspective `width_degrees`.
+    If `height` is above 0, the camera is orthographic, and its pictures show `height` scene units.
+    Across, narrow pictures show at least `width` units or, in perspective, `width_degrees` degrees.
     """
 
     eye: ArrayLike
@@ -42,7 +42,7 @@ class Camera:
 
 
 class Scene:
-    """An empty scene with a white background. `load` reads one from a file."""
+    """A scene, at first empty and with a white background. `load` reads a scene from a file."""
 
     def __init__(self, handle: Any = None):
         self._handle = ffi.gc(handle or call("scene_create"), lib.clrt_scene_free)
@@ -51,11 +51,12 @@ class Scene:
                  specular: ArrayLike = (1, 1, 1), kd: float = 0.8, ks: float = 0.5,
                  shininess: float = 50.0, reflectivity: float = 0.0,
                  checker: tuple[float, ArrayLike, ArrayLike] | None = None, ior: float = 1.5) -> int:
-        """Adds a material and returns its number. clrt.h has the formula of its colors.
+        """Adds a material and returns its number. clrt.h has the formulas of colors.
 
-        shading: "silhouette", "matte", "blinn_phong" or "glass", which uses only diffuse, the
-        color of refracted light, and ior. Colors are R G B in [0, 1]. checker: the size of cubes
-        and their two colors, instead of diffuse. The cube from (0, 0, 0) has the first color.
+        shading: "silhouette", "matte", "blinn_phong" or "glass". Glass uses only `ior` and
+        `diffuse`, which is the color of refracted light. Colors are R G B in [0, 1]. checker: the
+        size of cubes and two colors for them, instead of `diffuse`. The cube from (0, 0, 0) to
+        (size, size, size) has the first color.
         """
         size, even, odd = parts(checker or (0, None, None), "checker", "size", "color", "color")
         given = struct("ClrtMaterial", shading=shading, diffuse=diffuse, specular=specular, kd=kd,
@@ -70,10 +71,9 @@ class Scene:
 
         vertices: (n, 3) numbers, kept as float64. faces: (m, 3) vertex numbers, counter-clockwise
         seen from the front. normals, colors: (n, 3), one per vertex. Colors replace the material's
-        diffuse color: uint8, uint16 or numbers in [0, 1]. smooth computes missing normals; angles
-        above `crease` degrees stay sharp (33 by default). two_sided meshes are also visible from
-        behind. material: "silhouette", "matte", "blinn_phong", "mirror" or the result of
-        `material`.
+        diffuse color: uint8, uint16 or numbers in [0, 1]. smooth: computes missing normals; angles
+        above `crease` degrees stay sharp (33 by default). two_sided: also visible from behind.
+        material: "silhouette", "matte", "blinn_phong", "mirror" or the result of `material`.
         """
         vertices = rows(vertices, np.float64, "vertices", is_dense=True)
         faces = rows(faces, np.uint32, "faces", is_dense=True)
@@ -93,10 +93,11 @@ class Scene:
     def light(self, position: ArrayLike, intensity: float = 1.0,
               color: ArrayLike = (1, 1, 1), is_sun: bool = False,
               area: tuple[ArrayLike, ArrayLike, int] | None = None) -> None:
-        """Adds a light without attenuation. A sun is infinitely far away, toward the position.
+        """Adds a light whose intensity does not decrease with distance.
 
-        area: both sides of a parallelogram around the position, and a number n up to 16. The light
-        then consists of n * n points, and casts soft shadows.
+        is_sun: the light is infinitely far away, in the direction `position`. area: two sides of a
+        parallelogram around `position`, and a number n up to 16. The light then consists of n * n
+        points, and casts soft shadows.
         """
         if area is None:
             call("scene_add_sun" if is_sun else "scene_add_colored_light", self._handle,
@@ -111,7 +112,7 @@ class Scene:
             call("scene_add_area_light", self._handle, given)
 
     def camera(self, eye: ArrayLike, *settings: Any, **more: Any) -> None:
-        """Appends a Camera of these arguments as a view. Its number is len(scene.cameras)."""
+        """Adds a Camera of these arguments as the last view, whose number is len(cameras)."""
         call("scene_add_camera", self._handle, Camera(eye, *settings, **more)._struct())
 
     def background(self, color: ArrayLike) -> None:
@@ -124,7 +125,7 @@ class Scene:
 
     @property
     def info(self) -> dict[str, Any]:
-        """The counts of the scene's parts, and the size of its pictures, as a dict."""
+        """The members of ClrtSceneInfo in clrt.h, such as counts of objects, as a dict."""
         return result_of("scene_get_info", self._handle)
 
     @property
@@ -144,16 +145,16 @@ def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
          crease: float | None = None, soft: bool = False) -> Scene:
     """Reads a scene file (man 5 clrt-scene) or a mesh file, which clrt places in a studio.
 
-    up: the axis of a mesh file that points up, "x" to "-z". flat ignores its normals. Angles above
-    `crease` degrees stay sharp (33 or 70 by default, by the shape). soft gives the studio's lights
-    areas, so shadows are soft.
+    up: the axis of a mesh file that points up, "x" to "-z". flat: ignores the file's normals.
+    crease: larger angles in degrees stay sharp (33 or 70 by default, by the shape). soft: the
+    studio has area lights, which cast soft shadows.
     """
     settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=_crease(crease), soft=soft)
     return Scene(call("scene_load", os.fsencode(path), settings))
 
 
 def _per_vertex(given, count, what):
-    """Three numbers per vertex or None."""
+    """The given array of three numbers per vertex, or None."""
     if given is None:
         return None
     made = rows(fractions(given), np.float32, what, is_dense=True)
@@ -163,7 +164,7 @@ def _per_vertex(given, count, what):
 
 
 def _crease(degrees):
-    """The degrees for the library, where 0 means the default. The least number replaces 0."""
+    """The degrees for the library. The least positive number replaces 0, which is the default."""
     return sys.float_info.min if degrees == 0 else degrees
 
 

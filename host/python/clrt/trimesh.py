@@ -9,11 +9,11 @@ from .scene import Scene
 
 
 class RayMeshIntersector:
-    """Has the methods and results of trimesh.ray's intersectors, by exact rays.
+    """Has the methods and results of trimesh.ray's intersectors, but casts exact rays.
 
-    Of faces with the same corners, the first hit is the one with the lowest number. If a ray
-    crosses a closed surface at an edge or vertex, an odd number of faces counts as hit, usually
-    one. Hits of one ray are ordered by distance.
+    If several faces have the same corners, the face with the lowest number is hit first. If a ray
+    crosses a closed surface at an edge or vertex, it hits an odd number of faces there, usually
+    one. The hits of a ray are ordered by distance.
     """
 
     def __init__(self, geometry, renderer=None):
@@ -22,7 +22,7 @@ class RayMeshIntersector:
         self._scene, self._state = None, None
 
     def _cast(self, kind, *arrays, **settings):
-        """The result of the renderer's method for the arrays as rows of three."""
+        """The result of the renderer's method `kind`. The arrays become rows of three numbers."""
         if self._state != hash(self.mesh):
             self._scene, self._state = Scene(), hash(self.mesh)
             self._scene.mesh(self.mesh.vertices, self.mesh.faces)
@@ -31,7 +31,7 @@ class RayMeshIntersector:
 
     def intersects_id(self, ray_origins, ray_directions, multiple_hits=True, max_hits=None,
                       return_locations=False, **_):
-        """The faces and the rays that hit them: index_tri, index_ray and, if asked, locations."""
+        """The hits as arrays: index_tri, index_ray and, with return_locations, locations."""
         kind = "trace_all" if multiple_hits else "trace"
         hits = self._cast(kind, ray_origins, ray_directions, results=("face", "distance"))
         ray = hits.ray if multiple_hits else np.arange(len(hits.face))
@@ -44,7 +44,7 @@ class RayMeshIntersector:
         return face, ray, np.asarray(ray_origins).reshape(-1, 3)[ray] + paths
 
     def intersects_location(self, ray_origins, ray_directions, **settings):
-        """The points that rays hit, the rays and the faces: locations, index_ray, index_tri."""
+        """The hits as arrays: locations, index_ray, index_tri."""
         face, ray, locations = self.intersects_id(ray_origins, ray_directions,
                                                   return_locations=True, **settings)
         return locations, ray, face
@@ -59,5 +59,5 @@ class RayMeshIntersector:
         return self._cast("occluded", ray_origins, ray_directions)
 
     def contains_points(self, points):
-        """Whether each point is inside of the mesh, which must be closed."""
+        """Whether each point is inside the mesh, which must be closed."""
         return self._cast("contains", points)
