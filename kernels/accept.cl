@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Decides, for every search, whether a triangle becomes the best hit. pair.cl and packet.cl test
-// one triangle against one ray or a packet of rays. wide.cl tests one ray against a block of
-// triangles, and then calls accept_triangle for the ray's lane.
+// Decides, for every search, whether a triangle becomes the best hit. pair.cl tests one triangle
+// against one ray, and packet.cl tests one against a packet of rays. wide.cl tests one ray against
+// a block of triangles, and then calls accept_triangle for the ray's lane.
 //
 // Two rare cases need a second test: a hit within rounding of the ray's start (stops_on_neighbor),
 // and hits whose distances differ only by rounding (triangle_is_nearer). On CPUs, these two
 // functions are not inlined.
 //
 // Invariant: the decision depends only on the ray, the limit of its search, the triangle and the
-// best hit so far. The best of several triangles does not depend on the order of the tests.
+// best hit so far. The best of several triangles therefore does not depend on the order of the
+// tests.
 #ifndef CLRT_ACCEPT_CL
 #define CLRT_ACCEPT_CL
 #include "crossings.cl"
@@ -42,7 +43,7 @@ static inline Sides sides_exchanged(Mask exchange, Sides sides)
 //  - The plane of `other`: `other` is ahead if `own` is on the side from which the ray comes, and
 //    behind if `own` is on the opposite side.
 // A ray does not hit coplanar neighbors. `cross` receives the lanes in which order.cl must decide,
-// because a triangle has corners on both sides of the other's plane.
+// because a triangle has corners on both sides of the other triangle's plane.
 static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
                                  Mask from_back, Mask *cross)
 {
@@ -56,9 +57,9 @@ static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3
     return ahead && !behind;
 }
 
-// Returns the rays that start on another triangle and stop on this one. Each ray's line must hit
-// this triangle so close to the ray's start that rounding could put the hit before or behind the
-// start.
+// Returns the lanes whose rays start on a triangle and stop on triangle `index`. Each ray's line
+// must hit triangle `index` so close to the ray's start that rounding could put the hit before or
+// behind the start.
 static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask from_back)
 {
     const Ray *ray = search->ray;
@@ -73,8 +74,8 @@ static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask 
 }
 
 // In each lane of `candidates`, makes the triangle the best hit if it precedes the best hit so far.
-// Returns the lanes whose hits changed. A tie can change a hit's t and keep its id. If all hits
-// count, adds crossings instead.
+// Returns the lanes whose hits changed. A tie can change a hit's t but not its id. If all hits
+// count, adds crossings instead, and returns no lanes.
 static inline Mask accept_triangle(const Search *search, Mask candidates, Hit *triangle, Hit *best)
 {
     if (CLRT_ALL_HITS) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Walks the trees with a beam, first the tree over spheres. Triangles on which all rays start, and
-// triangles in a level plane on which all rays start, are skipped.
+// Walks the trees with a beam, first the tree over spheres. If all rays start on one triangle, the
+// beam skips it. If all rays start on triangles of one level plane, the beam skips the plane's
+// triangles.
 #ifndef CLRT_BEAM_WALK_CL
 #define CLRT_BEAM_WALK_CL
 #include "beam.cl"
@@ -12,10 +13,11 @@
 // A subtree is searched ray by ray if at most this many lanes of a beam enter it. The limit is
 // higher for DENSE or more triangles, because rays then separate more. Exchanging the two limits
 // makes scenes of 6 thousand triangles 9 % slower, and scenes of a million 10 % slower. With 8
-// lanes, a test of few lanes wastes less. 24 instead of 40 lanes then save 6 % of a gear's time
-// with a million triangles and 3 % of coral.scn's, and none of a torus's. Arrays of rays
-// that start on no surface keep the lower limit. In a scene of 1.3 million triangles, a million of
-// these rays then take 16 % less time, although 65 thousand rays take 9 % more.
+// lanes, a test of few lanes wastes less, so the higher limit is 24 lanes instead of 40. For a gear
+// with a million triangles, this saves 6 % of the time, for coral.scn 3 %, and for a torus nothing.
+// Arrays of rays that start on no surface keep the lower limit. In a scene of 1.3 million
+// triangles, a million of these rays then take 16 % less time, although 65 thousand rays take 9 %
+// more.
 #define MOST_LANES_LEAVING       (3 * BEAM_LANES / 16)
 #define MOST_LANES_LEAVING_DENSE ((CLRT_LANES == 8 ? 3 : 5) * BEAM_LANES / 8)
 #define DENSE                    300000
@@ -38,7 +40,7 @@ static inline uint lanes_in(uint packets, const uint bits[PACKETS])
     return count;
 }
 
-// Searches below a node for the given lanes of the given packets, ray by ray.
+// Searches the subtree of a node with the given lanes of the given packets, ray by ray.
 static NOT_INLINE void search_apart(Beam *beam, uint child, uint packets, const uint bits[PACKETS])
 {
     if (!has_sphere_tree(beam->tracer) || child < beam->tracer->frame->sphere_root)
@@ -50,7 +52,7 @@ static NOT_INLINE void search_apart(Beam *beam, uint child, uint packets, const 
     }
 }
 
-// Searches below the root of a tree.
+// Searches the tree with the root `root`.
 static inline void walk_tree(Beam *beam, uint root)
 {
     const bool is_free = CLRT_RAYS && plain_kind(beam->kind) == RAY_CAMERA;
@@ -218,7 +220,7 @@ static inline void search_tree(Beam *beam, uint root, bool alone)
         walk_tree(beam, root);
 }
 
-// Finds hits on spheres. No triangle beyond them is then a hit.
+// Finds hits on spheres. Triangles beyond these hits then do not count.
 static inline void search_spheres(Beam *beam, bool alone)
 {
     search_tree(beam, beam->tracer->frame->sphere_root, alone);

@@ -82,8 +82,8 @@ static inline Real3 lower3(Real3 a, Real3 b)
 }
 
 // The extremes of the packets' rays, separately for each lane. Maxima are stored as minima of the
-// negated numbers. Each origin moves by its own slack. It also moves by the growth of a node's box,
-// because the boxes of a block's triangles have not grown.
+// negated numbers. Each origin moves by its own slack and by the growth of a node's box, because
+// the boxes around a block's triangles have not grown.
 typedef struct {
     Real3 inverse, minus_inverse, behind, minus_ahead;
     Real minus_reach;

@@ -74,8 +74,8 @@ typedef struct {
     Mask splits;   // lanes that have the other ray
 } Successors;
 
-// Splits the next ray in the lanes of `glass`. The next ray must be the reflected ray. Only the
-// lanes of `wanted` need the refracted ray.
+// Splits the next ray in the lanes of `glass`. On entry, after->next must hold the reflected ray.
+// Only the lanes of `wanted` need the refracted ray.
 static inline void split_branch(const Tracer *tracer, const Path *path, Mask glass, Mask wanted,
                                 Successors *after)
 {
@@ -134,8 +134,9 @@ static inline void cut_branch(const Tracer *tracer, Path *path, Mask lanes, cons
     path->cut += lanes ? branch->weight * largest_component(branch->tint) : 0.0f;
 }
 
-// Adds the square of each sample's error to the tally, in steps of 2^-32. `cut` sums the errors of
-// a sample's cut branches. The factor 1 + 2^-8 covers the rounding of the weights and of their sum.
+// Adds the square of each sample's error to the tally, in steps of 2^-32. `cut` is the sum of the
+// errors of a sample's cut branches. The factor 1 + 2^-8 covers the rounding of the weights and of
+// their sum.
 static inline void count_cut(Tally *tally, Real cut)
 {
     if (!any_lane(cut > 0.0f))

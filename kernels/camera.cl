@@ -6,7 +6,7 @@
 #define CLRT_CAMERA_CL
 #include "ray.cl"
 
-// Returns the ray through a position in the whole picture. x and y count half sub-pixels.
+// Returns the ray through a position in the whole picture. `x` and `y` count half sub-pixels.
 static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask active)
 {
     const Real across = to_real(to_int(x) - (int)(frame->width * frame->samples));
@@ -28,8 +28,8 @@ static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask
                  active};
 }
 
-// Returns the ray through the center of a sub-pixel. sample_x and sample_y count sub-pixels of the
-// whole picture.
+// Returns the ray through the center of a sub-pixel. `sample_x` and `sample_y` count sub-pixels of
+// the whole picture.
 static inline Ray camera_ray(const FrameData *frame, UInt sample_x, UInt sample_y, Mask active)
 {
     return camera_ray_toward(frame, 2 * sample_x + 1, 2 * sample_y + 1, active);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The kernel of --aov certainty. A tracer makes decisions: which primitive a ray hits first, and
-// which lights reach the hit point. The kernel repeats the decisions of each pixel's ray tree with
-// ray cones, which contain the exact ray and the tracer's rounded ray (certify_cone.cl). A decision
-// is certain if it holds for the whole cone.
+// The kernel of --aov certainty. A tracer makes decisions: which primitive a ray hits first, which
+// check the hit shows, and which lights reach the hit. The kernel repeats the decisions of each
+// pixel's ray tree with ray cones, which contain the exact ray and the tracer's rounded ray
+// (certify_cone.cl). A decision is certain if it holds for the whole cone.
 //
 // A pixel is certified if all its decisions are certain for the fp32 tracer. If they are certain
 // only for the fp64 tracer, the pixel is repaired: it gets the color of the fp64 tracer. All other
@@ -29,7 +29,7 @@ typedef struct {
     Real face, face_doubt; // component of the unit normal that points away from the cube
 } AxisPlace;
 
-// Returns the surface's place on an axis. Its coordinate is exact if all corners of the triangle
+// Returns the surface's place on an axis. The coordinate is exact if all corners of the triangle
 // share it, as in material.cl.
 static inline AxisPlace axis_place(const UncertainSurface *surface, uint axis)
 {
@@ -72,7 +72,7 @@ static inline bool decide_check(const Tracer *tracer, const UncertainSurface *su
     return is_certain;
 }
 
-// A point's relation to a light: turned away, lit, in shadow, or undecided.
+// A surface's relation to a light: turned away, lit, in shadow, or undecided.
 typedef enum { SIGHT_BEHIND, SIGHT_CLEAR, SIGHT_BLOCKED, SIGHT_OPEN } LightVisibility;
 
 // Sets the shadow ray that continues behind glass. Returns false if the glass shows a check that is

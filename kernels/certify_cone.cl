@@ -5,7 +5,7 @@
 //
 // The bounds are computed in fp64, for a tracer in fp32 (u = 2^-24) or in fp64 (u = 2^-53).
 // OWN_ROUNDOFF covers the rounding of the bounds themselves. docs/numerics.md derives the bounds as
-// B1, B2 and so on. They require two things:
+// B1, B2 and so on. The bounds require two things:
 //  - The tracer's device rounds float operations correctly.
 //  - No rounding error of a product in fp32's edge functions underflows (B3). This holds if each
 //    sheared coordinate of a corner is 0 or at least 2^-51 in magnitude, in normalized coordinates.
@@ -106,8 +106,9 @@ static inline Real cone_at(const RayCone *ray, Real z)
            radius_of(&ray->goal) * (depth / ray->length);
 }
 
-// Bounds the distance between two projections of a point: along the cone's axis, and along any ray
-// of the cone. Includes the tracer's rounding (B10).
+// Returns a bound on the distance between two projections of a point: along the cone's axis, and
+// along any ray of the cone. The bound includes the tracer's rounding (B10). `seen` is the point in
+// the cone's frame.
 static inline Real blur_at(const RayCone *ray, Real3 seen)
 {
     const Real depth = fabs(seen.z) + ray->around;

@@ -15,7 +15,7 @@
 // The nearest hit that is certain, and the least depth of any other possible hit.
 typedef struct {
     UInt id, index;
-    Real low, high; // INFINITY without a hit
+    Real low, high; // bounds of the hit's depth; INFINITY without a hit
     Real other;
 } Nearest;
 
@@ -39,7 +39,7 @@ typedef struct {
     Real origin[3], inverse[3]; // the ray's origin and the inverse of its direction
     Nearest nearest;
     uint triangle;  // index of the nearest hit if it is a triangle, else NOTHING
-    Answer blocked; // for a shadow ray
+    Answer blocked; // for a shadow ray: whether a primitive blocks it
     bool may_meet_glass;
 } ConeSearch;
 
@@ -148,7 +148,7 @@ static inline Candidate leaf_candidate(const Tracer *tracer, const RayCone *ray,
     return certainly_misses_coincident(&corners, ray) ? candidate_none() : candidate;
 }
 
-// Updates the nearest hit with a triangle. If the triangle coincides with the nearest hit, the
+// Updates the nearest hit with a triangle. If the triangle coincides with the nearest triangle, the
 // lower id wins, and the depths do not change.
 static inline void add_triangle(const Tracer *tracer, ConeSearch *search, uint index,
                                 const Candidate *candidate)
@@ -209,7 +209,7 @@ static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
 }
 
 // Returns whether the axis enters the sphere before `reach` if the sphere has grown `factor` times
-// as much as it must. Otherwise the tracer finds no hit of the sphere before `reach` (B21).
+// as much as it must. If not, the tracer finds no hit of the sphere before `reach` (B21).
 static inline bool cone_may_meet(const RayCone *ray, const PlainSphere *sphere, Real factor,
                                  Real reach)
 {
@@ -221,7 +221,8 @@ static inline bool cone_may_meet(const RayCone *ray, const PlainSphere *sphere, 
            middle - radius <= reach;
 }
 
-// A sphere in the order of the tree over spheres or, without a tree, in the order of ids.
+// The sphere that the search visits. Spheres come in the order of their tree or, without a tree, of
+// their ids.
 typedef struct {
     uint entry, id;
     PlainSphere sphere;
@@ -234,9 +235,9 @@ static inline SphereVisit first_sphere(const FrameData *frame)
 }
 
 // Finds the next sphere that the cone may hit, from visit->entry on. Returns false if there is
-// none. A bounding sphere grows three times as much as a sphere. It is then entered if a sphere in
-// it is, also with rounding, so the search's result does not depend on the tree. For the same
-// reason, spheres beyond the nearest hit are not left out.
+// none. A bounding sphere grows three times as much as a sphere. Despite rounding, the axis
+// therefore enters a bounding sphere if it enters a sphere in it, so the search's result does not
+// depend on the tree. For the same reason, spheres beyond the nearest hit are not left out.
 static inline bool find_sphere(const Tracer *tracer, const ConeSearch *search, SphereVisit *visit)
 {
     const FrameData *frame = tracer->frame;
@@ -288,8 +289,8 @@ static inline void search_spheres(const Tracer *tracer, ConeSearch *search)
     }
 }
 
-// Returns what a shadow ray may hit before the light. If it may hit glass, search.nearest is its
-// nearest hit. Otherwise, search.blocked is whether anything blocks the ray.
+// Returns what a shadow ray may hit before the light. If may_meet_glass is set in the result,
+// `nearest` is the ray's nearest hit. Otherwise, `blocked` is whether anything blocks the ray.
 static inline ConeSearch search_blockers(const Tracer *tracer, const RayCone *ray)
 {
     ConeSearch search = search_in_cone(ray);

@@ -5,8 +5,9 @@
 // origin, let h be the center's distance from the ray's line, and let u be the unit roundoff. The
 // error of the discriminant radius^2 - h^2 is below 64 u^2 (h + radius) (|f| + radius + |center|).
 // The error of the foot of the perpendicular adds less than 64 u^3 |f|^2. The bounds cover both
-// errors by moving the ray aside by distance_doubt, which has a larger effect. The effect is also
-// larger than the error of sphere_power. All other terms of t have a relative error below 8u (B15).
+// errors by moving the ray aside by distance_doubt, because this changes the discriminant by more.
+// The move also changes |f|^2 - radius^2 by more than the error of sphere_power. All other terms of
+// t have a relative error below 8u (B15).
 #ifndef CLRT_CERTIFY_SPHERE_CL
 #define CLRT_CERTIFY_SPHERE_CL
 #include "certify_triangle.cl"
@@ -24,15 +25,16 @@ static inline PlainSphere plain_sphere(global const SphereData *data)
                          sphere.radius.high};
 }
 
-// Bounds the part of the tracer's error that does not grow for small spheres. The error of this
-// kernel's own fp64 arithmetic is at most 2^-49 times `sizes`.
+// Returns a bound on the part of the tracer's error that does not grow for small spheres. The error
+// of this kernel's own fp64 arithmetic is at most 2^-49 times `sizes`.
 static inline Real sizes_doubt(Real u, Real apart, const PlainSphere *sphere)
 {
     const Real sizes = apart + sphere->radius + length_of(sphere->center);
     return max(0x1p8f * u * u, (Real)(0x1p-48f)) * sizes;
 }
 
-// Bounds the tracer's error as a distance by which the ray moves aside (see the top of this file).
+// Returns a bound on the tracer's error, as a distance by which the ray moves aside (see the top of
+// this file).
 static inline Real distance_doubt(Real u, Real apart, const PlainSphere *sphere)
 {
     return sizes_doubt(u, apart, sphere) + 0x1p8f * u * u * u * apart * apart / sphere->radius;
@@ -49,7 +51,7 @@ typedef struct {
     Real shift; // bound on the shift of ray origins, from `around` and the tracer's rounding
 } Chord;
 
-// Returns power / sum. sum must be above zero.
+// Returns `power` / `sum`. `sum` must be above zero.
 static inline Range quotient(Range power, Range sum)
 {
     return (Range){power.low / (power.low > 0.0f ? sum.high : sum.low),

@@ -20,7 +20,8 @@ typedef struct {
     Real area;        // lower bound of twice the triangle's area
 } UncertainSurface;
 
-// Bounds the error of the unit vector v / length, for a vector v with an error of at most `doubt`.
+// Returns a bound on the error of a unit vector: v / `length` for a vector v with an error of at
+// most `doubt`.
 static inline Real turn_of(Real doubt, Real length)
 {
     return doubt < 0.25f * length ? 1.02f * doubt / length : INFINITY;
@@ -153,10 +154,10 @@ static inline UncertainSurface uncertain_surface(const Tracer *tracer, const Ray
 // Returns the start of a ray that leaves in a direction known within `doubt`. Near an edge, the
 // ray's line may miss the triangle that the ray leaves. The point's distance from the edge is then
 // at most the sum of two errors, divided by the sine of the ray's angle to the face. These errors
-// are 11u per axis for the point, and 14u times the distance from the ray's start for a corner.
-// room / edge is a lower bound of the point's distance from the edges. If it exceeds 64u / sine,
-// the tracer ignores the edges. Otherwise, the tracer may move the start by up to 256u / sine along
-// the surface, on each axis (B14).
+// are 11u per axis for the point, and for a corner 14u times the corner's distance from the ray's
+// start. room / edge is a lower bound of the point's distance from the edges. If this bound exceeds
+// 64u / sine, the tracer ignores the edges. Otherwise, the tracer may move the start by up to 256u
+// / sine along the surface, on each axis (B14).
 //
 // The tracer lifts a reflected or refracted ray (surface.cl) only if the ray's line misses the
 // triangle from the last start that the tracer tries. This start has moved by 256u / sine toward
@@ -236,8 +237,8 @@ static inline Answer certify_facing(const UncertainSurface *surface, const RayCo
 // Returns the cone of a ray that leaves the surface in a direction known within `doubt`. As in
 // ray_leaving, a ray that would enter the face is mirrored at the face. The mirrored and the
 // unmirrored direction are equal if the ray lies in the face's plane. Near this plane, the tracer
-// may use either, so their difference is added to the doubt. A sphere's face is parallel to its
-// normal, so its rays are never mirrored.
+// may use either direction, so the difference of both is added to the doubt. A sphere's face is
+// parallel to its normal, so its rays are never mirrored.
 static inline RayCone leaving_cone(const UncertainSurface *surface, Real3 direction, Real doubt,
                                    Real tracer_u)
 {

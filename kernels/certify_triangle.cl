@@ -13,7 +13,7 @@
 
 typedef enum { ANSWER_NO, ANSWER_UNKNOWN, ANSWER_YES } Answer;
 
-// A possible hit. Its depth along the ray is within [low, high], even with the tracer's rounding.
+// A possible hit. Its depth along the ray is within [low, high], including the tracer's rounding.
 typedef struct {
     Answer met;
     Real low, high;
@@ -24,10 +24,10 @@ typedef struct {
     Corners corners;
     Edges edges; // across the ray; the determinant is twice the area, positive if the front is seen
     Real blur;   // the largest blur of a corner
-    Real size;   // upper bound of the corners' distances
+    Real size;   // upper bound on the corners' distances from the ray's start
     Real sides;  // sum of the lengths of the two edges at the first corner
     bool clear;  // the axis passes all edges by more than the blur
-    bool inside; // clear is set, and the axis passes inside all edges
+    bool inside; // `clear` is set, and the axis passes inside all edges
     bool faces;  // the visible side is certain
     bool inner;  // the mesh's back is visible
     bool broad;  // the triangle is broad enough to compute its plane
@@ -39,7 +39,7 @@ static inline bool corners_pass(const Corners *c, Real blur)
            min(min(c->a.y, c->b.y), c->c.y) > blur || max(max(c->a.y, c->b.y), c->c.y) < -blur;
 }
 
-// Returns whether the axis passes the edge from p to q by more than the blur. `edge` is the value
+// Returns whether the axis passes the edge from `p` to `q` by more than `blur`. `edge` is the value
 // of the edge function.
 static inline bool edge_is_clear(Real3 p, Real3 q, Real edge, Real blur)
 {
@@ -147,8 +147,8 @@ static inline int side_of(const Corners *corners, const UncertainPoint *uncertai
     return height > 0.0f ? 1 : -1;
 }
 
-// Bounds search_behind: rounding may put a ray's start this far beyond a triangle that stops the
-// ray. A direction is at most sqrt(3) times as long as its largest component (B12).
+// Returns a bound on search_behind: rounding may put a ray's start this far beyond a triangle that
+// stops the ray. A direction is at most sqrt(3) times as long as its largest component (B12).
 static inline Real behind_of(const RayCone *ray)
 {
     if (ray->kind == RAY_CAMERA)
@@ -238,7 +238,8 @@ static inline Candidate triangle_candidate(const RayCone *ray, global const Tria
 
 // The following functions handle coincident triangles, which have the same stored corners
 // (shared.h). A ray hits coincident triangles at the same distance, bit for bit, and the lower id
-// wins. A ray that leaves one of them starts in the plane of the other, and does not hit it.
+// wins. A ray that leaves one of them starts in the plane of the other triangle, and does not hit
+// that triangle.
 static inline bool is_same_corner(global const float *a, global const float *b)
 {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
@@ -251,12 +252,12 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
            is_same_corner(one->c, two->c);
 }
 
-// Returns whether a ray that leaves a triangle certainly misses a coincident triangle. It misses if
-// height_over returns zero for the ray's start. hits_neighbor then finds neither triangle in front
-// of the other. Here n is the tracer's normal, and n.|v| is the sum of the products' magnitudes.
-// Corners b and c are at the ends of the edges from corner a. Their computed height over their own
-// triangle's plane is below 6u n.|edge|. The threshold of height_over is at least 8u n.|edge|, so
-// height_over returns zero for corners, too.
+// Returns whether a ray that leaves a triangle certainly misses a coincident triangle. The ray
+// misses if height_over returns zero for the ray's start. hits_neighbor then finds neither triangle
+// in front of the other. Here n is the tracer's normal, and n.|v| is the sum of the products'
+// magnitudes. Corners b and c are at the ends of the edges from corner a. Their computed height
+// over their own triangle's plane is below 6u n.|edge|. The threshold of height_over is at least 8u
+// n.|edge|, so height_over returns zero for corners, too.
 //
 // The computed height of the start is at most the sum of these errors:
 //  - The start is a weighted sum of corners. Each corner has the height n.a over the origin. The

@@ -14,7 +14,7 @@
 #define CLRT_TRIANGLES 1 // the scene has triangles
 #endif
 #ifndef CLRT_BVH
-#define CLRT_BVH 1 // trees find triangles and many spheres (0: all are tested)
+#define CLRT_BVH 1 // rays find triangles and spheres with trees (0: they test all)
 #endif
 #ifndef CLRT_MIRRORS
 #define CLRT_MIRRORS 1 // a used material reflects
@@ -58,7 +58,7 @@
 #define CLRT_GPU 0 // fp32 on a device that is not a CPU: single rays keep their state in registers
 #endif
 #ifndef CLRT_FP64
-#define CLRT_FP64 0 // Real is double: one ray per work-item, binary nodes
+#define CLRT_FP64 0 // Real is double: one ray per work-item, pair nodes
 #endif
 
 #endif

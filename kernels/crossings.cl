@@ -21,7 +21,7 @@ static inline bool precedes(const HitData *a, const HitData *b)
     return a->t < b->t || (a->t == b->t && a->id < b->id);
 }
 
-// Counts a hit of the ray with this number, and inserts it into the ray's sorted list.
+// Counts a hit of ray number `ray`, and inserts it into the ray's sorted list.
 static inline void add_crossing(const HitLists *lists, uint ray, HitData hit)
 {
     global HitData *nearest = lists->hits + (size_t)ray * lists->room;
@@ -37,7 +37,7 @@ static inline void add_crossing(const HitLists *lists, uint ray, HitData hit)
         nearest[place] = hit;
 }
 
-// Adds the hits of the given lanes, if they are at most at `limit`.
+// Adds the given lanes' hits that are not beyond `limit`.
 static NOT_INLINE void add_crossings(const Tracer *tracer, const Ray *ray, Mask lanes,
                                      const Hit *hit, Real limit)
 {

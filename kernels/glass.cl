@@ -9,8 +9,8 @@
 #define CLRT_GLASS_CL
 #include "material.cl"
 
-// A light behind more surfaces of glass than this is blocked. The limit ends loops between surfaces
-// that are so close that rounding makes them touch.
+// A light behind more surfaces of glass than this is blocked. The limit ends a shadow ray's loop
+// between surfaces that are so close that rounding makes them touch.
 #define GLASS_CROSSINGS 64
 
 static inline Mask is_glass(const MaterialLanes *material)
@@ -37,8 +37,8 @@ typedef struct {
     Real reflectance; // the part of the light that is reflected
 } Refraction;
 
-// Returns Fresnel's reflectance, the mean of both polarizations. Equal indices reflect nothing, and
-// the denominators can then be zero.
+// Returns Fresnel's reflectance, the mean of both polarizations. Equal indices reflect nothing.
+// Their case is separate, because the denominators can then be zero.
 static inline Real reflectance_of(const Refraction *at)
 {
     const Real near = at->ratio * at->cosine, far = at->ratio * at->beyond;
@@ -50,7 +50,7 @@ static inline Real reflectance_of(const Refraction *at)
 
 // Returns the refraction of a ray at the given cosine. A negative cosine, from a normal that is
 // turned away from the ray, counts as 0. The surface then reflects all light, unless the ratio is
-// 1. For this ratio, `square` is the rounded square of the cosine, and the root of `square` is the
+// 1. For the ratio 1, `square` is the rounded square of the cosine, and the root of `square` is the
 // cosine itself. The ray then stays straight.
 static inline Refraction refraction_at(Real ratio, Real cosine)
 {

@@ -22,7 +22,7 @@ static inline Mask is_searchable(const Ray *ray)
 }
 
 #if CLRT_WIDE_NODES
-// Returns whether the scene has primitives that meet_spheres leaves to the search.
+// Returns whether the scene has primitives that meet_spheres leaves to intersect_search.
 static inline bool has_search(const Tracer *tracer)
 {
     return (CLRT_TRIANGLES && tracer->frame->triangle_count != 0) || has_sphere_tree(tracer);
@@ -40,7 +40,7 @@ static inline void intersect_search(const Tracer *tracer, const Ray *rays,
         search_beams(tracer, rays, bits, count, hits);
 }
 
-// Finds the nearest sphere of the rays that may not search the tree over spheres.
+// Finds the nearest sphere for the rays that may not search the tree over spheres.
 static NOT_INLINE void meet_far_spheres(const Tracer *tracer, const Ray *ray, Mask searching,
                                         Hit *hit)
 {
@@ -64,8 +64,8 @@ static inline void intersect_search(const Tracer *tracer, const Ray *rays,
 }
 #endif
 
-// Finds the nearest sphere before hit->t, unless the search finds it. Returns the lanes that then
-// search.
+// Finds the nearest sphere before hit->t, unless intersect_search finds it. Returns the lanes that
+// must then search.
 static inline Mask meet_spheres(const Tracer *tracer, const Ray *ray, Hit *hit)
 {
     if (!any_lane(ray->active))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernel of error and time goals. It answers requests for samples of pixels with the sums of
+// The kernel for error and time goals. It answers requests for samples of pixels with the sums of
 // these samples, and renders tiles with one sample per pixel. It is compiled after render.cl, and
 // only if requested.
 //
@@ -9,9 +9,9 @@
 // Further samples therefore lie in the gaps between earlier ones.
 //
 // Owen's scrambling keeps this property ("Randomly permuted (t,m,s)-nets and (t,s)-sequences",
-// 1995). Its random numbers are hashes of the pixel. If one random number per pixel were XORed with
-// all points instead, stripes about as fine as the samples would alias. For an error of 0.2 %,
-// smooth waves would then take 2.6 times as many samples.
+// 1995). The random numbers of the scrambling are hashes of the pixel's position. If one random
+// number per pixel were XORed with all points instead, stripes about as fine as the samples would
+// alias. For an error of 0.2 %, smooth waves would then take 2.6 times as many samples.
 #include "pixels.cl"
 
 // The number of samples per work-item, unless a request has more.
@@ -66,8 +66,9 @@ static inline UInt reversed(UInt bits)
     return bits / (0x10000 / LADDER_GRID);
 }
 
-// Returns the bits of a point's y in reverse order. For x, these bits are `point` itself. Bit i is
-// the sum modulo 2 of the bits k of `point` for which the binomial coefficient "k choose i" is odd.
+// Returns the bits of a point's y in reverse order. For x, these bits are `point` itself. Bit i of
+// the result is the sum modulo 2 of the bits k of `point` for which the binomial coefficient "k
+// choose i" is odd.
 static inline UInt sobol_y(UInt point)
 {
     point ^= point >> 1 & 0x5555;
@@ -76,7 +77,7 @@ static inline UInt sobol_y(UInt point)
     return point ^ (point >> 8 & 0x00ff);
 }
 
-// Moves each sample to the point with this number in its pixel's sequence.
+// Moves each sample to the point with the number `point` in the pixel's sequence.
 static inline void place_samples(PixelSamples *samples, UInt point)
 {
     const UInt seed = mixed(samples->pixel_x + mixed(samples->pixel_y));
@@ -167,7 +168,7 @@ typedef struct {
     uint samples, count;    // of a request, and of all requests together
 } Item;
 
-// Returns the block with this number. Blocks are numbered row by row.
+// Returns the top left pixel of block `number`. Blocks are numbered row by row.
 static inline uint2 tile_block(const FrameData *frame, uint number)
 {
     const uint columns = (frame->tile_width + BLOCK - 1) / BLOCK;
@@ -245,7 +246,8 @@ static inline bool is_block_of_sky(const FrameData *frame, const Item *item)
     return !CLRT_STATISTICS && is_sky(frame, item->block.x, item->block.y);
 }
 
-// The requests of a work-item: their number of samples, the first one's index, and their end.
+// The requests of a work-item: each request's number of samples, the index of the first request,
+// and the index after the last.
 typedef struct {
     uint samples, begin, end;
 } ItemRange;
@@ -262,10 +264,10 @@ static inline ItemRange range_of(uint number, uint small, uint end)
     return (ItemRange){LARGE_SAMPLES, begin, min(end, begin + ITEM_LARGE)};
 }
 
-// The work-items with the numbers from `first` on store the sums of their requests at the same
-// indices of `results`, which are PixelSums. The list has `small` requests for SMALL_SAMPLES
-// samples, and then requests for LARGE_SAMPLES. The launch ends at index `end` of the list. With
-// CLRT_TALLIES, a work-item stores its tally at the index of its first request.
+// Work-item `first` and the following ones store the sums of their requests in `results`, as
+// PixelSums at the requests' indices. The list has `small` requests for SMALL_SAMPLES samples, and
+// then requests for LARGE_SAMPLES. The launch ends at index `end` of the list. With CLRT_TALLIES, a
+// work-item stores its tally at the index of its first request.
 //
 // If the frame has a tile, `requests` and `small` are not used, and each index stands for a pixel's
 // center. A work-item renders the centers of a block, and stores them as in render_tile. Indices

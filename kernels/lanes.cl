@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The tracer's number types: Real, Mask and UInt. With binary nodes, they are a Scalar, an int and
-// a uint. A work-item then traces one ray, and every function is scalar code. With wide nodes, they
+// The tracer's number types: Real, Mask and UInt. With pair nodes, they are a Scalar, an int and a
+// uint. A work-item then traces one ray, and every function is scalar code. With wide nodes, they
 // are vectors with one ray per lane. Comparisons then return -1 or 0 in each lane, and && || ! and
 // ?: work lane by lane.
 //
-// Invariant: both forms are compiled from the same source, so they compute the same bits.
+// Invariant: scalars and vectors are compiled from the same source, so they compute the same bits.
 //
 // For vectors, && || and ?: evaluate both sides in all lanes. Every lane therefore needs valid
 // indices on both sides, and neither side may have side effects. A scalar branch on any_lane()
@@ -26,8 +26,8 @@
 #endif
 
 // Scalar is float, or double with --precision fp64. Both precisions use the same source and the
-// same scene, which is stored in floats. Their pictures therefore differ only by the error of float
-// arithmetic.
+// same scene, which is stored in floats. The pictures of both precisions therefore differ only by
+// the error of float arithmetic.
 #if CLRT_FP64
 typedef double Scalar;
 #define UNIT_ROUNDOFF    0x1p-53
@@ -50,7 +50,7 @@ typedef float Scalar;
 #define LN2_LOW          (-0x1.05c610p-29f)
 #endif
 
-// Binary nodes use one lane. With wide nodes, the number of lanes is set by the host, or is the
+// Pair nodes use one lane. With wide nodes, the number of lanes is set by the host, or is the
 // number of floats in the target's registers.
 #if !CLRT_WIDE_NODES
 #undef CLRT_LANES
@@ -66,7 +66,7 @@ typedef float Scalar;
 #endif
 
 // Files that are included for several types (*.inc.cl) overload functions by their arguments.
-// Overloading needs an attribute of clang. With binary nodes, each file is included only once, so
+// Overloading needs an attribute of clang. With pair nodes, each file is included only once, so
 // nothing is overloaded.
 #if CLRT_WIDE_NODES
 #define OVERLOAD __attribute__((overloadable))
@@ -76,8 +76,8 @@ typedef float Scalar;
 
 // These attributes decide about inlining. With the compiler's own decisions, pictures take up to a
 // sixth longer on CPUs. On GPUs, a call that passes a path's state by pointer would move the state
-// from registers into memory. Tests compile the kernels of GPUs for CPUs, where inlining everything
-// would take six times as long.
+// from registers into memory. Tests also compile GPU kernels for CPUs. Inlining everything would
+// make this take six times as long.
 #if CLRT_GPU && !CLRT_WIDE_NODES && !defined(__x86_64__) && !defined(__aarch64__)
 #undef inline // NVIDIA's compiler and PoCL define it
 #define inline inline __attribute__((always_inline))
@@ -219,7 +219,8 @@ static inline Mask lanes_of(uint bits)
 static inline UInt gather(global const uint *words, UInt place)
 {
 #if CLRT_LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_gathersiv16si)
-    // The instruction's indices are signed, so `index` is place - 2^31, counted from words + 2^31.
+    // The instruction's indices are signed, so `index` is `place` - 2^31, and counts from `words` +
+    // 2^31.
     typedef int Register __attribute__((vector_size(64)));
     const Register index = (Register)as_int16(place ^ 0x80000000u);
     const ulong middle = (ulong)words + 0x80000000ul * sizeof(uint);

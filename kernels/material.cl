@@ -8,8 +8,8 @@
 // Floors often lie in a plane between cubes, where rounding would choose the cube of each pixel.
 // Two rules prevent this (docs/numerics.md, B19):
 //  - Each coordinate of the point moves a little behind the surface. On an axis parallel to the
-//    surface, no direction leads behind it, and the coordinate increases. The edge between two
-//    checks of a floor therefore belongs to one of them.
+//    surface, no direction leads behind the surface, and the coordinate increases. The edge between
+//    two checks of a floor therefore belongs to one of them.
 //  - If all corners of a triangle have the same coordinate on an axis, the point gets exactly this
 //    coordinate, without rounding.
 #ifndef CLRT_MATERIAL_CL

@@ -105,8 +105,9 @@ static inline bool any_lane(Mask mask)
     return lane_bits(mask) != 0;
 }
 
-// Returns v scaled to length 1, or zero if v is zero. First divides v by a power of two, which is
-// exact. The sum of squares then neither overflows nor underflows for lengths from 2^-100 to 2^100.
+// Returns `v` scaled to length 1, or zero if `v` is zero. First divides `v` by a power of two,
+// which is exact. The sum of squares then neither overflows nor underflows for lengths from 2^-100
+// to 2^100.
 static inline Real3 unit_vector(Real3 v)
 {
     const Real extent = largest_component(v);
@@ -155,7 +156,7 @@ static inline Real log_series(Real s)
     return fma(series, s, RATIO(2.0f, 3.0f));
 }
 
-// Returns log(1 + x) = 2 atanh(x / (2 + x)) for x in (-1, 0]. If x is far from 0, 1 + x is first
+// Returns log(1 + x) = 2 atanh(x / (2 + x)) for x in (-1, 0]. If x is below -1/4, 1 + x is first
 // divided by a power of two. The quotient is in [3/4, 3/2), for which a short series suffices.
 static inline Real log_one_plus(Real x)
 {

@@ -41,8 +41,8 @@ static inline TwoFloat two_quotient(TwoFloat a, TwoFloat b)
     return two_sum_ordered(high, rest.high / b.high);
 }
 
-// Returns the depth at which the ray hits the edge. The depth depends only on the edge's ends,
-// which the host has sorted, so all triangles at this edge get the same bits.
+// Returns the depth at which the ray hits the edge from `first` to `second`. The depth depends only
+// on the edge's ends, which the host has sorted, so all triangles at this edge get the same bits.
 static inline TwoFloat edge_depth(Real3 first, Real3 second)
 {
     const Mask by_x = fabs(second.x - first.x) >= fabs(second.y - first.y);
@@ -149,7 +149,7 @@ static NOT_INLINE Nearness nearness_of(const Tracer *tracer, const Ray *ray, UIn
     return nearness;
 }
 
-// Returns whether a is nearer than b. If both are equal, returns else_nearer.
+// Returns whether `a` is nearer than `b`. If both are equal, returns `else_nearer`.
 static inline Mask is_nearer(const Nearness *a, const Nearness *b, Mask else_nearer)
 {
     const Mask same_high = a->t.high == b->t.high;
@@ -171,8 +171,8 @@ static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index
 // Returns whether a triangle precedes the best hit, in the given lanes. In these lanes, the best
 // hit must also be a triangle. If the nearnesses are equal, the triangles' distances t differ only
 // by rounding, and both triangles get the lesser t. The id then decides only which triangle is hit.
-// On GPUs, storing the common nearness as t would take 15 more registers, and a separate test for
-// equality would take 9 more.
+// On GPUs, storing the common nearness as t instead would take 15 more registers, and a separate
+// test for equality instead of the second is_nearer would take 9 more.
 static NOT_INLINE Mask triangle_is_nearer(const Search *search, Hit *triangle, Hit *best,
                                           Mask lanes)
 {

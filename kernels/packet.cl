@@ -33,7 +33,7 @@ static inline Real3 splat_corner(const BlockPlace *at, uint corner)
 }
 
 // Three rows of a block: each has one coordinate of the triangles' first corners. The rows are in
-// the order of a packet's axes. The next corners' rows start 3 * WIDE floats later.
+// the order of a packet's axes. The rows of each further corner start 3 * WIDE floats later.
 typedef struct {
     global const float *x, *y, *z;
 } BlockRows;
@@ -77,7 +77,7 @@ static ALWAYS_INLINE Corners corners_from(const BlockPlace *at, const BlockRows 
 static ALWAYS_INLINE uint triangles_entered(const BlockPlace *start, const BlockRows *rows,
                                             const Packet *packet, Mask lanes, uint near)
 {
-    const UInt own = packet->rays.ray->own_index - start->index; // the own triangle's place
+    const UInt own = packet->rays.ray->own_index - start->index; // slot of the ray's own triangle
     uint entered = 0;
     for (; near != 0; near &= near - 1) {
         const BlockPlace at = {start->block, lowest_bit(near), 0};

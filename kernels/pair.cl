@@ -3,8 +3,8 @@
 // slow (host/device/kernel_choice.c). One ray traverses the binary tree depth first, and enters the
 // nearer child first. A stack holds the pending children with their distances.
 //
-// Invariant: a child is skipped only if the ray misses its box, or enters it beyond search_reach.
-// Both tests are conservative (search.cl), so the hit is the same as without a tree.
+// Invariant: a child is skipped only if the ray misses the child's box, or enters this box beyond
+// search_reach. Both tests are conservative (search.cl), so the hit is the same as without a tree.
 #ifndef CLRT_PAIR_CL
 #define CLRT_PAIR_CL
 #include "accept.cl"
@@ -42,9 +42,9 @@ static inline Real2 enter_boxes(global const BvhPair *node, const Slabs *slabs, 
     return inside.entry <= inside.leave ? inside.entry : (Real2)(INFINITY);
 }
 
-// Returns a corner relative to the ray's origin, in the order of the axes. A CPU reads the
-// coordinates in this order, which makes small scenes a tenth faster. A GPU reads 16 bytes at once,
-// which saves 9 registers.
+// Returns a corner relative to the ray's origin, with its coordinates in the order of search->axes.
+// A CPU reads the coordinates in this order, which makes small scenes a tenth faster. A GPU reads
+// 16 bytes at once, which saves 9 registers.
 static inline Real3 corner_relative(global const float *corner, const Search *search)
 {
     if (CLRT_GPU)
@@ -123,7 +123,7 @@ static inline bool move_to_child(global const Node *nodes, Real2 entry, PairStac
 }
 
 // Enters a node's children. A GPU keeps the nearer child in registers. On a CPU, small scenes take
-// a seventh less time with both children on the stack. Returns whether the place is now a child.
+// a seventh less time with both children on the stack. Returns whether `place` is now a child.
 // Otherwise, the caller must pop the next place.
 static inline bool enter_children(global const Node *nodes, Real2 entry, PairStack *stack,
                                   PairPlace *place)

@@ -2,7 +2,7 @@
 // Places a tile's packets, stores the colors of their pixels, and computes the color of sky.
 #include "sky.cl"
 
-// The columns of packets in a beam, and the beam's size in pixels.
+// The number of columns of packets in a beam, and the beam's size in pixels.
 #define BEAM_COLUMNS (PACKETS == 1 ? 1 : 2)
 #define BEAM_WIDTH   (PACKET_WIDTH * BEAM_COLUMNS)
 #define BEAM_HEIGHT  (PACKET_HEIGHT * (PACKETS / BEAM_COLUMNS))
@@ -23,7 +23,7 @@ static inline void store_row(global float *pixels, float4 red, float4 green, flo
     vstore4((float4)(blue.z, red.w, green.w, blue.w), 2, pixels);
 }
 
-// If the packet is entirely inside the tile, stores it and returns true.
+// If the packet is entirely inside the tile, stores the packet's colors and returns true.
 static inline bool store_rows(const FrameData *frame, uint2 corner, const Real3 *color,
                               global float *pixels)
 {

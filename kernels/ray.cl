@@ -22,7 +22,7 @@ static inline bool ends_at_any_hit(RayKind kind)
 // A ray: origin + t * direction. A shadow ray leads from a surface at t = 0 to a light at t = 1.
 typedef struct {
     Real3 origin, direction;
-    UInt own;       // id of the primitive on which it starts, or NOTHING
+    UInt own;       // id of the primitive on which the ray starts, or NOTHING
     UInt own_index; // index of that primitive if it is a triangle, else NOTHING
     RayKind kind;
     Mask active; // lanes that have a ray

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traces arrays of rays for clrt check and the library, with the renderer's searches. Neighbors in
-// an array may be random rays, for which beams are slow. If the rays of a beam differ too much,
-// they are therefore traced ray by ray. The file is compiled after render.cl, and only if
+// Traces arrays of rays for clrt check and the library, with the renderer's searches. Consecutive
+// rays of an array may be random, and beams of random rays are slow. If the rays of a beam differ
+// too much, they are therefore traced ray by ray. The file is compiled after render.cl, and only if
 // requested.
 
 // The arguments of trace_rays.
@@ -27,8 +27,8 @@ static inline void cross_own_spheres(const Tracer *tracer, const Ray *ray, Mask 
 #endif
 
 // Reads CLRT_LANES rays from index `first` on, one per lane. Lanes past the array's end are
-// inactive, and so are rays with a limit below 0. *starts receives the rays that start on a
-// primitive. If all hits count, these rays only skip the primitive.
+// inactive, and so are rays with a limit below 0. *starts receives the lanes whose rays start on a
+// primitive. If all hits count, *starts is 0, and these rays only skip the primitive.
 static inline Ray ray_at(const Tracer *tracer, const RayArray *array, uint first, Hit *hit,
                          Mask *starts)
 {
@@ -54,15 +54,15 @@ static inline Ray ray_at(const Tracer *tracer, const RayArray *array, uint first
     return ray;
 }
 
-// Finds the nearest sphere before hit->t, unless the search finds it. Returns the lanes that then
-// search.
+// Finds the nearest sphere before hit->t, unless intersect_search finds it. Returns the lanes that
+// must then search.
 static inline Mask begin_search(const Tracer *tracer, const Ray *ray, Hit *hit)
 {
     const Mask searching = meet_spheres(tracer, ray, hit);
     return ends_at_any_hit(ray->kind) ? searching && hit->id == NOTHING : searching;
 }
 
-// Finds the hits of the active rays, which all have one kind.
+// Finds the hits of the rays in `active`. Sets the kind and the active lanes of `packets`.
 static inline void search_rays(const Tracer *tracer, uint kind, const Mask active[PACKETS],
                                Ray packets[PACKETS], Hit hits[PACKETS])
 {
@@ -85,8 +85,8 @@ static inline void store_hits(global HitData *hits, uint left, const Hit *found)
     }
 }
 
-// Traces PACKETS packets of consecutive rays, first the rays that start on no primitive. PoCL
-// compiles a kernel's own code three times, but this function once.
+// Traces PACKETS packets of consecutive rays. The rays that start on no primitive search first.
+// PoCL compiles a kernel's own code three times, but this function once.
 static NOT_INLINE void trace_packets(const Tracer *tracer, const RayArray *array, uint first)
 {
     Ray packets[PACKETS];
@@ -104,7 +104,7 @@ static NOT_INLINE void trace_packets(const Tracer *tracer, const RayArray *array
             store_hits(array->lists.hits + first, array->count - first, &found[i]);
 }
 
-// Empties the lists of rays.
+// Empties the lists of the rays from `first` to `end` - 1.
 static inline void clear_lists(const HitLists *lists, uint first, uint end)
 {
     for (uint ray = first; ray < end; ray++)

@@ -35,7 +35,7 @@ enum {
     RAY_WORDS
 };
 
-// Rays, stored word by word in consecutive lanes.
+// A list of rays. words[i] has word i of all rays.
 typedef struct {
     uint words[RAY_WORDS][(PACKETS + 1) * CLRT_LANES];
     uint count;
@@ -65,7 +65,7 @@ static inline void list_append3(RayList *list, uint word, Real3 v, LaneChoice ch
     list_write(list, word + 2, list->count, compressed(as_bits(v.z), chosen));
 }
 
-// Appends the lanes whose bits are set.
+// Appends the rays of the lanes whose bits are set, with their hits.
 static inline void list_append(RayList *list, const Ray *ray, const Hit *hit, uint bits)
 {
     const LaneChoice chosen = lane_choice(bits);
@@ -226,7 +226,7 @@ static inline Octants octants_of(Real3 direction)
     return (Octants){{sign_bits(direction.x), sign_bits(direction.y), sign_bits(direction.z)}};
 }
 
-// Returns the lanes whose directions have these signs.
+// Returns the lanes whose directions have the signs `signs`.
 static inline uint lanes_in_octant(const Octants *octants, uint signs)
 {
     uint bits = ~0u;

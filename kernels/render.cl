@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Computes the colors of pixels and samples. All kernels are compiled after this file. With binary
+// Computes the colors of pixels and samples. All kernels are compiled after this file. With pair
 // nodes, a work-item has one pixel. With wide nodes, it has a block of BLOCK x BLOCK pixels, and
-// traces PACKETS packets of them at a time.
+// traces PACKETS packets of these pixels at a time.
 //
 // Invariant: colors are rounded to integer steps of 2^-32 and summed as integers. A pixel's color
 // therefore does not depend on the order of its samples, or on how pixels are assigned to
@@ -46,7 +46,7 @@ typedef struct {
 } Places;
 
 // Computes the colors of samples, in steps of 2^-32. On CPUs, functions with Paths are not inlined.
-// Otherwise, PoCL would keep the private memory of all work-items of a group on its stack at once.
+// Otherwise, PoCL would keep the private memory of all work-items of a group on the stack at once.
 static NOT_INLINE void sample_colors(const Tracer *tracer, const Places samples[PACKETS],
                                      Real3 colors[PACKETS])
 {
@@ -96,7 +96,7 @@ static inline void pixel_colors(const Tracer *tracer, const Places pixels[PACKET
             colors[i] = scaled3(0x1p-32f, colors[i]);
 }
 
-// Stores the tally with this number.
+// Stores the tally as number `number`.
 static inline void store_tally(global uint *tallies, size_t number, const Tally *tally)
 {
     global uint *counts = tallies + number * TALLY_STORED;
@@ -126,7 +126,7 @@ static inline void store_lane(global float *pixel, const Real3 *color, uint lane
     pixel[2] = (float)((const Scalar *)&color->z)[lane];
 }
 
-// Returns a packet's pixels; pixels outside the tile are inactive.
+// Returns the pixels of the packet at `corner` of the tile. Pixels outside the tile are inactive.
 static inline Places places_at(const FrameData *frame, uint2 corner)
 {
     const UInt column = corner.x + LANE_X, row = corner.y + LANE_Y;

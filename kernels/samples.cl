@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernel of adaptive anti-aliasing. It computes colors and signatures for a list of places in
+// The kernel for adaptive anti-aliasing. It computes colors and signatures for a list of places in
 // the picture. It is compiled after render.cl, and only if requested.
 
 static inline void store_sample(global SampleData *sample, const Real3 *color, UInt signature,

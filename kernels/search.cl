@@ -119,7 +119,7 @@ static inline Search search_along(const Tracer *tracer, const Ray *ray, Real lim
     return search;
 }
 
-// Returns how far ahead rounding may put the start of a ray that leaves a triangle (B9).
+// Returns how far rounding may put the ray's start beyond a triangle that should stop the ray (B9).
 static inline Real search_behind(const Search *search)
 {
     return 256.0f * UNIT_ROUNDOFF * fabs(search->shear.inverse_z) *

@@ -10,10 +10,11 @@
 // that 0 * sum is never a NaN.
 #define BRIGHTEST ((Real)(1e30f))
 
-// Returns the highlight (n.h)^shininess. If shininess is an integer up to 1024, integer_power
-// computes it. Otherwise, the highlight is exp(shininess * log(n.h)). The logarithm is computed as
-// log(1 - |n - h|^2 / 2), which avoids cancellation near n.h = 1. At shininess 1e6, the error is
-// then 5e-5. With pow of the rounded dot product, the error would be 0.14.
+// Returns (n.h)^shininess for the normal n and the half vector h. If shininess is an integer up to
+// 1024, integer_power computes it. Otherwise, the highlight is exp(shininess * log(n.h)). The
+// logarithm is computed as log(1 - |n - h|^2 / 2), which avoids cancellation near n.h = 1. At
+// shininess 1e6, the error is then 5e-5. With pow of the rounded dot product, the error would be
+// 0.14.
 static inline Real highlight(const MaterialLanes *material, Real3 normal, Real3 half_vector)
 {
     const Mask is_integer = material->exponent != 0xffffffffu;
@@ -99,7 +100,7 @@ typedef struct {
     Real diffuse, specular;
 } Received;
 
-// Returns the contribution of a light that reaches the lanes in is_lit.
+// Returns the contribution of a light that reaches the lanes in `is_lit`.
 static inline Received receive_light(const LightSample *light, const Lighting *lighting,
                                      Mask is_lit)
 {

@@ -23,9 +23,9 @@ typedef uint64_t ulong;
 // file order.
 #define NOTHING 0xffffffffu
 
-// The number of entries in the traversal stack of a binary tree. Depth-first descent keeps one
-// pending sibling per level. On CPUs, it also pushes the child that it enters next. Builders limit
-// trees to BVH_MAX_DEPTH levels.
+// Builders limit trees to BVH_MAX_DEPTH levels. The traversal stack of a binary tree has
+// BVH_STACK_SIZE entries: a search keeps one pending sibling per level and, on CPUs, also pushes
+// the child that it enters next.
 #define BVH_MAX_DEPTH  62
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 
@@ -35,15 +35,15 @@ typedef uint64_t ulong;
 // 22 and 4 become 34 and 8.
 //
 // The error of a hit's distance can put the hit up to 54 units behind the ray's start, and
-// search_behind allows 256 more. A box at the start has the origin's coordinates, so the box grows
-// as far as the origin moves. The growth and the move each cover half of these 256 units. Each must
-// cover at most 34 + 8 + 54 + 128 = 224 units. search_reach (search.cl) covers hits beyond the best
-// one. Doubling the slack costs no measurable time.
+// search_behind allows 256 more. A box at the start has nearly the origin's coordinates, so the box
+// grows as far as the origin moves. The growth and the move each cover half of these 256 units.
+// Each must cover at most 34 + 8 + 54 + 128 = 224 units. search_reach (search.cl) covers hits
+// beyond the best hit. Doubling the slack costs no measurable time.
 #define BVH_SLACK 0x1p-16f
 
-// The box around all primitives grows by this fraction of its largest coordinate. The host measures
-// this coordinate from the scene's origin. Kernels enlarge the box again, and measure from the eye.
-// Rays that miss the enlarged box hit nothing (docs/numerics.md, B17).
+// The box around all primitives grows by this fraction of its largest coordinate. Kernels grow the
+// box again, by this fraction of its largest coordinate relative to the eye. Rays that miss the
+// grown box hit nothing (docs/numerics.md, B17).
 #define SKY_SLACK 0x1p-12f
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG, SHADER_GLASS } Shader;
@@ -83,16 +83,16 @@ typedef struct {
 CLRT_SAME_SIZE(PointLight, 32)
 
 // Center and radius as unevaluated sums high + low, with 48 bits each. In the array, the scene's
-// spheres come first. Many spheres have a tree. With pair nodes, its entries follow
-// (host/accel/sphere_tree.c). With wide nodes, its leaves follow, each as a SphereBlock.
+// spheres come first. If they have a tree, its entries follow with pair nodes
+// (host/accel/sphere_tree.c). With wide nodes, only its leaves follow, each as a SphereBlock.
 typedef struct {
     float center[3];
     float radius;
     float center_low[3];
     float radius_low;
     uint material;
-    uint id;   // of an entry of the tree: the sphere's id; NOTHING for a bounding sphere
-    uint next; // of a bounding sphere: the entry after the spheres in it
+    uint id;   // only in the tree: the sphere's id; NOTHING for a bounding sphere
+    uint next; // only for a bounding sphere: index of the entry after the spheres in it
     uint unused;
 } CLRT_ALIGNED SphereData;
 CLRT_SAME_SIZE(SphereData, 48)
@@ -150,7 +150,8 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // With wide nodes, a work-item renders BLOCK_SIDE x BLOCK_SIDE pixels.
 #define BLOCK_SIDE 8
 
-// Refinement lists the pixels' centers in squares of this side, so that neighbors share packets.
+// Refinement lists the pixels' centers in squares with sides of this many pixels, so that neighbors
+// share packets.
 #define PACKET_SIDE 4
 
 // The largest number of children in a wide node, and of triangles in a block. WIDE floats fill a
@@ -221,8 +222,8 @@ typedef struct {
     uint max_level;     // the most levels of a path; further rays return the background
     uint tile_x, tile_y, tile_width, tile_height;
     uint light_count, sphere_count, triangle_count;
-    uint sphere_entries;   // of the array of spheres; more than sphere_count with a tree
-    uint sphere_root;      // the wide node of the tree over spheres; NOTHING if there is none
+    uint sphere_entries;   // entries in the array of spheres; more than sphere_count with a tree
+    uint sphere_root;      // the root of the wide tree over spheres; NOTHING if there is none
     uint uses_bvh;         // 0: every triangle is tested
     float low[3], high[3]; // a box around all primitives, with a margin (SKY_SLACK)
 } FrameData;
@@ -230,15 +231,15 @@ CLRT_SAME_SIZE(FrameData, 160)
 
 // The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
 // that the ray and its reflected and refracted rays hit. The hash includes the lights that reach
-// these surfaces, and the glass that this light crosses.
+// these surfaces, and the glass that their light crosses.
 typedef struct {
     float color[3];
     uint signature;
 } SampleData;
 CLRT_SAME_SIZE(SampleData, 16)
 
-// Sub-pixels along a side of a pixel in ladder.cl's pictures. Because this is a power of two, the
-// sample at a pixel's center has the same bits as in a picture with one sample per pixel.
+// Sub-pixels along a side of a pixel in ladder.cl's pictures. Because their number is a power of
+// two, the sample at a pixel's center has the same bits as in a picture with one sample per pixel.
 #define LADDER_GRID 1024
 
 // The numbers of samples in small and in large requests. A pixel's requests together have up to
@@ -261,7 +262,8 @@ typedef struct {
 } PixelSums;
 CLRT_SAME_SIZE(PixelSums, 32)
 
-// The certainty of a pixel's decisions: which surfaces its rays hit and which lights reach them.
+// The certainty of a pixel's decisions: which surfaces its rays hit, which lights reach them, and
+// which checks they show.
 typedef enum {
     CERTAINTY_OPEN,      // a decision may differ from real arithmetic's
     CERTAINTY_REPAIRED,  // all fp64 decisions equal real arithmetic's
@@ -279,7 +281,7 @@ typedef struct {
 } CertaintyMark;
 CLRT_SAME_SIZE(CertaintyMark, 16)
 
-// Indices of the counts in a tally, which is the cost of a pixel, of a beam or of a work-item.
+// Indices of the counts in a tally. A tally has the counts of a pixel, a beam or a work-item.
 typedef enum {
     TALLY_CAMERA_RAYS,
     TALLY_SHADOW_RAYS,
@@ -323,8 +325,8 @@ typedef struct {
 } RayData;
 CLRT_SAME_SIZE(RayData, 40)
 
-// Bits of the kinds of rays.
-#define RAY_ON_SURFACE 1 // some rays start on primitives; equals RAY_REFLECTED
+// Bits of the argument `kinds` of trace_rays (rays.cl).
+#define RAY_ON_SURFACE 1 // some rays start on primitives; equals RAY_REFLECTED of ray.cl
 #define RAY_ANY_HIT    4 // the rays end at any hit
 
 typedef struct {
@@ -370,8 +372,8 @@ typedef enum {
 
 typedef enum {
     LIGHT_COSINE,    // between the normal and the direction to the light
-    LIGHT_BLOCKER_T, // fraction of the way to the light
-    LIGHT_DIFFUSE,   // received
+    LIGHT_BLOCKER_T, // fraction of the way to the light, up to the blocker
+    LIGHT_DIFFUSE,   // as Received::diffuse (shade.cl)
     LIGHT_SPECULAR,
     LIGHT_TINT, // the color of the glass before the light
     LIGHT_VALUES = LIGHT_TINT + 3
@@ -381,10 +383,10 @@ typedef enum { LIGHT_STATE, LIGHT_BLOCKER, LIGHT_WORDS } LightWord;
 
 // Whether a light reaches a surface.
 typedef enum {
-    LIGHT_BEHIND, // the shading normal is turned away from it
+    LIGHT_BEHIND, // the shading normal is turned away from the light
     LIGHT_SEEN,
     LIGHT_BLOCKED,
-    LIGHT_BEHIND_FACE // the face is turned away from it, but the shading normal is not
+    LIGHT_BEHIND_FACE // the face is turned away from the light, but the shading normal is not
 } LightState;
 
 #endif

@@ -66,7 +66,8 @@ static inline bool pass_box(const FrameData *frame, const RayRange *range)
     return any(height < -SKY_SLACK * (reach * size + moved));
 }
 
-// Returns true only if no ray of a block hits anything (docs/numerics.md, B17).
+// Returns true only if no ray of the block at (`left`, `top`) hits anything (docs/numerics.md,
+// B17).
 static inline bool is_sky(const FrameData *frame, uint left, uint top)
 {
     const RayRange range = block_range(frame, left, top);

@@ -39,7 +39,7 @@ static inline TwoFloat two_sum_ordered(Real a, Real b)
     return (TwoFloat){sum, b - (sum - a)};
 }
 
-// Returns a number that the scene stores as two floats. Their sum fits into one double.
+// Returns a number that the scene stores as two floats. In fp64, their sum fits into one double.
 static inline TwoFloat two_stored(Real high, Real low)
 {
     return CLRT_FP64 ? two_sum_ordered(high, low) : (TwoFloat){high, low};
@@ -149,9 +149,9 @@ static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, Tw
 }
 
 // Returns |f|^2 - radius^2, which is the product of the origin's distances to both walls along the
-// line through the center. At height 1 over a sphere of radius 1e9, squares of 48 bits would cause
-// an error of 6e-6. For the largest component z of f, z^2 - radius^2 is therefore computed as
-// (z - radius) (z + radius).
+// line through the center. At height 1 over a sphere of radius 1e9, squares of 48 bits would put
+// the hit off by 6e-6. The largest component z of f therefore adds (z - radius) (z + radius)
+// instead of z^2 - radius^2.
 static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 {
     const Mask z_first = fabs(f.z.high) >= max(fabs(f.x.high), fabs(f.y.high));
@@ -168,10 +168,10 @@ static inline Real3 plain_center(const Sphere *sphere)
     return real3_of(sphere->center.x.high, sphere->center.y.high, sphere->center.z.high);
 }
 
-// Returns whether plain Reals already prove that the line misses the sphere. The error of this test
-// is at most 16u times the sum of all squared lengths (B15), and the test allows 64u. Most spheres
-// then need no two-float test. In a scene with three spheres, two-float tests for all rays would
-// take half of the rendering time.
+// Returns whether plain Reals prove that the line misses the sphere. The error of this test is at
+// most 16u times the sum of all squared lengths (B15), and the test allows 64u. Most spheres then
+// need no two-float test. In a scene with three spheres, two-float tests for all rays would take
+// half of the rendering time.
 static inline Mask sphere_is_passed(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real3 center = plain_center(sphere);
@@ -208,8 +208,8 @@ static inline Mask plain_side(const Sphere *sphere, Real3 origin)
     return power > doubt ? (Mask)(1) : inside;
 }
 
-// Returns the wanted lanes unless plain Reals prove that their rays meet no sphere inside of the
-// bounding sphere before t (B21).
+// Returns the lanes of `wanted`, except lanes in which plain Reals prove that the ray meets no
+// sphere in the bounding sphere before `t` (B21).
 static inline Mask may_meet_before(const Sphere *bound, Real3 origin, Real3 d, Real t, Mask wanted)
 {
     const Mask leaves = leads_away(bound, origin, d) && plain_side(bound, origin) > 0;
@@ -252,8 +252,7 @@ static inline Real exact_sphere_distance(const Sphere *sphere, Real3 origin, Rea
     return walls.near > 0.0f ? walls.near : first;
 }
 
-// Returns the wanted lanes, unless plain Reals prove that the ray misses. Most spheres then need no
-// two-float test.
+// Returns the lanes of `wanted`, except lanes in which plain Reals prove that the ray misses.
 static inline Mask sphere_is_near(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
 {
     if (!any_lane(wanted))
@@ -264,7 +263,7 @@ static inline Mask sphere_is_near(const Sphere *sphere, Real3 origin, Real3 d, M
     return is_near && !(leads_away(sphere, origin, d) && plain_side(sphere, origin) > 0);
 }
 
-// Returns exact_sphere_distance in the wanted lanes, and INFINITY in the others.
+// Returns exact_sphere_distance in the lanes of `wanted`, and INFINITY in the others.
 static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, Mask wanted)
 {
     const Mask is_near = sphere_is_near(sphere, origin, d, wanted);
@@ -274,8 +273,8 @@ static inline Real sphere_distance(const Sphere *sphere, Real3 origin, Real3 d, 
     return is_near ? t : INFINITY;
 }
 
-// Returns the hit point at t. The ray's point at t is projected onto the sphere, so the result's
-// error is one rounding for any radius.
+// Returns the hit point at `t`, and stores its unit normal in *normal. The ray's point at `t` is
+// projected onto the sphere, so the result's error is one rounding for any radius.
 static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Real t, Real3 *normal)
 {
     const TwoFloat3 q = two_stepped(sphere_to_origin(sphere, origin), t, d);
@@ -292,8 +291,8 @@ static inline Real3 sphere_point(const Sphere *sphere, Real3 origin, Real3 d, Re
 }
 
 // Returns the distance to the far wall for a ray that starts on this sphere. The direction's length
-// must be about 1. The near root is zero. Returns INFINITY for chords up to the origin's error or
-// 128u times the radius, whichever is larger.
+// must be about 1. The near root is zero, and the far root is the chord. Returns INFINITY for
+// chords up to the origin's error or 128u times the radius, whichever is larger.
 static inline Real sphere_chord(const Sphere *sphere, Real3 origin, Real3 d)
 {
     const Real b = -two_dot(sphere_to_origin(sphere, origin), d).high;

@@ -4,7 +4,7 @@
 // separate are therefore collected as pairs, and each lane tests a pair. With AVX2, pictures of 100
 // to 10,000 balls take 4 to 7 % less time than with two-float tests of whole packets.
 //
-// Invariant: pairs are tested by the operations of spheres.cl, so they change no hit.
+// Invariant: pairs are tested by the operations of spheres.cl, so pairing changes no hit.
 #ifndef CLRT_SPHERE_BLOCKS_CL
 #define CLRT_SPHERE_BLOCKS_CL
 #include "fetch.cl"
@@ -85,7 +85,7 @@ static inline Real3 ray_vector(const Ray *rays, UInt place, uint word)
                     as_real(ray_word(rays, place, word + 2)));
 }
 
-// Returns the rays with the given numbers.
+// Returns the rays with the numbers `number`, one per lane.
 static inline Ray gathered_rays(const Ray *rays, UInt number, Mask active)
 {
     const UInt place = number / CLRT_LANES * WORDS(Ray) + number % CLRT_LANES;
@@ -166,8 +166,8 @@ static inline void append_pair(SpherePairs *pairs, uint number, uint child, uint
     pairs->count++;
 }
 
-// Returns the active lanes, unless plain Reals prove that the ray does not hit the sphere. There
-// are no branches, because processors could not predict them.
+// Returns the active lanes, except lanes in which plain Reals prove that the ray misses the sphere.
+// There are no branches, because processors could not predict them.
 static inline Mask may_hit_sphere(const Sphere *sphere, const Ray *ray, UInt id)
 {
     const bool may_hit_own = CLRT_GLASS || plain_kind(ray->kind) == RAY_REFLECTED;
@@ -178,7 +178,7 @@ static inline Mask may_hit_sphere(const Sphere *sphere, const Ray *ray, UInt id)
     return ray->active && (ray->own == id ? returns : is_near);
 }
 
-// Returns a ray in all lanes.
+// Returns one lane's ray in all lanes. No lane is active.
 static inline Ray one_ray(const Ray *ray, uint lane)
 {
     const Real3 *o = &ray->origin, *d = &ray->direction;
@@ -190,7 +190,7 @@ static inline Ray one_ray(const Ray *ray, uint lane)
                  0};
 }
 
-// Returns bits of the block's spheres that a ray may hit.
+// Returns the bits of the block's spheres that the lane's ray may hit.
 static inline uint spheres_near(global const SphereBlock *block, const Ray *packet, uint lane)
 {
     Ray ray = one_ray(packet, lane);
@@ -238,8 +238,9 @@ static inline void pair_packet(SpherePairs *pairs, uint packet, uint bits, uint 
     }
 }
 
-// Finds the pairs of the given lanes of a packet and the spheres of a block. A vector tests a
-// sphere against all lanes, or one lane's ray against all spheres.
+// Finds the pairs of the given lanes of a packet and the spheres of a block. If many lanes are
+// given, each sphere is tested against all of them at once. Otherwise, each lane's ray is tested
+// against all spheres at once.
 static inline void pair_lanes(SpherePairs *pairs, uint packet, uint bits, uint child)
 {
     if (popcount(bits) >= WIDE - 1)

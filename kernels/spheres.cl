@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds the nearest sphere of a ray. Many spheres have a tree. Pair nodes use a tree of bounding
-// spheres (host/accel/sphere_tree.c), wide nodes a tree of boxes like that over triangles
-// (beam_walk.cl).
+// Finds the nearest sphere of a ray. If there are many spheres, rays search a tree over them. With
+// pair nodes, this is a tree of bounding spheres (host/accel/sphere_tree.c). With wide nodes, it is
+// a tree of boxes, as over triangles (beam_walk.cl).
 //
 // Invariant: trees only cull, and each sphere is tested by the same operations. The hit is
 // therefore the same for every tree and without a tree.
@@ -26,8 +26,8 @@ static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mas
     return scale * sphere_chord(sphere, ray->origin, scaled3(scale, ray->direction));
 }
 
-// Returns the distances at which the active rays hit spheres, one sphere per lane. `id` names the
-// spheres.
+// Returns the distances at which the active rays hit spheres, one sphere per lane. `id` has the ids
+// of the spheres.
 static ALWAYS_INLINE Real sphere_ray_distance(const Sphere *sphere, const Ray *ray, UInt id)
 {
     const Mask is_own = ray->active && ray->own == id;
@@ -67,7 +67,7 @@ static inline void accept_sphere(Real t, uint id, Hit *best)
     best->index = precedes ? (UInt)(id) : best->index;
 }
 
-// Tests a sphere against all lanes. `id` is the sphere's.
+// Tests a sphere against all lanes. `id` is the sphere's id.
 static inline void intersect_sphere(const Tracer *tracer, const Ray *ray, const Sphere *sphere,
                                     uint id, Hit *best)
 {

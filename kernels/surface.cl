@@ -12,11 +12,11 @@
 // The shading normal and the face's normal can point to opposite sides of the surface. Two rules
 // then decide which light reaches the surface and which rays leave it. The face's normal always
 // points to the side from which the ray comes.
-//  - A light reaches a point only if the shading normal and the face both face it (shade.cl). The
-//    course's renderers (docs/scenes.md) start shadow rays slightly off the surface. There, the
-//    face blocks a light behind it, which has the same effect. A sphere seen from inside keeps its
-//    outward normal, as in the course. Its face points inward, so no light is in front of both face
-//    and normal, and the inside stays unlit.
+//  - A light reaches a point only if both the shading normal and the face point toward the light
+//    (shade.cl). The course's renderers (docs/scenes.md) have the same effect: they start shadow
+//    rays slightly off the surface, so that the face blocks lights behind it. A sphere seen from
+//    inside keeps its outward normal, as in the course. Its face points inward, so no light is in
+//    front of both face and normal, and the inside stays unlit.
 //  - If the shading normal sends a reflected ray into the face, the ray is mirrored at the face.
 #ifndef CLRT_SURFACE_CL
 #define CLRT_SURFACE_CL
@@ -111,8 +111,8 @@ static inline View view_along(const Corners *corners, Real3 origin, Real3 direct
     return view;
 }
 
-// Returns view_along for rays whose ShearAxes::z all equal the argument z. If the argument is a
-// constant, the compiler removes the selection of components.
+// Returns view_along for rays whose ShearAxes::z all equal `z`. If `z` is a constant, the compiler
+// removes the selection of components.
 static inline View view_along_one(const Corners *corners, Real3 origin, Real3 direction, uint z)
 {
     const ShearAxes axes = {(UInt)((z + 1) % 3), (UInt)((z + 2) % 3), (UInt)(z)};
@@ -131,8 +131,9 @@ static inline View view_of(const Corners *corners, Real3 origin, Real3 direction
     return view_along(corners, origin, direction, &axes);
 }
 
-// Records the distance of the point from the edges. A weight times the altitude is the distance
-// from an edge. The altitude is twice the area, divided by the edge's length.
+// Records a bound on the point's distance from the edges (see Surface). The distance from an edge
+// is the opposite corner's weight times the altitude over the edge. This altitude is twice the
+// area, divided by the edge's length.
 static inline void note_edges(Surface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -315,9 +316,9 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
 // Returns the start of a ray near an edge. There, rounding may have put the surface point outside
 // its triangle, beyond the neighbor that should stop the ray, or the point may be a corner. While
 // the ray's line does not pass through the triangle, the start moves toward the triangle's middle.
-// The moves are UNIT_ROUNDOFF / sine times 1, 2, 4 and so on to 256, measured on the axis on which
-// the start moves farthest. The start never moves beyond the middle. If a reflected or refracted
-// ray still misses the triangle, the ray is lifted.
+// Its distance from the surface point is then UNIT_ROUNDOFF / `sine` times 1, 2, 4 and so on to
+// 256, on the axis on which this distance is largest. The start never moves beyond the middle. If a
+// reflected or refracted ray still misses the triangle, the ray is lifted.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
                                      Real sine, Mask near_edge)
 {
@@ -342,8 +343,8 @@ static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surfac
 
 // Returns the start of a ray that leaves the surface, and may lift the ray's direction. The ray's
 // line should pass through the surface's triangle. Rounding can prevent this only near edges. The
-// point is off by some units of rounding. This error, divided by the sine of the line's angle to
-// the plane, is the error of the line along the plane (docs/numerics.md, B14).
+// point is off its plane by a few units of rounding. This error, divided by the sine of the line's
+// angle to the plane, is the error of the line along the plane (docs/numerics.md, B14).
 static inline Real3 point_left(const Tracer *tracer, const Surface *surface, Heading *heading,
                                Real sine, Mask active)
 {

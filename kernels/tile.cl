@@ -29,7 +29,7 @@ static NOT_INLINE void render_sky(const FrameData *frame, uint2 beam, const Outp
         store_packet(frame, packet_corner(beam, i), &color, &none, output);
 }
 
-// Renders the beam whose top left pixel is given.
+// Renders the beam with the top left pixel `beam`.
 static NOT_INLINE void render_beam(const Tracer *tracer, uint2 beam, const Output *output)
 {
     const Tally none = {0};

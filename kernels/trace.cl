@@ -45,7 +45,7 @@ typedef struct {
 
 // The paths of a work-item, which advance in lock step.
 typedef struct {
-    uint level;        // rays followed
+    uint level;        // number of rays that each path has followed
     Ray rays[PACKETS]; // the last rays
     Hit hits[PACKETS]; // the hits of these rays
     Path paths[PACKETS];
@@ -223,7 +223,7 @@ static inline Real3 path_color(const Tracer *tracer, const Path *path)
     return sum3(path->color, scaled3(path->weight, background));
 }
 
-// Traces started paths to their ends, and stores their colors in steps of 2^-32.
+// Traces started paths to their ends, and stores the paths' colors in steps of 2^-32.
 static inline void trace(const Tracer *tracer, Paths *paths, Real3 colors[PACKETS])
 {
     for (bool any = paths_begin(tracer, paths); any; any = paths_continue(tracer, paths)) {

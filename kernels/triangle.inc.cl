@@ -3,9 +3,9 @@
 // The signs of three edge functions then decide whether the ray passes inside (Woop, Benthin and
 // Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013).
 //
-// Invariant: no ray passes between two triangles that share an edge. Both compute the same bits for
-// the two sheared ends of the edge. Kahan's difference of products then gives the edge function its
-// exact sign in both triangles.
+// Invariant: no ray passes between two triangles that share an edge. Both triangles compute the
+// same bits for the sheared ends of the edge. Kahan's difference of products then gives the edge
+// function the exact sign in both triangles.
 //
 // numeric.cl includes this file up to twice: for one triangle against one ray or a packet of rays,
 // and for eight triangles against one ray. The file needs the number types Real, Mask and UInt, and
@@ -28,7 +28,8 @@ typedef struct {
     Real u, v, w, determinant;
 } Edges;
 
-// Shears corners. Their components are relative to the ray's origin and in the shear's order.
+// Returns the sheared corners. The given corners are relative to the ray's origin, with components
+// in the order of the shear.
 static inline Corners OVERLOAD corners_sheared(const Corners *relative, const Shear *shear)
 {
     Corners s = *relative;
@@ -61,7 +62,7 @@ static inline Mask OVERLOAD edges_contain(const Edges *edges)
     return (smallest >= 0.0f || largest <= 0.0f) && edges->determinant != 0.0f;
 }
 
-// Returns whether an edge function counts as positive. A ray that meets the edge from p to q
+// Returns whether an edge function counts as positive. A ray that meets the edge from `p` to `q`
 // exactly counts as moved: by an infinitely small distance along x, and by an even smaller distance
 // along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
 static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
@@ -79,7 +80,8 @@ static inline Mask OVERLOAD edges_own(const Corners *sheared, const Edges *edges
     return u == v && v == w && edges->determinant != 0.0f;
 }
 
-// Returns whether the ray comes from the stored front, where the corners turn counter-clockwise.
+// Returns whether the ray comes from the stored front, on which the stored corners turn
+// counter-clockwise.
 static inline Mask OVERLOAD edges_face(const Edges *edges, const Shear *shear)
 {
     return (edges->determinant < 0.0f) == (shear->direction_z < 0.0f);
@@ -92,8 +94,9 @@ static inline Real OVERLOAD triangle_depth(const Corners *sheared, const Edges *
                fma(edges->v * r, sheared->b.z, (edges->w * r) * sheared->c.z));
 }
 
-// Bounds the error of triangle_depth and of its later product with inverse_z. Together, these
-// errors are at most 14 u of the largest depth (docs/numerics.md, B4), and this bound is larger.
+// Returns a bound on the error of triangle_depth and of its later product with inverse_z. These
+// errors together are at most 14 u of the largest depth (docs/numerics.md, B4), which is below the
+// bound.
 static inline Real OVERLOAD triangle_depth_error(const Corners *s)
 {
     const Real depth = max(max(fabs(s->a.z), fabs(s->b.z)), fabs(s->c.z));
@@ -118,7 +121,7 @@ typedef struct {
     Mask inside;
 } TriangleTest;
 
-// The corners are relative to the ray's origin, with components in the order of the shear.
+// The corners in `relative` are as in corners_sheared.
 static inline TriangleTest OVERLOAD triangle_test(const Corners *relative, const Shear *shear)
 {
     TriangleTest test;
@@ -139,11 +142,11 @@ typedef struct {
     Real clear; // if not near: the distance at which the ray stops, INFINITY if it passes
 } Meeting;
 
-// Returns the distances, and whether surface_ray_distance must decide. `marks` contains the
-// triangles' flags. One-sided triangles do not stop rays on their inner side. For rays that leave a
-// surface, surface_ray_distance decides about all triangles ahead up to `reach`, and about
-// triangles within rounding of the start. For rays from the eye, it decides only about triangles
-// within rounding of the eye. If all hits count, it decides about none.
+// Returns the distances, and whether surface_ray_distance must decide which rays stop. `marks`
+// contains the triangles' flags. One-sided triangles do not stop rays on their inner side. For rays
+// that leave a surface, surface_ray_distance decides about all triangles ahead up to `reach`, and
+// about triangles within rounding of the start. For rays from the eye, it decides only about
+// triangles within rounding of the eye. If all hits count, it decides about none.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {
@@ -200,15 +203,16 @@ typedef struct {
     float blur;   // error of the point, as in height_over; 0 for the eye, which is exact
 } SurfaceRay;
 
-// Returns the distance at which the ray stops on a triangle, or INFINITY if it passes. t is the
+// Returns the distance at which the ray stops on a triangle, or INFINITY if it passes. `t` is the
 // triangle's distance, with an error of at most `error`.
 //
-// Near the ray's start, t is only rounding error. If t decided there, the start's neighbors would
-// wrongly stop shadow and reflected rays. The ray therefore stops only if its surface point is
-// certainly on the side of the triangle from which the ray comes. On the inner side of two-sided
-// triangles, the start's convex neighbors also meet this condition. On this side, t must therefore
-// be certainly positive, too. This does not apply to rays from the eye, which is on no surface. A
-// triangle does not block the ray if the triangle's t is within `error` of the light's t.
+// Near the ray's start, t is only rounding error. If t decided there, neighbors of the triangle on
+// which the ray starts would wrongly stop shadow and reflected rays. The ray therefore stops only
+// if its start is certainly on the side of the triangle from which the ray comes. For a ray that
+// meets the inner side of a two-sided triangle, this also holds if the triangle is a neighbor
+// across a convex edge. Such a ray therefore stops only if t is also certainly positive. The eye is
+// on no surface, so rays from the eye need no positive t. A triangle does not block the ray if the
+// triangle's t is within `error` of the light's t.
 //
 // `in_doubt` receives the lanes whose rays pass, but perhaps only because of rounding. In a valley,
 // rounding can also put the start beyond the neighbor that should stop the ray.

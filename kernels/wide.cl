@@ -115,8 +115,9 @@ static inline Wide3 splat3(const Real3 *v, uint lane)
     return (Wide3){lane_real(&v->x, lane), lane_real(&v->y, lane), lane_real(&v->z, lane)};
 }
 
-// Returns the triangles that stop the lane's ray. The ray's line must hit each given triangle so
-// close to the ray's start that rounding could put the hit before or behind the start.
+// Returns the triangles that stop the lane's ray. The ray's line must hit each triangle in
+// `triangles` so close to the ray's start that rounding could put the hit before or behind the
+// start.
 static NOT_INLINE int8 block_neighbors(const Search *search, uint lane, uint first, uint triangles,
                                        uint from_back)
 {
@@ -190,8 +191,8 @@ static inline bool has_spheres(uint leaf)
     return CLRT_SPHERES && leaf >= WIDE_SPHERES;
 }
 
-// Returns whether nodes and blocks probably exceed a cache of 1 MB. Only then do single rays
-// prefetch, because prefetching makes smaller scenes 7 % slower.
+// Returns whether nodes and blocks probably exceed a cache of 1 MB. Only then do searches prefetch,
+// because prefetching makes smaller scenes 7 % slower.
 static inline bool exceeds_cache(const Tracer *tracer)
 {
     return tracer->frame->triangle_count >= 30000;
@@ -220,7 +221,7 @@ typedef struct {
     Hit *hits;
     NearPlanes near_planes;
     uint child[CLRT_LANES]; // the next child of each ray
-    uint leaves, ended;     // bits of the lanes at a block, and of the lanes that have ended
+    uint leaves, ended;     // bits of the lanes at a block, and of the lanes whose search has ended
     bool prefetches;
     WideStack stack[CLRT_LANES];
 } LaneSearches;
@@ -263,7 +264,8 @@ static inline void visit_nodes(LaneSearches *searches)
     }
 }
 
-// Tests the blocks of the given lanes, which have spheres. Returns the lanes whose hits changed.
+// Tests the given lanes' blocks, which must be blocks of spheres. Returns the lanes whose hits
+// changed.
 static NOT_INLINE uint visit_spheres(LaneSearches *searches, uint bits)
 {
     const Search *search = searches->search;
@@ -306,8 +308,8 @@ static inline void visit_leaves(LaneSearches *searches)
     }
 }
 
-// Searches below a node for the rays of the lanes whose bits are set. This is a fifth faster than
-// tracing one ray after another.
+// Searches the subtree `child` with the rays of the lanes whose bits are set. This is a fifth
+// faster than tracing one ray after another.
 static NOT_INLINE void intersect_lanes(const Search *search, uint bits, uint child, Hit *best)
 {
     LaneSearches searches;

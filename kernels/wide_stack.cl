@@ -13,7 +13,7 @@
 #if CLRT_WIDE_NODES
 
 // Each level of the tree leaves at most WIDE - 1 children on the stack, and each push writes WIDE
-// entries.
+// entries, even if fewer children are hit.
 #define WIDE_STACK_SIZE (BVH_MAX_DEPTH * (WIDE - 1) + 2 * WIDE)
 
 // The children of a node are adjacent, the nearest on top.
@@ -100,7 +100,7 @@ static inline uint4 sorted_four(uint4 v)
 }
 
 // Sorts the children that are hit. These children first move to the front, so that half a network
-// can sort up to four of them. In only one node of twenty, more children are hit.
+// can sort up to four of them. In only one of twenty nodes, more than four children are hit.
 static inline uint8 orders_sorted(uint8 order, uint met)
 {
     typedef int Register __attribute__((vector_size(32)));
