@@ -18,7 +18,7 @@
 
 // The midpoint split, as taught in the course (docs/scenes.md), divides a box by a plane through
 // its middle, perpendicular to its longest axis. If a side is empty, or if a child is longer than
-// LARGEST_CHILD of its parent along this axis, the next longest axis is tried.
+// LARGEST_CHILD times its parent along this axis, the next longest axis is tried.
 
 #define LEAF_TRIANGLES 4
 #define LARGEST_CHILD  0.9f // largest extent of a child, relative to its parent's extent

@@ -3,9 +3,9 @@
 // file share the rounded point, so neighbors stay neighbors.
 //
 // The corners of each triangle are sorted by their coordinates. The device then computes the same
-// bits regardless of the order of the corners in the file. For an edge of two triangles, it
-// computes equal values in both triangles. Three comparisons, mostly of x alone, form an index into
-// a table of corner orders. A branch on each comparison would be mispredicted half the time.
+// bits regardless of the order of the corners in the file. For an edge that two triangles share,
+// the device computes equal values in both. Three comparisons, mostly of x alone, form an index
+// into a table of corner orders. A branch on each comparison would be mispredicted half the time.
 #include "accel/triangles.h"
 
 #include <stdlib.h>

@@ -19,8 +19,8 @@ typedef struct {
     uint32_t node_count, block_count;
 } WideTree;
 
-// Makes the nodes and blocks of tree->bvh. If it has no nodes, makes only blocks, of items 0 to
-// item_count - 1. Call wide_tree_free after success and after failure.
+// Makes the nodes and blocks of tree->bvh. If this Bvh has no nodes, makes only blocks, of items 0
+// to item_count - 1. Call wide_tree_free after success and after failure.
 bool wide_tree_make(WideTree *tree, uint32_t item_count, Error *error);
 void wide_tree_free(WideTree *tree);
 

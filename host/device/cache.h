@@ -21,7 +21,7 @@ typedef struct {
     int private_lock;  // file lock that keeps other processes from removing private_folder
     uint64_t settings; // hash of the environment variables that change what PoCL compiles
     // The thread that compiles a program calls this function with true before it compiles, and with
-    // false afterwards. May be NULL.
+    // false afterwards. `announce` may be NULL.
     void (*announce)(bool begins);
 } Cache;
 
@@ -36,14 +36,14 @@ typedef struct {
     size_t size;
 } CachedBinary;
 
-// Reads the binary with this key from the user's folder or from /var/cache/clrt, which packages
-// fill. Returns false if neither has an intact file. The caller frees binary->file.
+// Reads the binary with the key `key` from the user's folder or from /var/cache/clrt, which
+// packages fill. Returns false if neither has an intact file. The caller frees binary->file.
 bool cache_read(const Cache *cache, const char *key, CachedBinary *binary);
 
 // Writes the binary to the user's folder. If this fails, nothing is stored.
 void cache_write(const Cache *cache, const char *key, const void *bytes, size_t size);
 
-// Returns whether cache_read would find a file for this key. The file may be damaged.
+// Returns whether cache_read would find a file for `key`. The file may be damaged.
 bool cache_has(const Cache *cache, const char *key);
 
 // Waits for the lock that protects PoCL's files while a program is made. Returns the lock for

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Devices copy their results into this memory. For devices that are not CPUs, the OpenCL
+// Devices copy their results into HostMemory. For devices that are not CPUs, the OpenCL
 // implementation allocates the memory, because copies into ordinary memory are slower and make the
 // host wait. The implementation locks the pages of this memory. On an NVIDIA H200, this takes 0.4
 // ms for each megabyte, and unlocking takes 0.1 ms. A pool therefore keeps the most recently freed

@@ -16,8 +16,8 @@
 typedef enum {
     AOV_NEEDS_PATH,      // nothing more
     AOV_NEEDS_TESTS,     // counts of tests; every sample is traced again as a single ray
-    AOV_NEEDS_CERTAINTY, // certificates of all samples
-    AOV_NEEDS_REFERENCE  // the reference; the code that draws it also fills the channel
+    AOV_NEEDS_CERTAINTY, // certainty of all samples
+    AOV_NEEDS_REFERENCE  // the reference; the code that draws the reference also fills the channel
 } AovNeed;
 
 typedef struct {

@@ -9,12 +9,12 @@
 typedef struct {
     uint64_t tiles_done, tiles;
     uint64_t tiles_ready; // tiles that existed before the run
-    // TALLY_CUT and TALLY_CUT_HIGH are 0 without glass. The others are 0 without statistics.
+    // TALLY_CUT and TALLY_CUT_HIGH are 0 without glass. The other tallies are 0 without statistics.
     uint64_t tallies[TALLY_KINDS];
 } RenderProgress;
 
 // tile_done is called after every tile, and by sampler_trace after every launch. If tile_done
-// returns false, the picture stops.
+// returns false, drawing stops after the tiles or launches in progress.
 typedef struct {
     bool (*tile_done)(void *context, const RenderProgress *progress);
     void *context;

@@ -237,7 +237,7 @@ static bool run_launches(Sampling *sampling, const RenderObserver *observer, Err
     RenderProgress *progress = &sampling->renderer->progress;
     const uint32_t count = sampling->items;
     const uint64_t tiles = progress->tiles_done;
-    uint32_t started = 0, finished = 0; // launches
+    uint32_t started = 0, finished = 0; // numbers of launches
     bool wanted = true;
     const uint32_t all = range_count(count, TILE_ITEMS);
     progress->tiles += all;

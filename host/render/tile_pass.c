@@ -4,9 +4,9 @@
 // launches, a device that draws a tile of sky in 70 us would wait for the host.
 //
 // On CPUs, a launch is a tile. All launches use one padded grid with offset 0, because PoCL
-// compiles a kernel again for each new local size, for offsets, and for large grids. Kernels read
-// the tile's position from FrameData. On other devices, the size of a launch depends on the device
-// and on the time of the previous launch (device/launch.h).
+// compiles a kernel again for each new local size, for nonzero offsets, and for large grids.
+// Kernels read the tile's position from FrameData. On other devices, the size of a launch depends
+// on the device and on the time of the previous launch (device/launch.h).
 //
 // Invariant: callers receive the tiles in the order of their numbers, so the number of finished
 // tiles determines which tiles are finished.
