@@ -85,12 +85,13 @@ void ladder_close(Ladder *ladder)
 
 // The samples that advance a pixel by one rung.
 typedef struct {
-    uint32_t first;   // index of the first of these samples
+    uint32_t first;   // number of the first one in the pixel's sequence
     uint32_t samples; // per request
     uint32_t requests;
 } RungSamples;
 
-// Requests are small until the pixel has LARGE_SAMPLES samples.
+// Returns the samples that advance a pixel from this rung. Requests are small until the pixel has
+// LARGE_SAMPLES samples.
 static RungSamples samples_from(uint32_t rung)
 {
     const uint32_t first = rung == 0 ? 0 : ladder_samples[rung];
@@ -215,7 +216,8 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
     return true;
 }
 
-// Moves the pixels with small requests to the start of the list. Otherwise, keeps the order.
+// Moves the pixels with small requests to the start of the list. Keeps the order of these pixels,
+// and the order of the other pixels.
 static bool part_list(const Ladder *ladder, uint32_t *pixels, uint64_t count, Error *error)
 {
     uint32_t *later = memory_raw(count, sizeof *later, error);

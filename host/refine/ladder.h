@@ -5,14 +5,15 @@
 //
 // An error goal needs an honest estimate of the error. A pixel's own samples estimate its error
 // badly: samples that all miss a detail agree with each other. Therefore some pixels of each kind
-// advance even if they look finished, and their changes measure the error of the others
-// (ladder_strata.h).
+// advance even if they look finished. Their changes of color measure the errors of the pixels that
+// stay (ladder_strata.h).
 //
-// First, ladder_entry.c places the pixels on rung 0. In ladder_advance, ladder_choice.c selects
-// pixels, ladder_requests.c traces their samples, and ladder.c assigns their new strata.
+// First, ladder_entry.c places all pixels on rung 0. In ladder_advance, ladder_choice.c selects
+// pixels, ladder_requests.c traces the samples of these pixels, and ladder.c assigns the pixels to
+// new strata.
 //
-// Invariant: with an error goal, choices depend only on sums of samples, which are added in a fixed
-// order. The picture therefore depends neither on the order of work nor on the device.
+// Invariant: with an error goal, choices depend only on sums of samples, and sums are added in a
+// fixed order. The picture therefore depends neither on the order of work nor on the device.
 #pragma once
 
 #include "refine/ladder_state.h"
@@ -26,8 +27,8 @@
 bool ladder_open(Ladder *ladder, const RefineSetup *setup, Error *error);
 void ladder_close(Ladder *ladder);
 
-// Selects pixels by the strata's fractions, and moves each to its next rung. Stores the number of
-// selected pixels in *advanced. If the observer stops the trace, some of them have not moved.
+// Selects pixels by the strata's fractions, and moves them up by one rung. Stores the number of
+// selected pixels in *advanced. If the observer stops the trace, some selected pixels do not move.
 bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
 
 // Returns the number of samples taken in a pixel.

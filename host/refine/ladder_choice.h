@@ -4,5 +4,6 @@
 
 #include "refine/ladder_state.h"
 
-// Fills ladder->chosen with the pixels that the strata's fractions select, and stores their number.
+// Fills ladder->chosen with the pixels that the strata's fractions select. Stores the number of
+// these pixels in *count.
 bool ladder_choose(Ladder *ladder, uint64_t *count, Error *error);

@@ -21,7 +21,8 @@
 #define AREA_HEIGHT 32
 #define RADIUS      2
 
-// A task has at least this many pixels. Waking a thread takes longer than a small picture.
+// A task has at least this many pixels, because waking a thread takes longer than processing a
+// small picture.
 #define TASK_PIXELS (1u << 16)
 
 // Statistics of the pixels of a row of areas, by stratum.
@@ -52,8 +53,9 @@ static float larger(float one, float other)
     return one > other ? one : other;
 }
 
-// The distances from a pixel to its neighbors in the picture's array, counted in floats. A distance
-// of 0 makes the pixel its own neighbor on both sides, which adds nothing to its bend.
+// The distances from a pixel to its neighbors in the picture's array, counted in floats. At the
+// picture's border, a distance is 0. The pixel is then its own neighbor on both sides, and these
+// neighbors add nothing to the bend.
 typedef struct {
     ptrdiff_t right, down;
 } Neighbors;
@@ -64,7 +66,7 @@ static inline float bend_along(const float *color, ptrdiff_t step)
 }
 
 // Measures the bends of up to AREA_WIDTH + 2 * RADIUS pixels of a row. `next` must apply to all of
-// them.
+// these pixels.
 static void measure_pixels(const float *colors, Neighbors next, uint32_t count, float *bends)
 {
     float most[3 * (AREA_WIDTH + 2 * RADIUS)];
@@ -142,8 +144,8 @@ static void spread_bends(const Area *area, uint32_t row, float nearby[AREA_WIDTH
                            larger(columns[x + 3], columns[x + 4]));
 }
 
-// Adds `count` consecutive pixels, from (x, y) on, to `entries`. Also adds their strata to the
-// masks of the pixels' blocks.
+// Adds `count` consecutive pixels, from (x, y) on, to `entries`, and adds the pixels' strata to the
+// masks of their blocks.
 static void count_pixels(const Ladder *ladder, uint32_t x, uint32_t y, uint32_t count,
                          Entries *entries)
 {
@@ -172,7 +174,8 @@ static void enter_row(const Entering *entering, const Area *area, uint32_t row, 
     uint8_t *strata = &ladder->strata[(size_t)y * width + area->left];
     LadderPlace *places = &ladder->places[(size_t)y * width + area->left];
     float nearby[AREA_WIDTH];
-    uint32_t numbers[AREA_WIDTH]; // separate from `strata`, because compilers vectorize this loop
+    uint32_t numbers[AREA_WIDTH]; // an array of 32-bit numbers, so that compilers vectorize the
+                                  // next loop
     spread_bends(area, row, nearby);
     for (uint32_t x = 0; x < AREA_WIDTH; x++)
         numbers[x] = strata_of_bend(bends[x], nearby[x], false);

@@ -12,17 +12,18 @@ typedef union {
     uint32_t sums; // index in Ladder::sums
 } LadderPlace;
 
-// The side of a block of pixels. A selection skips a block if none of its strata selects pixels.
+// The side of a block of pixels. A selection skips a block if it selects no pixels from the strata
+// in the block's mask.
 #define LADDER_BLOCK 8
 
 typedef struct {
     PixelRequests requests;
     Framebuffer *picture; // borrowed; means of the pixels' samples
-    void *memory;         // of the next three arrays and of the requests' arrays
+    void *memory;         // of the next four arrays and of the requests' arrays
     uint32_t *chosen;     // room for all pixels
     LadderPlace *places;  // of each pixel
     uint8_t *strata;      // of each pixel
-    uint64_t *blocks; // ladder_stratum_bit of the strata of each block's pixels, past or present
+    uint64_t *blocks; // masks of blocks: bits of all strata that have or had pixels of the block
     ARRAY(PixelSums) sums; // of the pixels above rung 0
     Strata statistics;
     Strata chosen_by; // the statistics at the latest selection of pixels
@@ -35,7 +36,7 @@ static inline uint64_t ladder_stratum_bit(uint32_t stratum)
     return (uint64_t)1 << stratum % 64;
 }
 
-// Returns the mask of the pixel's block.
+// Returns the mask of the block that contains the pixel at (x, y).
 static inline uint64_t *ladder_block(const Ladder *ladder, uint32_t x, uint32_t y)
 {
     const uint32_t columns = range_count(ladder->picture->width, LADDER_BLOCK);

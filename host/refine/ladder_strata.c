@@ -48,14 +48,16 @@
 #define EDGE_SAMPLED 0.0625
 
 // On rung 0, a pixel that advances drops its old sample, so the change is the sum of the squared
-// errors before and after. If doubling the samples divides this error by D, the change is (1 + 1 /
-// D^2) times the error. With the values of D below, factors of 0.89 and 0.8 would correct it.
+// errors before and after. If twice as many samples divide the squared error by D, the change is (1
+// + 1 / D^2) times the squared error before. With the values of D in the next comment, factors of
+// 0.89 and 0.8 would correct the change.
 #define CENTER_FACTOR 0.85
 
 // Above rung 0, a pixel that advances keeps its old samples, so the change underestimates the
-// squared error. If doubling the samples divides this error by D, the change is (1 - 1 / D) times
-// the error. D is 2.83 at edges and 2 for noise, so factors of 1.55 and 2 would correct the change.
-// With a factor of 1.5, errors of thin strips reached 1.14 times the goal.
+// squared error. If doubling the number of samples divides the squared error by D, the change is (1
+// - 1 / D) times the squared error before. D is 2.83 at edges and 2 for noise, so factors of 1.55
+// and 2 would correct the change. With a factor of 1.5, errors of thin strips reached 1.14 times
+// the goal.
 #define NESTED_FACTOR 1.75
 
 // A stratum's first step selects the number of controls at which the prior contributes PRIOR_PART
@@ -66,7 +68,8 @@
 #define FIRST_MOST   (1.0 / 32)
 #define FIRST_PIXELS 32
 
-// With a factor of 2, more rounds were necessary, and pictures took 6 to 10 % longer.
+// Each step after the first multiplies the fraction by this factor. With a factor of 2, more rounds
+// were necessary, and pictures took 6 to 10 % longer.
 #define FRACTION_GROWTH 4
 
 // A stratum without controls must advance some pixels if it is on rung 0, or if its expected error
@@ -76,7 +79,8 @@
 // A round takes steps until the sum of their gains is COVERED_PART of the excess. The excess is the
 // bound minus the aim. A gain includes only GAIN_PART of the errors of advancing pixels. Steps that
 // score below SCORE_PART of the best score wait for a later round. The last step is shortened to
-// the missing gain, but not below STEP_PART of its size. A limit on samples may shorten it further.
+// the missing gain, but not below STEP_PART of its size. A limit on samples may shorten this step
+// further.
 #define COVERED_PART 0.8
 #define SCORE_PART   0.3
 #define GAIN_PART    0.85
@@ -89,7 +93,7 @@
 // Statistics shared by all strata of a rung.
 typedef struct {
     double ratio;   // change per feature
-    double feature; // largest mean feature of a stratum, or the rung's minimum if that is larger
+    double feature; // largest mean feature of a stratum, but at least the rung's minimum
 } Rung;
 
 // The forecast for one stratum.
@@ -286,7 +290,7 @@ static bool next_step(Step *step, uint32_t number, const Strata *strata, const F
     return true;
 }
 
-// Returns the index of the remaining step with the best score, or count if none remains.
+// Returns the index of the remaining step with the best score, or `count` if no step remains.
 static uint32_t best_step(const Step *steps, uint32_t count)
 {
     uint32_t best = count;

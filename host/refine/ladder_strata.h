@@ -4,8 +4,8 @@
 // rung form a stratum. Hashes select the pixels of a stratum that advance to the next rung. These
 // pixels are controls: their changes estimate the errors of the pixels that stay.
 //
-// Invariant: which pixels of a stratum advance depends on their positions alone and never on their
-// colors. The controls are therefore a random sample of the stratum.
+// Invariant: the pixels of a stratum that advance are chosen by their positions alone, never by
+// their colors. The controls are therefore a random sample of the stratum.
 #pragma once
 
 #include <stdbool.h>
@@ -34,8 +34,8 @@ static const uint32_t ladder_samples[LADDER_RUNGS] = {1, 4, 8, 16, 32, 64, 128, 
 typedef enum { BENT_LITTLE, BENT_SOME, BENT_MUCH, BENT_CLASSES } BentClass;
 
 // A change is the mean square difference between a pixel's colors before and after it advances. A
-// feature is the squared bend on rung 0, and the variance of the mean on higher rungs. It is
-// roughly proportional to the pixel's squared error.
+// feature is the squared bend on rung 0, and the variance of the mean on higher rungs. Features are
+// roughly proportional to the squared errors of pixels.
 typedef struct {
     uint64_t entered, advanced; // total numbers of pixels
     double feature;             // sum over the pixels that entered
@@ -67,8 +67,9 @@ static inline uint32_t strata_rung(uint32_t stratum)
 // A pixel is near contrast if a nearby pixel has a bend of at least CONTRAST.
 #define CONTRAST 0.125f
 
-// Returns the octave of a value: 0 if it is at least 1/2, 1 if at least 1/4, up to classes - 1. The
-// value must not be negative. Reads its exponent, so that loops have no branches.
+// Returns the octave of a value: 0 if the value is at least 1/2, otherwise 1 if it is at least 1/4,
+// and so on up to classes - 1. The value must not be negative. The function uses the value's
+// exponent, so loops have no branches.
 static inline uint32_t strata_octave(float value, uint32_t classes)
 {
     int32_t bits, number, last = (int32_t)classes - 1;
@@ -79,8 +80,8 @@ static inline uint32_t strata_octave(float value, uint32_t classes)
 }
 
 // Returns the stratum of a pixel on rung 0. `nearby` is the largest bend around the pixel
-// (refine/ladder_entry.c), and is_thin means that a thin part touches the pixel. The function is
-// inline because it runs for every pixel of a picture.
+// (refine/ladder_entry.c), and `is_thin` is true if a thin part touches the pixel. The function is
+// inline, because it runs for every pixel of a picture.
 static inline uint32_t strata_of_bend(float bend, float nearby, bool is_thin)
 {
     const uint32_t number = strata_octave(bend, NEAR_CLASS);
@@ -117,6 +118,6 @@ typedef enum {
     STRATA_EXHAUSTED // no stratum can advance more pixels
 } StrataOutcome;
 
-// Moves the bound toward the aim. First raises the fractions of strata that lack controls. Then
-// raises the fractions of strata in which each sample lowers the bound most.
+// Raises fractions so that the bound approaches the aim. First raises the fractions of strata that
+// lack controls. Then raises the fractions of strata in which each sample lowers the bound most.
 StrataOutcome strata_raise(Strata *strata, const StrataAim *aim);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joins vertices into pieces by union-find. Each vertex refers to a vertex with a lower index in
-// its piece, and the root refers to itself.
+// Joins vertices into pieces by union-find. Each vertex refers to a vertex of its piece with a
+// lower index, and the root of a piece refers to itself.
 #include "refine/mesh_pieces.h"
 
 #include <stdlib.h>

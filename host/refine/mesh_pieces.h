@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Mesh -> its pieces, which are sets of triangles connected by shared vertices. All sets of fewer
-// than PIECE_TRIANGLES triangles are merged into one piece, because in some files triangles share
-// no vertices.
+// Mesh -> its pieces. A piece is a set of triangles that are connected by shared vertices. All sets
+// with fewer than PIECE_TRIANGLES triangles are merged into one piece, because triangles share no
+// vertices in some files.
 #pragma once
 
 #include "mesh/mesh.h"
@@ -10,7 +10,7 @@
 
 typedef struct {
     uint32_t *order; // triangles sorted by piece; NULL: a single piece, in file order
-    uint32_t *ends;  // the end of each piece, as an index into order
+    uint32_t *ends;  // the end of each piece, as an index in `order`
     uint32_t count;
 } MeshPieces;
 

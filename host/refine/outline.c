@@ -61,7 +61,7 @@ static double perimeter_of(const Outline *outline)
 }
 
 // Estimates the inradius from the area and the perimeter. The area of a triangle is half its
-// perimeter times its inradius. For any other convex polygon, the area is at least this product and
+// perimeter times its inradius. The area of any other convex polygon is at least this product and
 // at most twice this product.
 bool outline_is_thinner(const Outline *outline, double diameter)
 {

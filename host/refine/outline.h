@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Triangles -> convex polygons in the picture. The functions find the cells that a polygon touches
-// and the cell centers that it contains, and test its thickness. The unit of length is a cell of
-// the last level.
+// and the centers of cells that the polygon contains, and test the polygon's thickness. The unit of
+// length is a place (probe.h).
 #pragma once
 
 #include "base/thread_pool.h"
@@ -24,7 +24,7 @@ typedef struct {
     OutlineBox box;                     // around the corners
 } Outline;
 
-// Square cells of one level. Their samples are at their centers.
+// A grid of square cells. The cells are pixels or places.
 typedef struct {
     double side, per_length; // per_length is 1 / side
     uint32_t counts[2];      // of columns and of rows
@@ -50,7 +50,7 @@ static inline uint32_t outline_limit(int64_t value, uint32_t most)
     return value > 0 ? (value < most ? (uint32_t)value : most) : 0;
 }
 
-// Returns the cells that the interval from low to high touches, along an axis.
+// Returns the cells along an axis that the interval from `low` to `high` touches.
 static inline CellRange cells_touched(double low, double high, const CellGrid *grid, int axis)
 {
     const double first = (low - grid->origin[axis]) * grid->per_length;
@@ -59,7 +59,7 @@ static inline CellRange cells_touched(double low, double high, const CellGrid *g
                        outline_limit(outline_floor(last) + 1, grid->counts[axis])};
 }
 
-// Returns the cells whose centers lie between low and high, along an axis.
+// Returns the cells along an axis whose centers lie between `low` and `high`.
 static inline CellRange cells_sampled(double low, double high, const CellGrid *grid, int axis)
 {
     const double first = (low - grid->origin[axis]) * grid->per_length;
@@ -96,7 +96,7 @@ CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t
 // and a margin of two pixels.
 
 typedef struct {
-    float x, y;       // in cells of the last level; 0 if the point is outside
+    float x, y;       // in places; 0 if the point is outside
     uint32_t outside; // bit i: the point is beyond clipping plane i
 } ProjectedPoint;
 
@@ -104,8 +104,8 @@ typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
     CameraData camera;
-    Vec3 right, down;       // a point's dot products with these are in cells, at depth 1
-    double width, height;   // of the picture, in cells of the last level
+    Vec3 right, down;       // a point's dot products with these are in places, at depth 1
+    double width, height;   // of the picture, in places
     ProjectedPoint *points; // of the mesh's vertices
 } Projection;
 

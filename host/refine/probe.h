@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The grid of places in a pixel, and requests for samples at thin parts.
 //
-// A pixel is covered by scan lines along one axis. A line is the middle of a band. Level 0 has
-// three bands, and each further level divides a band into three. A band of the last level is as
-// high as a place.
+// A pixel is covered by parallel bands, and the middle of a band is a scan line. Level 0 has three
+// bands, and each further level divides each band into three. A band of the last level is as high
+// as a place.
 #pragma once
 
 #include <stdint.h>
@@ -19,10 +19,10 @@ static inline uint32_t band_height(uint32_t level)
     return heights[level];
 }
 
-// Requests a sample in a pixel. Lines are rows or columns, depending on the pixel.
+// A request for a sample in a pixel. The lines of a pixel are either rows or columns.
 typedef struct {
     uint32_t pixel;
-    uint8_t line;  // middle of a band of the level
+    uint8_t line;  // the middle of a band
     uint8_t place; // on the line
     uint8_t level;
 } Probe;

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// If one half of a gap has more than this part of its color change, the change is abrupt. In a
-// smooth gradient, both halves have about half of it.
+// If one half of a gap has more than this fraction of the gap's color change, the change is abrupt.
+// In a smooth gradient, both halves have about half of the change.
 #define STEP_PART 0.7f
 
 #define GRID_AREA ((float)(REFINE_GRID * REFINE_GRID))
@@ -88,14 +88,17 @@ static void close_gap(ScanLines *scan, const Gap *gap)
 }
 
 // Returns the error of the pixel if a color that differs by `contrast` fills the gap. The errors of
-// a pixel's lines are independent, so that a line counts by the square root of its height.
+// lines are independent, so their squares add up. Lines that divide a band therefore count by the
+// square root of their height. Together, their error is then as large as the error of one line in
+// the whole band.
 static float gap_error(const ScanLines *scan, const Gap *gap, float contrast)
 {
     const float height = (float)(scan->lines.data[gap->line].height * band_height(0));
     return contrast * (float)(gap->to - gap->from) * sqrtf(height) / GRID_AREA;
 }
 
-// Keeps the gap open if its error is large and the color change is abrupt. Otherwise, closes it.
+// Keeps the gap open if its error is large, and if the color change is abrupt or the ends have
+// different signatures. Otherwise, closes the gap.
 static bool keep_gap(ScanLines *scan, const Gap *gap, bool is_abrupt, Error *error)
 {
     const float contrast = sample_difference(&gap->ends[0], &gap->ends[1]);
@@ -184,7 +187,8 @@ LineMean scan_line_mean(const ScanLine *line)
     return mean;
 }
 
-// Returns how much the slope of the mean color changes at the middle one of three lines.
+// Returns the change in slope of the mean color at the middle one of three lines, mean[-1] to
+// mean[1].
 static double bend_at(const LineMean *mean)
 {
     double bend = 0;

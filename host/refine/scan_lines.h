@@ -3,15 +3,16 @@
 //
 // A refined pixel is covered by lines along the axis on which its neighbors' colors change more.
 // The lines therefore cross color edges. A line's sum is the integral of its colors, by the
-// trapezoid rule over its samples. The pixel's color is the sum of its lines, weighted by the
-// heights of their bands. A straight edge changes these sums linearly, so that three lines suffice.
+// trapezoid rule over its samples. The pixel's color is the mean of these sums, weighted by the
+// heights of the lines' bands. Along a straight edge, the sums change linearly from line to line,
+// so three lines suffice.
 //
-// A gap between two samples of a line is open if colors change abruptly in it. Bisection locates
-// the change with one sample for each bit of its position. A closed gap is added to its line's
-// sum, and its samples are dropped.
+// A gap between two samples of a line is open if colors may change abruptly in the gap. Bisection
+// locates the change with one sample for each bit of its position. When a gap is closed, its
+// integral is added to the line's sum, and its samples are dropped.
 //
 // Invariant: a pixel's color is a sum of integers. Its bits depend on which samples exist, and not
-// on the order in which they were taken.
+// on the order in which the samples were taken.
 #pragma once
 
 #include "base/array.h"
@@ -28,7 +29,7 @@ typedef struct {
     uint8_t middle, height; // of the line's band, in places
 } ScanLine;
 
-// Two neighboring samples of a line. Between them, colors change abruptly.
+// Two neighboring samples of a line, between which colors may change abruptly.
 typedef struct {
     SampleData ends[2];
     uint32_t line;
@@ -40,15 +41,16 @@ typedef struct {
     uint32_t lines;   // the first line
     uint32_t probes;  // the first probe, or the end of all probes
     uint32_t samples; // taken in the pixel
-    uint32_t round;   // the latest round with new lines
-    uint8_t least;    // height of the bands that are not divided
+    uint32_t round;   // the latest round that has considered new lines
+    uint8_t least;    // bands of this height are not divided
     bool has_columns; // lines are columns
 } RefinedPixel;
 
 typedef struct {
-    float threshold; // error of a gap that needs no sample
-    float doubt;     // error of a new gap that needs no sample if other gaps have contrast
-    float bend;      // error of a band that needs no further lines
+    float threshold; // largest error of a gap that needs no sample
+    float doubt; // the same for a new gap, whose error is computed from the largest contrast of the
+                 // line
+    float bend;  // largest error of a band that needs no further lines
     ARRAY(RefinedPixel) pixels; // from index 1
     ARRAY(ScanLine) lines;      // from index 1
     ARRAY(Gap) gaps;            // open
@@ -68,16 +70,18 @@ typedef struct {
     SampleData data;
 } LineSample;
 
-// Opens the line scan->opened. The samples are in ascending order of their places.
+// Adds the first samples of the line scan->opened, and opens or closes the gaps between these
+// samples. The samples must be in ascending order of their places.
 bool scan_lines_open(ScanLines *scan, const LineSample *samples, uint32_t count, Error *error);
 
 // Returns the place of the sample that a gap needs.
 uint32_t scan_gap_place(const Gap *gap);
 
-// Splits the open gaps by their samples. Closed gaps are removed.
+// Splits each open gap i by samples[i], and keeps those halves that are open.
 bool scan_lines_split_gaps(ScanLines *scan, const SampleData *samples, Error *error);
 
-// The mean color of a line. The place of its middle is relative to a pixel, and may be outside.
+// The mean color of a line. The line's place `middle` is relative to a pixel, and may be outside of
+// the pixel.
 typedef struct {
     int middle;
     double color[3];
@@ -85,8 +89,8 @@ typedef struct {
 
 LineMean scan_line_mean(const ScanLine *line);
 
-// Adds lines to a pixel where the mean colors of lines bend. `beyond` has the nearest lines before
-// and after the pixel. All gaps must be closed.
+// Adds lines to a pixel where the mean colors of its lines do not change linearly. `beyond` has the
+// nearest line before the pixel and the nearest line after it. All gaps must be closed.
 bool scan_lines_divide(ScanLines *scan, uint32_t number, const LineMean beyond[2], Error *error);
 
 // Closes all gaps.

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-// Returns whether places near the run are drawn on the line.
+// Returns whether any place of `line` that is at most `reach` places from the run is drawn.
 static bool is_near_drawn(const uint8_t line[REFINE_GRID], const ProbeRun *run, int reach)
 {
     for (int place = run->first > reach ? run->first - reach : 0;
@@ -14,7 +14,7 @@ static bool is_near_drawn(const uint8_t line[REFINE_GRID], const ProbeRun *run, 
     return false;
 }
 
-// Marks drawn places that adjoin probed places of the line before, or of this line.
+// Marks the drawn places of `line` that adjoin probed places of `before` or of `line` as probed.
 static void spread_probed(const uint8_t before[REFINE_GRID], uint8_t line[REFINE_GRID])
 {
     uint32_t i;
@@ -31,7 +31,7 @@ static void spread_probed(const uint8_t before[REFINE_GRID], uint8_t line[REFINE
             line[i - 1] = PLACE_PROBED;
 }
 
-// Finds the next run of places in a state. The search starts at run->end.
+// Finds the next run of places with this state. The search starts at run->end.
 static bool next_run(const uint8_t line[REFINE_GRID], PlaceState state, ProbeRun *run)
 {
     int first = run->end;
@@ -43,7 +43,7 @@ static bool next_run(const uint8_t line[REFINE_GRID], PlaceState state, ProbeRun
     return first < REFINE_GRID;
 }
 
-// Returns whether the run's part is much fewer lines high than the level's bands.
+// Returns whether the thin part at the run is much lower than the bands of the level.
 static bool is_low(ThinDrawing drawing, const ProbeRun *run)
 {
     const uint32_t height = band_height(run->level), reach = height / 3;
@@ -83,8 +83,8 @@ static bool probe_level(ThinDrawing drawing, uint32_t pixel, uint32_t level, Pro
     return true;
 }
 
-// Adds probes of level 0 on the lines of level 1, which are used only if the pixel gets these
-// lines.
+// Adds probes of level 0 on the lines of level 1. These probes are used only if the pixel gets
+// lines of level 1.
 static bool probe_between(ThinDrawing drawing, uint32_t pixel, ProbeList *probes, Error *error)
 {
     for (uint32_t line = band_height(1) / 2; line < REFINE_GRID; line += band_height(1)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the places on thin spheres, and adds the places that thin_triangles.c finds.
+// Finds the probes of thin spheres, and adds the probes that thin_triangles.c finds.
 #include "refine/thin_parts.h"
 
 #include "refine/thin_triangles.h"
@@ -8,9 +8,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-// A sphere's projection, which is almost an ellipse around the projected center. Points at (x, y)
-// from its center are inside if form[0] x^2 + 2 form[1] x y + form[2] y^2 is at most the squared
-// radius. The unit of length is a place.
+// A sphere's projection, which is almost an ellipse around the projected center. A point at the
+// offset (x, y) from this center is inside if form[0] x^2 + 2 form[1] x y + form[2] y^2 is at most
+// the squared radius. The unit of length is a place.
 typedef struct {
     OutlineBox box; // around the outline
     double middle[2];
@@ -58,8 +58,8 @@ static CellRange pixels_along(const FrameData *frame, const SphereOutline *outli
                          fmax(-1, fmin(most, outline->box.high[axis])), &pixels, axis);
 }
 
-// Returns the level of a sphere's probes. Bands are at most as high as the sphere's radius, unless
-// the level is the last.
+// Returns the level of a sphere's probes. The level's bands are at most as high as the sphere's
+// radius, unless the level is the last.
 static uint32_t level_of(const SphereOutline *outline)
 {
     uint32_t level = 0;
@@ -68,8 +68,8 @@ static uint32_t level_of(const SphereOutline *outline)
     return level;
 }
 
-// Adds probes on the rows of a pixel that the sphere covers. With level 0, also adds probes on the
-// rows of level 1, which are used only if the pixel gets these rows.
+// Adds probes on the rows of a pixel that the sphere covers. If run.level is 0, also adds probes on
+// the rows of level 1. These probes are used only if the pixel gets rows of level 1.
 static bool add_probes(ProbeList *probes, const SphereOutline *outline, uint32_t column,
                        uint32_t row, ProbeRun run, Error *error)
 {
@@ -90,7 +90,7 @@ static bool add_probes(ProbeList *probes, const SphereOutline *outline, uint32_t
     return ok;
 }
 
-// Adds the pixels that a thin sphere touches, and its probes.
+// If the sphere is thin, records the pixels that it touches, and adds its probes.
 static bool add_sphere(ThinParts *parts, const ThinSource *source, const SphereData *sphere,
                        ProbeList *probes, Error *error)
 {
@@ -118,7 +118,8 @@ static int compare_pixels(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-// Removes the probes of levels that the sample budget does not cover, and sorts the others.
+// Removes the probes of levels that the sample budget does not cover. Sorts the other probes by
+// pixel.
 static void finish_probes(ThinParts *parts)
 {
     const uint32_t levels = thin_parts_affordable(parts);
@@ -139,7 +140,7 @@ bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error)
     parts->axes = memory_zeroed(pixels, sizeof *parts->axes, error);
     ProbeList probes = {0};
     bool ok = parts->axes != NULL;
-    // With max_level 0, camera rays see only the background.
+    // With max_level 0, camera rays hit nothing, so there is no need for probes.
     for (uint32_t i = 0; ok && frame->max_level > 0 && i < frame->sphere_count; i++)
         ok = add_sphere(parts, source, &source->spheres[i], &probes, error);
     free(probes.data);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Finds the places to sample so that samples hit triangles and spheres that are thinner than a
-// pixel. Samples may miss such parts completely, so contrast alone would not find them.
+// Finds places at which samples hit triangles and spheres that are thinner than a pixel. Other
+// samples may miss such parts completely, so contrast alone would not find the parts.
 //
 // A triangle is thin if no disk whose diameter is a pixel's diagonal fits into it. Every pixel that
 // a thin triangle touches is refined, unless the triangle's mesh piece is wide at the pixel. A
-// piece is wide at a pixel if it contains all four samples around some corner of the pixel or of an
-// adjacent pixel. Such a piece is at least as wide as a pixel, and contrast finds its outline.
+// piece is wide at a pixel if it contains the centers of all four pixels around some corner of the
+// pixel or of an adjacent pixel. Such a piece is at least as wide as a pixel, and contrast finds
+// its outline.
 //
-// In the other pixels, a piece's thin triangles are drawn on the grid of places. On each line of
-// level 0, each run of drawn places gets probes on both sides of both ends. Deeper levels get
-// probes where the piece is not near a line of the level before.
+// In pixels at which a piece is not wide, its thin triangles are drawn on the grid of places. On
+// each line of level 0, each run of drawn places gets probes on both sides of both ends. Deeper
+// levels get probes where the piece is not near a line of the level before.
 //
 // Invariant: a sample hits each sphere that is at least 1/57 pixel across, and each triangle whose
 // incircle is at least 1/57 pixel across. The exceptions are

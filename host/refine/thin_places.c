@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "refine/thin_places.h"
 
-// About the samples that a level takes for each of its probes, with those of additional lines.
+// The approximate number of samples that a level takes for each probe, including samples on
+// additional lines.
 #define ADDED_SAMPLES 3
 
 bool probe_list_add(ProbeList *probes, const ProbeRun *run, Error *error)

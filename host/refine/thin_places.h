@@ -13,7 +13,7 @@
 // The width of the thickest thin part, in places: a pixel's diagonal.
 #define THIN_WIDTH (1.41421356 * REFINE_GRID)
 
-// The axis of a pixel's lines that thin parts cross.
+// The lines of a pixel: rows or columns, whichever the thin parts cross.
 typedef enum { THIN_NONE, THIN_ROWS, THIN_COLUMNS } ThinAxis;
 
 typedef ARRAY(Probe) ProbeList;
@@ -21,9 +21,10 @@ typedef ARRAY(Probe) ProbeList;
 typedef struct {
     uint32_t width, height;
     uint8_t *axes;                  // ThinAxis by pixel; THIN_NONE: no thin part touches the pixel
-    uint64_t touched;               // pixels that thin parts touch
+    uint64_t touched;               // number of pixels that thin parts touch
     ProbeList probes;               // sorted by pixel
-    uint64_t counts[REFINE_LEVELS]; // of probes on lines of their level, by level
+    uint64_t counts[REFINE_LEVELS]; // by level: number of probes of the level that are on a line of
+                                    // this level
 } ThinParts;
 
 // The input of the search.
@@ -33,7 +34,7 @@ typedef struct {
     const Normalization *normalization; // of the scene
     const SphereData *spheres;          // of the frame
     ThreadPool *pool;                   // threads for the work, NULL for none
-    bool has_probes;                    // otherwise, only the axes are needed
+    bool has_probes;                    // false: only the axes are needed
 } ThinSource;
 
 // Records that a thin part touches a pixel. The first part decides the axis.
@@ -46,14 +47,15 @@ typedef struct {
     int first, end;
 } ProbeRun;
 
-// Adds probes of the first and the last place, and of the places beside the run.
+// Adds probes at the first and last place of the run, and at the two places next to the run.
 bool probe_list_add(ProbeList *probes, const ProbeRun *run, Error *error);
 
-// Adds a probe to the result.
+// Adds a probe to parts->probes and parts->counts.
 bool thin_parts_add(ThinParts *parts, const Probe *probe, Error *error);
 
-// Returns the number of levels that the sample budget covers.
+// Returns the number of levels whose probes take at most THIN_SAMPLES samples per pixel of the
+// picture.
 uint32_t thin_parts_affordable(const ThinParts *parts);
 
-// Returns the index of the first probe that is not before the pixel.
+// Returns the index of the pixel's first probe. Without one, returns the index of the next pixel's.
 size_t thin_parts_first_probe(const ThinParts *parts, uint32_t pixel);

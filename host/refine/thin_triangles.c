@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Searches piece by piece, in three steps. Threads first record the pixels whose samples lie in the
+// Searches piece by piece, in three steps. Threads first record the pixels whose centers lie in the
 // piece. They then list the thin triangles of each pixel at which the piece is not wide
 // (thin_parts.h). Finally, they draw these triangles on the pixel's grid of places, and choose
 // probes level by level.
@@ -26,8 +26,8 @@ typedef struct {
     ThinAxis axis; // of the pixel's lines
 } PixelRun;
 
-// To save memory, a piece with too many pairs has no probes. The limit is PAIRS_MOST pairs, or
-// PAIRS_OF_PIXEL pairs per pixel of the picture if that is more.
+// To save memory, a piece with too many pairs of pixels and triangles has no probes. The limit is
+// PAIRS_MOST or, if this is more, PAIRS_OF_PIXEL times the number of pixels in the picture.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 
@@ -45,9 +45,9 @@ typedef struct {
     MeshPieces pieces;          // of the mesh
     uint32_t first, count;      // the piece's triangles, in the order of the pieces
     uint32_t number;            // of the piece, from 1
-    uint32_t levels;            // to search for probes
-    _Atomic uint32_t *covered;  // by pixel: the latest piece that contains its sample
-    _Atomic uint32_t *touched;  // by pixel: the latest piece that is thin there
+    uint32_t levels;            // number of levels to search for probes
+    _Atomic uint32_t *covered;  // by pixel: the latest piece that contains the pixel's center
+    _Atomic uint32_t *touched;  // by pixel: the latest piece whose thin triangles touch it
     _Atomic uint64_t met;       // pairs of thin triangles and pixels that they touch
     TaskList *lists;            // of each task
     ARRAY(PixelTriangle) pairs; // of the piece, sorted by pixel
@@ -72,7 +72,7 @@ static CellGrid pixels_of(const ThinSearch *search)
     return (CellGrid){REFINE_GRID, 1.0 / REFINE_GRID, {parts->width, parts->height}, {0, 0}};
 }
 
-// Records the pixels whose samples lie in the triangles.
+// Records the pixels whose centers lie in the triangles.
 static void cover_pixels(void *context, uint32_t first, uint32_t end)
 {
     const ThinSearch *search = context;
@@ -100,7 +100,8 @@ static bool is_covered(const ThinSearch *search, uint32_t column, uint32_t row)
 }
 
 // Returns whether the piece is wide at a pixel. The piece is wide if four covered pixels form a
-// square that contains or touches the pixel. On each axis, squares that contain it come first.
+// square that contains or touches the pixel. On each axis, squares that contain the pixel are
+// tested first.
 static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
 {
     static const int steps[4] = {-1, 0, -2, 1};
@@ -113,8 +114,8 @@ static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
     return false;
 }
 
-// Lists the pixels at which the piece is thin and that the triangle touches. If no probes are
-// needed, or if there are too many pairs, lists a pixel only once per piece.
+// If the triangle is thin, lists the pixels that it touches and at which the piece is not wide. If
+// no probes are needed, or if there are too many pairs, lists a pixel only once per piece.
 static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
 {
     const CellGrid grid = pixels_of(search);
@@ -206,7 +207,8 @@ static bool find_runs(ThinSearch *search, Error *error)
     return true;
 }
 
-// Chooses the lines that the pixel's triangles cross, unless an earlier part has chosen.
+// Returns the axis of lines that the pixel's triangles cross. If an earlier part has chosen an axis
+// for the pixel, returns this axis.
 static ThinAxis axis_of(const ThinSearch *search, const PixelRun *run)
 {
     const uint32_t pixel = search->pairs.data[run->first].pixel;
@@ -233,7 +235,8 @@ static void exchange_axes(Outline *outline)
     outline_complete(outline);
 }
 
-// Draws the pixel's triangles: marks the places whose middles they contain.
+// Draws the pixel's triangles, which means that the places whose middles they contain become
+// PLACE_DRAWN.
 static void draw_triangles(const ThinSearch *search, const PixelRun *run, CellGrid grid,
                            ThinDrawing drawing)
 {
@@ -257,7 +260,7 @@ static void draw_triangles(const ThinSearch *search, const PixelRun *run, CellGr
     }
 }
 
-// Adds the probes of some pixels.
+// Adds the probes of the pixels of search->runs from `first` to `end` - 1.
 static void probe_pixels(void *context, uint32_t first, uint32_t end)
 {
     ThinSearch *search = context;
