@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds clrt-foreign, starts it by posix_spawn, collects its output through a socket, and kills it
-// at a limit of time or size. clrt-foreign limits its memory by itself
+// if it exceeds a limit of time or size. clrt-foreign limits its memory by itself
 // (host/foreign/process_limits.c).
 //
 // Invariant: when foreign_run returns, the process of clrt-foreign has ended. A crash, an endless
@@ -57,7 +57,7 @@ static void find_program(char path[COMPANION_PATH_SIZE])
 
 // Returns the environment with which this process was started, or an empty one if /proc is missing.
 // Reading environ would be unsafe, because OpenCL drivers call setenv in other threads. The strings
-// of the result are in *bytes. The caller frees both.
+// of the result are in *bytes. The caller frees the result and *bytes.
 static char **environment_at_start(File *bytes, Error *cause)
 {
     Error unused = {0};
@@ -102,8 +102,8 @@ typedef struct {
     int socket;
 } Child;
 
-// Starts the program words[0]. Its standard output is the socket, and its standard input and error
-// are /dev/null.
+// Starts the program words[0]. The program's standard output is the socket, and its standard input
+// and error are /dev/null.
 static bool start(Child *child, const char *const words[], Error *cause)
 {
     int ends[2]; // the parent's end of the socket, and the child's

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ranges of the numbers in a scene, in scene files and in calls of the library.
+// The ranges of a scene's numbers, in scene files and in calls of the library.
 #pragma once
 
 #include <stdint.h>

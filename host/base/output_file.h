@@ -18,9 +18,9 @@ typedef struct {
 // Creates an empty temporary file. The error message names `path`.
 bool output_file_begin(OutputFile *file, const char *path, Error *error);
 
-// If `ok`, renames or copies the temporary file to its final name. Otherwise, removes it. Returns
-// false if `ok` is false, or if renaming or copying fails. After such a failure, *cause has the
-// reason without the path.
+// If `ok`, renames or copies the temporary file to its final name. Otherwise, removes it and
+// returns false. If renaming or copying fails, returns false and stores the reason in *cause,
+// without the path.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
 // Creates the file from the bytes that `write` writes to its stream. On failure, `write` must

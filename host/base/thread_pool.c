@@ -27,7 +27,7 @@ struct ThreadPool {
     void *context;
     uint32_t count;
     _Atomic PoolState state;
-    atomic_uint finished; // tasks of the generation
+    atomic_uint finished; // number of the generation's finished tasks
     atomic_bool closing;
     pthread_mutex_t mutex; // held to begin a generation or to fall asleep
     pthread_cond_t wake;

@@ -80,7 +80,7 @@ bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *diffe
 typedef enum {
     CAUSE_PRIMITIVE,  // the rays through the center hit different primitives
     CAUSE_SHADOW,     // different lights reach the hit point
-    CAUSE_TRUNCATION, // one picture's --max-level ends its reflections sooner
+    CAUSE_TRUNCATION, // one picture's --max-level ends its reflections sooner than the other's
     CAUSE_REFLECTION, // the reflections differ for another reason
     CAUSE_COVERAGE,   // the pictures have different samples of the pixel
     CAUSE_ROUNDING,   // no other cause: rounding, if both pictures show the same scene
@@ -88,7 +88,7 @@ typedef enum {
 } CauseKind;
 
 typedef struct {
-    bool known;                   // both files have the required channels
+    bool known;                   // both files have the channels that show causes
     double squares[CAUSE_KINDS];  // each cause's part of the mean square error
     uint64_t pixels[CAUSE_KINDS]; // pixels with any difference, by cause
 } Causes;

@@ -42,8 +42,8 @@ static void find_name(const struct aiMaterial *material, char *name, size_t size
         name[0] = '\0';
 }
 
-// Returns false for materials that Assimp's importers add by themselves. These have Assimp's
-// default name, or they have no name and a diffuse color of 60 % gray or white.
+// Returns false for materials that Assimp's importers add by themselves. These materials have
+// Assimp's default name, or they have no name and a diffuse color of 60 % gray or white.
 static bool material_is_given(const struct aiMaterial *material)
 {
     const float gray = 0.6f, white = 1;

@@ -22,8 +22,8 @@
 #define MEMORY_PER_THREAD ((rlim_t)16 << 20)  // bytes; mostly stack
 #define STACK_LIMIT       ((rlim_t)8 << 20)   // bytes; very deep trees of nodes crash this process
 #define FILE_LIMIT        32                  // open files
-#define PROCESSOR_SECONDS 8                   // processor time for the shortest file
-#define SECONDS           120                 // elapsed time
+#define PROCESSOR_SECONDS 8                   // of processor time for the shortest file
+#define SECONDS           120                 // of elapsed time
 #define BYTES_PER_SECOND  2000000 // each file adds a second of processor time per this many bytes
 
 // AddressSanitizer maps more memory than any limit could allow, so builds with it do not limit

@@ -89,7 +89,8 @@ static int64_t query_size(exr_const_context_t context, void *user)
 }
 
 // No read of the header may begin beyond this offset. clrt writes headers of at most 10 KB. The
-// limit stops hostile headers, because OpenEXRCore's time is quadratic in the number of attributes.
+// limit stops hostile headers, because OpenEXRCore takes quadratic time in the number of
+// attributes.
 #define HEADER_MOST 65536
 
 static exr_result_t start(ExrFile *file, const char *path)

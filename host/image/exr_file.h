@@ -43,9 +43,9 @@ bool exr_file_decode(const ExrFile *file, const exr_chunk_info_t *tile,
                      const Framebuffer *framebuffer, const Layers *layers,
                      const size_t position[2]);
 
-// Points each of a tile's channels to its values in `framebuffer` or `layers`, which may be NULL.
-// `position` is the X and Y, in the framebuffer, of the tile's upper left pixel. The tile's other
-// channels keep their pointers.
+// Points each of a tile's channels to its values in `framebuffer` or `layers`. `layers` may be
+// NULL. `position` is the X and Y, in the framebuffer, of the tile's upper left pixel. The tile's
+// other channels keep their pointers.
 void exr_place_channels(exr_coding_channel_info_t *channels, int count,
                         const Framebuffer *framebuffer, const Layers *layers,
                         const size_t position[2]);

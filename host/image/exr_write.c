@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a picture as a tiled EXR file. The file of a part contains only the part's tiles. The
-// file's header and the size of its table of tiles are the whole picture's, so that clrt merge can
-// copy tiles without decoding them.
+// header, and the length of the table of tiles, are those of the whole picture, so that clrt merge
+// can copy tiles without decoding them.
 //
 // OpenEXRCore writes the header and compresses the tiles, but it cannot omit tiles. The code here
 // therefore writes the table and the tiles itself. Threads compress tiles concurrently, but write

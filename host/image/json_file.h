@@ -25,7 +25,7 @@ json_t *json_itself(json_t *value);
 
 typedef struct {
     const char *name;
-    json_t *value; // a new reference
+    json_t *value; // a new reference, which json_of takes over
 } JsonField;
 
 // Makes a field from a value of any of these types.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Joins the EXR files of parts into the EXR file of the whole picture. The first pass over the
 // parts records the sizes of the compressed tiles. The second pass checks and copies the tiles.
-// Joining takes memory for a tile per processor, and eight bytes for each tile of the picture.
+// Joining takes memory for one tile per processor, and eight bytes for each tile of the picture.
 #pragma once
 
 #include "image/exr_file.h"

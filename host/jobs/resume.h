@@ -26,8 +26,8 @@ char *resume_journal_name(const char *output_path, Error *error);
 // finished tiles. Fails if `path` exists and is not a regular file.
 bool resume_prepare(Resume *resume, const char *path, bool is_exr, Error *error);
 
-// Opens the journal and copies the finished tiles into `framebuffer`. If the journal has no tiles,
-// a complete EXR file provides them. Stores the number of finished tiles in settings->ready_tiles.
+// Opens the journal and copies its tiles into `framebuffer`. If the journal has no tiles, a
+// complete EXR file provides them. Stores the number of finished tiles in settings->ready_tiles.
 // `own` is the metadata of the finished picture. Fails if the earlier run had another scene, other
 // settings or another version of clrt.
 bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,

@@ -28,8 +28,8 @@ static void count_once(MeshFault *fault, size_t *last, size_t vertex)
     *last = vertex;
 }
 
-// Returns `value`, or a replacement if the value is not finite or too large. NaN replaces a
-// coordinate until mesh_drop_triangles sets the position to zero.
+// Returns `value`, or a replacement if the value is not finite or too large. The replacement is 0
+// in a normal, and NaN in a position until mesh_drop_triangles sets the position to zero.
 static double replace_bad_value(Loader *loader, PlyRole role, double value)
 {
     const size_t vertex = (size_t)loader->reader.index;

@@ -13,8 +13,8 @@
 // The parser reads the properties x y z nx ny nz red green blue of the element vertex. It also
 // reads the list vertex_indices (or vertex_index) of the elements face and tristrips. It skips all
 // other elements and properties, and colors of other types than uchar, ushort, float and double. It
-// clamps colors to [0, 1]. Polygons are divided into triangles at their first corner. Triangles
-// with two equal corners are dropped and counted.
+// clamps colors to [0, 1]. It divides each polygon into triangles that share the polygon's first
+// corner. Triangles with two equal corners are dropped and counted.
 //
 // Returns false if data are truncated, inconsistent, not finite or out of range. Also returns false
 // if a file without triangles has elements that the parser skips. The message gives the line or, in

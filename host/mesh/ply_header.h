@@ -42,7 +42,7 @@ typedef struct {
 } PlyElement;
 
 typedef struct {
-    ARRAY(PlyElement) elements; // have all needed properties, unless of kind PLY_OTHER or count 0
+    ARRAY(PlyElement) elements; // each has the needed properties, except PLY_OTHER and empty ones
     ARRAY(PlyProperty) properties;
     int64_t vertex_count;
     bool has_normals, has_colors;

@@ -35,7 +35,7 @@ typedef struct {
     PlyFormat format;        // PLY_ASCII throughout the header
     PlyWord element;         // name of the element being read; empty in the header
     int64_t index;           // index of the element being read; if negative, messages omit it
-    bool is_tolerant;        // reads words such as inf and nan as NaN, and accepts bad numbers
+    bool is_tolerant;        // accepts huge numbers, and reads words such as inf and nan as NaN
     Error *error;
 } PlyReader;
 

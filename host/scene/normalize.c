@@ -182,8 +182,8 @@ bool normalization_is_fine(const Normalization *normalization, const Scene *scen
     for (size_t i = 0; i < scene->viewpoints.count; i++) {
         const Viewpoint *viewpoint = &scene->viewpoints.data[i];
         const double away = vec3_extent(vec3_sub(viewpoint->eye, normalization->center));
-        // reach_of visits all triangles, so it runs only if the distance to the look-at point does
-        // not suffice.
+        // reach_of visits all triangles, so it runs only if the distance to the look-at point is
+        // too small for this test.
         if (viewpoint->height == 0 &&
             away <= COARSE / 2 * distance_between(viewpoint->look_at, viewpoint->eye))
             continue;

@@ -99,7 +99,7 @@ typedef struct {
     uint32_t width, height;
     uint32_t max_level;
     ARRAY(char *) inputs; // paths of the files read; owned
-    ARRAY(char *) notes;  // messages about the files, such as omitted parts; owned
+    ARRAY(char *) notes;  // messages about the files, for example about omitted data; owned
     double mesh_seconds;  // time spent on loading meshes
     // `hash` combines the XXH3 hashes of the scene's text, of its mesh files and, for a lone mesh,
     // of the up axis, the normals and the studio. `mesh_hash` combines only the hashes of the mesh
@@ -135,7 +135,7 @@ bool scene_add_note(Scene *scene, const char *path, const char *text, Error *err
 size_t scene_triangle_count(const Scene *scene);
 size_t scene_dropped_count(const Scene *scene); // triangles that were removed from meshes
 
-// Returns a triangle's number in its file, in which dropped triangles are counted too.
+// Returns a triangle's number in its file. The numbers include dropped triangles.
 uint64_t number_in_file(const MeshObject *object, size_t triangle);
 
 void scene_free(Scene *scene);
@@ -146,7 +146,7 @@ const char *viewpoint_fault(const Viewpoint *viewpoint);
 // The names of shaders in scene text, indexed by Shader.
 extern const char *const shader_names[];
 
-// Returns the shader's default material, which a define statement without properties creates.
+// Returns the shader's default material, which a `define` statement without properties creates.
 Material material_of_shader(Shader shader);
 
 void material_set_shininess(Material *material, float shininess);

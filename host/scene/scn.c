@@ -284,8 +284,8 @@ static bool read_statements(Parser *parser)
            tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
 }
 
-// Parses the text of a scene file. The parser's scene, mesh.parse and error must be set. Frees the
-// scene on failure.
+// Parses the text of a scene file. parser->scene, parser->mesh.parse and parser->error must be set.
+// Frees the scene on failure.
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
