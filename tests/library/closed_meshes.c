@@ -261,7 +261,7 @@ ClosedMesh closed_mesh_make(int number)
     switch (number) {
     case 0:
         return globe("sphere", radius_sphere, (Point){1, 1, 1});
-    case 1:
+    case CLOSED_BUMPY:
         return globe("bumpy", radius_bumpy, (Point){1, 1, 1});
     case 2:
         return globe("star", radius_star, (Point){1, 1, 1});

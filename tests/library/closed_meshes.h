@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #define CLOSED_MESHES 10
+#define CLOSED_BUMPY  1 // the number of a bumpy ball, which is far from convex
 
 // The number of coordinate units in a length of 1.
 #define GRID 1048576

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casts rays at a bumpy ball: a closed mesh that is far from convex.
+// Casts rays at a bumpy ball.
+#include "library/closed_meshes.h"
 #include "library/faults.h"
 #include "library/renderer.h"
 #include "unit/random.h"
@@ -8,73 +9,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROWS     24
-#define COLUMNS  40
-#define VERTICES (ROWS * COLUMNS + 2)
-#define FACES    (2 * ROWS * COLUMNS)
-#define RAYS     20000
+#define RAYS 20000
 
-static double vertices[VERTICES][3];
-static uint32_t faces[FACES][3];
+static ClosedMesh mesh;
+static Position *vertices;
 static double origins[RAYS][3], directions[RAYS][3];
 static ClrtScene *scene;
 
-static uint32_t vertex_number(int row, int column)
+static ClrtScene *mesh_scene(void)
 {
-    if (row < 0)
-        return VERTICES - 2;
-    return row == ROWS ? VERTICES - 1 : (uint32_t)(row * COLUMNS + column % COLUMNS);
-}
-
-static void place_vertex(uint32_t number, double height, double turn)
-{
-    const double bumps = 1 + 0.3 * sin(7 * turn) * sin(9 * height);
-    const double across = sqrt(1 - height * height) * bumps;
-    vertices[number][0] = across * cos(turn);
-    vertices[number][1] = across * sin(turn);
-    vertices[number][2] = height * bumps;
-}
-
-static void fill_ball(void)
-{
-    uint32_t count = 0;
-    for (int row = 0; row < ROWS; row++)
-        for (int column = 0; column < COLUMNS; column++)
-            place_vertex(vertex_number(row, column), 2 * (row + 0.5) / ROWS - 1,
-                         2 * 3.14159265358979 * column / COLUMNS);
-    place_vertex(VERTICES - 2, -1, 0);
-    place_vertex(VERTICES - 1, 1, 0);
-    for (int row = -1; row < ROWS; row++)
-        for (int column = 0; column < COLUMNS; column++) {
-            const uint32_t a = vertex_number(row, column), b = vertex_number(row, column + 1);
-            const uint32_t c = vertex_number(row + 1, column + 1);
-            const uint32_t d = vertex_number(row + 1, column);
-            const uint32_t halves[2][3] = {{a, b, c}, {a, c, d}};
-            if (row >= 0)
-                memcpy(faces[count++], halves[0], sizeof halves[0]);
-            if (row < ROWS - 1)
-                memcpy(faces[count++], halves[1], sizeof halves[1]);
-        }
-    assert_int_equal(count, FACES);
-}
-
-static ClrtScene *ball_scene(void)
-{
-    const ClrtMesh mesh = {.size = sizeof mesh,
-                           .positions = vertices[0],
-                           .triangles = faces[0],
-                           .vertex_count = VERTICES,
-                           .triangle_count = FACES};
+    const ClrtMesh given = {.size = sizeof given,
+                            .positions = vertices[0],
+                            .triangles = mesh.faces[0],
+                            .vertex_count = mesh.vertex_count,
+                            .triangle_count = mesh.face_count};
     ClrtScene *made = clrt_scene_create(NULL);
-    assert_true(clrt_scene_add_mesh(made, &mesh, NULL));
+    assert_true(clrt_scene_add_mesh(made, &given, NULL));
     return made;
 }
 
 SET_UP(make_rays)
 {
     uint64_t numbers = 7;
-    fill_ball();
-    scene = ball_scene();
+    mesh = closed_mesh_make(CLOSED_BUMPY);
+    vertices = closed_mesh_positions(&mesh);
+    scene = mesh_scene();
     for (int i = 0; i < RAYS; i++)
         for (int axis = 0; axis < 3; axis++) {
             origins[i][axis] = random_between(&numbers, -2, 2);
@@ -86,6 +45,8 @@ SET_UP(make_rays)
 TEAR_DOWN(free_scene)
 {
     clrt_scene_free(scene);
+    free(vertices);
+    closed_mesh_free(&mesh);
     return 0;
 }
 
@@ -131,7 +92,7 @@ TEST(hits_have_a_place_on_the_mesh)
     size_t found = 0;
     trace_all_by(renderer, &all);
     for (size_t i = 0; i < RAYS; i++) {
-        const uint32_t *face = faces[all.triangles[i] % FACES];
+        const uint32_t *face = mesh.faces[all.triangles[i] % mesh.face_count];
         const double second = all.weights[i][0], third = all.weights[i][1];
         if (all.primitives[i] == CLRT_NOTHING) {
             assert_true(all.distances[i] == INFINITY && all.meshes[i] == CLRT_NOTHING);
@@ -263,22 +224,22 @@ TEST(rays_in_rows_have_the_hits_of_rays_in_small_batches)
 
 TEST(rays_at_vertices_hit_and_cross_once)
 {
-    static uint32_t counts[VERTICES], primitives[VERTICES];
-    static uint8_t inside[VERTICES];
+    static uint32_t counts[RAYS], primitives[RAYS];
+    static uint8_t inside[RAYS];
     const double eye[3] = {0.01, 0.02, 0.03};
-    for (size_t i = 0; i < VERTICES; i++)
-        for (int axis = 0; axis < 3; axis++)
+    for (size_t i = 0; i < mesh.vertex_count; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            eyes[i][axis] = eye[axis];
             aims[i][axis] = vertices[i][axis] - eye[axis];
-    for (size_t i = 0; i < VERTICES; i++)
-        memcpy(eyes[i], eye, sizeof eye);
+        }
     const ClrtRays rays = {
-        .size = sizeof rays, .count = VERTICES, .origins = eyes[0], .directions = aims[0]};
+        .size = sizeof rays, .count = mesh.vertex_count, .origins = eyes[0], .directions = aims[0]};
     const ClrtHits hits = {.size = sizeof hits, .primitives = primitives};
     const ClrtHits crossings = {.size = sizeof crossings, .counts = counts};
     assert_true(clrt_trace(renderer, scene, &rays, &hits, NULL));
     assert_true(clrt_trace_all(renderer, scene, &rays, &crossings, NULL));
     assert_true(clrt_contains(renderer, scene, &rays, inside, NULL));
-    for (size_t i = 0; i < VERTICES; i++) {
+    for (size_t i = 0; i < mesh.vertex_count; i++) {
         assert_true(primitives[i] != CLRT_NOTHING);
         assert_int_equal(counts[i] % 2, 1);
         assert_true(inside[i]);
@@ -330,7 +291,7 @@ TEST(rays_that_start_on_a_triangle_leave_it)
                             .directions = onward[0],
                             .starts = starts};
     const ClrtHits few = {.size = sizeof few, .primitives = primitives};
-    starts[0] = FACES;
+    starts[0] = (uint32_t)mesh.face_count;
     REFUSES(clrt_trace(renderer, scene, &wrong, &few, &error), "ray 0 starts on primitive");
     starts[0] = 0;
     meetings[0][2] += 1;
