@@ -167,11 +167,10 @@ static Vec3 point_at(Vec3 origin, Vec3 direction, double t)
     return vec3_add(origin, vec3_scale(direction, t));
 }
 
-// Stores a ray's direction, limit, scale and doubt. The doubt bounds the errors of fp64 arithmetic,
-// each of which is at most 2^-52 of a coordinate of the origin or of the start. Returns the ray's
-// start in normalized coordinates. The start is the point at `near` or, if this point is far, a
-// point further along the ray at the cube around the scene. A ray that can hit nothing gets a limit
-// below 0.
+// Stores a ray's direction, limit and scale. Returns the ray's start in normalized coordinates. The
+// start is the point at `near` or, if this point is far, a point further along the ray at the cube
+// around the scene. A ray that can hit nothing gets a limit below 0. A ray whose numbers are not
+// usable also gets an infinite doubt.
 static Vec3 convert_line(RayBatch *batch, size_t entry, const GivenRay *given)
 {
     const Normalization *frame = &batch->scene->frame;
@@ -190,7 +189,7 @@ static Vec3 convert_line(RayBatch *batch, size_t entry, const GivenRay *given)
     const double limit = given->far != INFINITY ? given->far / unit - start : INFINITY;
     const bool is_ray = is_usable && given->near > -INFINITY && sum_of(from) < FARTHEST;
     RayData *ray = &batch->data[entry];
-    ray->doubt = is_ray ? (float)(0x1p-50 * (sum_of(origin) + sum_of(from))) : INFINITY;
+    ray->doubt = is_ray ? 0 : INFINITY;
     ray->limit = !is_ray || !(limit >= 0) ? -1 : limit < 0x1p127 ? (float)limit : INFINITY;
     vec3_store(ray->direction, direction);
     batch->scales[entry] = (RayScale){start, unit};
@@ -205,6 +204,16 @@ static double move_to_plane(Vec3 *origin, const FaceCorners *corners)
     const double off = vec3_dot(normal, vec3_sub(*origin, corners->at[0]));
     *origin = vec3_sub(*origin, vec3_scale(normal, off));
     return fabs(off);
+}
+
+// Returns a bound on the distance of a ray's stored origin from its exact start. `off` is the
+// distance by which the start was moved. Errors of fp64 arithmetic are at most 2^-52 of the
+// coordinates of the given origin and of the start. Rounding to float adds 2^-24 of the start.
+static float doubt_of(const RayBatch *batch, const GivenRay *given, Vec3 start, double off)
+{
+    const double size = sum_of(start);
+    const double whole = size + sum_of(normalize_point(&batch->scene->frame, given->origin));
+    return (float)(0x1p-50 * whole + 1.01 * off + 1.01 * 0x1p-24 * size);
 }
 
 static uint64_t primitive_count(const RayScene *scene)
@@ -234,7 +243,8 @@ static double convert(RayBatch *batch, size_t entry)
         off = move_to_plane(&origin, &corners);
     }
     vec3_store(ray->origin, origin);
-    ray->doubt += (float)(1.01 * off + 1.01 * 0x1p-24 * sum_of(origin));
+    if (batch->finds_doubts)
+        ray->doubt += doubt_of(batch, &given, origin, off);
     return off;
 }
 
@@ -264,9 +274,10 @@ static bool report_fault(RayBatch *batch, ClrtError *error)
                       number, own, off * batch->unit, OFF_PLANE * batch->unit);
 }
 
-bool ray_batch_convert(RayBatch *batch, const RayScene *scene, ClrtError *error)
+bool ray_batch_convert(RayBatch *batch, const RayScene *scene, bool finds_doubts, ClrtError *error)
 {
     batch->scene = scene;
+    batch->finds_doubts = finds_doubts;
     batch->unit = 1 / scene->frame.scale;
     batch->cube = cube_around(&scene->form.flat);
     atomic_init(&batch->is_faulty, false);

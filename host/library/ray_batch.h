@@ -29,6 +29,7 @@ typedef struct RayBatch {
     const RayScene *scene; // of the present cast
     double unit;           // length of a normalized unit in scene units
     double cube;           // half the side of the cube to which far origins advance
+    bool finds_doubts;     // computes RayData::doubt
     size_t first, count;   // the first ray and the number of rays of the part
     atomic_bool is_faulty; // a ray's `starts` is invalid
     uint32_t order[PART_RAYS];
@@ -47,9 +48,10 @@ size_t ray_batch_width(const ClrtRays *rays);
 // changes no bit of the hits.
 void ray_batch_order(RayBatch *batch, size_t width);
 
-// Fills `data` and `scales` for a cast in the scene. Fails if a primitive in `starts` does not
+// Fills `data` and `scales` for a cast in the scene. Only RAYS_CERTAIN needs doubts. Calls for
+// camera rays take 1 to 3 % less time without them. Fails if a primitive in `starts` does not
 // exist, or if it is a triangle whose plane is too far from the ray's origin.
-bool ray_batch_convert(RayBatch *batch, const RayScene *scene, ClrtError *error);
+bool ray_batch_convert(RayBatch *batch, const RayScene *scene, bool finds_doubts, ClrtError *error);
 
 // Stores the results from `found` and `counts` in the caller's arrays.
 void ray_batch_store(RayBatch *batch);

@@ -29,7 +29,7 @@ static bool cast(ClrtRenderer *renderer, RayQuery query, ClrtError *error)
                                              batch->rays.one_sided, &cause);
     if (scene == NULL)
         return check_fail_for(error, CLRT_DEVICE, &cause);
-    if (!ray_batch_convert(batch, scene, error))
+    if (!ray_batch_convert(batch, scene, query == RAYS_CERTAIN, error))
         return false;
     const RayCast cast = {.query = query,
                           .scene = &scene->form.buffers,
