@@ -29,7 +29,7 @@ struct ThreadPool {
     _Atomic PoolState state;
     atomic_uint finished; // number of the generation's finished tasks
     atomic_bool closing;
-    pthread_mutex_t mutex; // held to begin a generation or to fall asleep
+    pthread_mutex_t mutex; // locked to begin a generation or to fall asleep
     pthread_cond_t wake;
     uint32_t threads;      // including the caller's thread; 0: not known yet
     uint32_t worker_count; // threads that have started

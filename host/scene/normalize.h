@@ -24,9 +24,9 @@ typedef struct {
 // 1e9 would leave too few bits for a mesh. Rays of the library use this normalization.
 Normalization normalization_of_primitives(const Scene *scene);
 
-// Returns the normalization for pictures. It differs from normalization_of_primitives in scenes
-// without triangles whose box is thousands of times as large as a camera's reach (normalize.c). The
-// center is then between the cameras' eyes.
+// Returns the normalization for pictures. It differs from normalization_of_primitives only in
+// scenes without triangles, if their box is thousands of times as large as a camera's reach and
+// several times as large as the box of all eyes (normalize.c). The center is then between the eyes.
 Normalization normalization_of(const Scene *scene);
 
 // Returns the longest side of the box that normalization_of scales, or a negative number if the box
