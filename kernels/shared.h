@@ -150,10 +150,6 @@ CLRT_SAME_SIZE(BvhPair, 64)
 // With wide nodes, a work-item renders BLOCK_SIDE x BLOCK_SIDE pixels.
 #define BLOCK_SIDE 8
 
-// Refinement lists the pixels' centers in squares with sides of this many pixels, so that neighbors
-// share packets.
-#define PACKET_SIDE 4
-
 // The largest number of children in a wide node, and of triangles in a block. WIDE floats fill a
 // vector of 256 bits.
 #define WIDE 8
@@ -229,6 +225,12 @@ typedef struct {
 } FrameData;
 CLRT_SAME_SIZE(FrameData, 160)
 
+// A sample's position in sub-pixels of the whole picture.
+typedef struct {
+    uint x, y;
+} SamplePlace;
+CLRT_SAME_SIZE(SamplePlace, 8)
+
 // The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
 // that the ray and its reflected and refracted rays hit. The hash includes the lights that reach
 // these surfaces, and the glass that their light crosses.
@@ -238,7 +240,7 @@ typedef struct {
 } SampleData;
 CLRT_SAME_SIZE(SampleData, 16)
 
-// Sub-pixels along a side of a pixel in ladder.cl's pictures. Because their number is a power of
+// Sub-pixels along a side of a pixel in pictures with goals. Because their number is a power of
 // two, the sample at a pixel's center has the same bits as in a picture with one sample per pixel.
 #define LADDER_GRID 1024
 

@@ -24,10 +24,26 @@
 // The places of a pass.
 typedef ARRAY(SamplePlace) PlaceList;
 
-static bool is_whole(const Adaptive *adaptive)
+typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW } Side;
+
+// Returns whether the pixel has a neighbor on that side. Stores the neighbor, or the pixel itself
+// at the picture's border.
+static bool find_neighbor(const Adaptive *adaptive, uint32_t pixel, Side side, uint32_t *neighbor)
 {
-    return adaptive->setup.renderer->progress.tiles_done ==
-           adaptive->setup.renderer->progress.tiles;
+    const uint32_t width = adaptive->frame.width, height = adaptive->frame.height;
+    const uint32_t x = pixel % width, y = pixel / width;
+    const uint32_t neighbors[] = {pixel - 1, pixel + 1, pixel - width, pixel + width};
+    const bool are_there[] = {x > 0, x + 1 < width, y > 0, y + 1 < height};
+    *neighbor = are_there[side] ? neighbors[side] : pixel;
+    return are_there[side];
+}
+
+// Returns the center of the neighbor, or of the pixel itself at the picture's border.
+static const SampleData *center_beside(const Adaptive *adaptive, uint32_t pixel, Side side)
+{
+    uint32_t neighbor;
+    find_neighbor(adaptive, pixel, side, &neighbor);
+    return &adaptive->centers[neighbor];
 }
 
 // Returns whether lines of the pixel are columns: colors change more along columns, or a thin part
@@ -35,11 +51,10 @@ static bool is_whole(const Adaptive *adaptive)
 static bool has_columns(const Adaptive *adaptive, uint32_t pixel)
 {
     const ThinAxis axis = (ThinAxis)adaptive->thin_parts.axes[pixel];
-    const SampleData *center = centers_at(&adaptive->centers, pixel);
+    const SampleData *center = &adaptive->centers[pixel];
     float changes[4];
     for (int side = 0; side < 4; side++)
-        changes[side] =
-            sample_difference(center, centers_beside(&adaptive->centers, pixel, (Side)side));
+        changes[side] = sample_difference(center, center_beside(adaptive, pixel, (Side)side));
     return axis == THIN_NONE ? changes[SIDE_ABOVE] + changes[SIDE_BELOW] >
                                    changes[SIDE_LEFT] + changes[SIDE_RIGHT]
                              : axis == THIN_COLUMNS;
@@ -126,9 +141,8 @@ static bool spread(Adaptive *adaptive, uint32_t pixel, Side side, const SampleDa
                    float most, Error *error)
 {
     uint32_t neighbor;
-    if (!centers_have_neighbor(&adaptive->centers, pixel, side, &neighbor) ||
-        adaptive->refined[neighbor] != 0 ||
-        !(sample_difference(sample, centers_at(&adaptive->centers, neighbor)) > most))
+    if (!find_neighbor(adaptive, pixel, side, &neighbor) || adaptive->refined[neighbor] != 0 ||
+        !(sample_difference(sample, &adaptive->centers[neighbor]) > most))
         return true;
     return add_pixel(adaptive, neighbor, error);
 }
@@ -145,9 +159,8 @@ static bool open_line(Adaptive *adaptive, const SampleData *data, float most, ui
     const uint32_t all = first_places(adaptive, &line, samples);
     *count = 0;
     for (uint32_t i = 0; i < all; i++)
-        samples[i].data = is_center(&line, samples[i].place)
-                              ? *centers_at(&adaptive->centers, place)
-                              : data[(*count)++];
+        samples[i].data =
+            is_center(&line, samples[i].place) ? adaptive->centers[place] : data[(*count)++];
     pixel->samples += *count;
     bool ok = scan_lines_open(&adaptive->lines, samples, all, error) &&
               spread(adaptive, place, (Side)first, &samples[0].data, most, error) &&
@@ -174,7 +187,7 @@ static bool trace_pass(Adaptive *adaptive, PlaceList *places, float most, Error 
     const SampleList list = {places->data, samples, count, 0};
     bool ok = samples != NULL && sampler_trace(adaptive->setup.renderer, &adaptive->frame, &list,
                                                adaptive->setup.observer, error);
-    if (ok && is_whole(adaptive)) {
+    if (ok && sampler_is_whole(adaptive->setup.renderer)) {
         adaptive->samples += count;
         next += lines->gaps.count;
         ok = scan_lines_split_gaps(lines, samples, error);
@@ -195,7 +208,7 @@ static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel,
     const ScanLines *lines = &adaptive->lines;
     const int shift = side == SIDE_LEFT || side == SIDE_ABOVE ? -REFINE_GRID : REFINE_GRID;
     uint32_t neighbor, nearest = 0;
-    const bool is_there = centers_have_neighbor(&adaptive->centers, pixel->pixel, side, &neighbor);
+    const bool is_there = find_neighbor(adaptive, pixel->pixel, side, &neighbor);
     const RefinedPixel *refined = &lines->pixels.data[is_there ? adaptive->refined[neighbor] : 0];
     LineMean mean = {.middle = REFINE_GRID / 2};
     float color[3];
@@ -208,8 +221,7 @@ static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel,
         mean = scan_line_mean(&lines->lines.data[nearest]);
     } else {
         if (refined->lines == 0 || !scan_lines_color(lines, refined, color))
-            memcpy(color, centers_beside(&adaptive->centers, pixel->pixel, side)->color,
-                   sizeof color);
+            memcpy(color, center_beside(adaptive, pixel->pixel, side)->color, sizeof color);
         for (int channel = 0; channel < 3; channel++)
             mean.color[channel] = (double)color[channel];
     }
@@ -252,23 +264,26 @@ static void mark_rows(void *context, uint32_t first, uint32_t end)
     Adaptive *adaptive = work->adaptive;
     for (uint32_t pixel = first * adaptive->frame.width; pixel < end * adaptive->frame.width;
          pixel++) {
-        const SampleData *center = centers_at(&adaptive->centers, pixel);
+        const SampleData *center = &adaptive->centers[pixel];
         bool is_refined = adaptive->thin_parts.axes[pixel] != THIN_NONE;
         for (int side = 0; side < 4 && !is_refined; side++)
-            is_refined = sample_difference(center, centers_beside(&adaptive->centers, pixel,
-                                                                  (Side)side)) > work->most;
+            is_refined =
+                sample_difference(center, center_beside(adaptive, pixel, (Side)side)) > work->most;
         adaptive->refined[pixel] = is_refined;
     }
 }
+
+// The side of the blocks in which pixels are refined.
+#define BLOCK_PIXELS 4
 
 // Adds the marked pixels block by block, so that consecutive samples are near each other.
 static bool add_marked(Adaptive *adaptive, Error *error)
 {
     const uint32_t width = adaptive->frame.width, height = adaptive->frame.height;
-    for (uint32_t top = 0; top < height; top += PACKET_SIDE)
-        for (uint32_t left = 0; left < width; left += PACKET_SIDE)
-            for (uint32_t y = top; y < height && y < top + PACKET_SIDE; y++)
-                for (uint32_t x = left; x < width && x < left + PACKET_SIDE; x++)
+    for (uint32_t top = 0; top < height; top += BLOCK_PIXELS)
+        for (uint32_t left = 0; left < width; left += BLOCK_PIXELS)
+            for (uint32_t y = top; y < height && y < top + BLOCK_PIXELS; y++)
+                for (uint32_t x = left; x < width && x < left + BLOCK_PIXELS; x++)
                     if (adaptive->refined[y * width + x] != 0 &&
                         !add_pixel(adaptive, y * width + x, error))
                         return false;
@@ -283,14 +298,14 @@ bool adaptive_refine(Adaptive *adaptive, float threshold, Error *error)
     ScanLines *lines = &adaptive->lines;
     PlaceList places = {0};
     uint32_t divided = 1;
-    if (!is_whole(adaptive))
+    if (!sampler_is_whole(adaptive->setup.renderer))
         return true;
     lines->threshold = GAP_PART * threshold;
     lines->bend = BEND_PART * threshold;
     lines->doubt = DOUBT_PART * threshold;
     thread_pool_share(adaptive->setup.pool, adaptive->frame.height, ROWS_OF_TASK, mark_rows, &work);
     bool ok = add_marked(adaptive, error);
-    for (uint32_t round = 1; ok && is_whole(adaptive); round++) {
+    for (uint32_t round = 1; ok && sampler_is_whole(adaptive->setup.renderer); round++) {
         if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
             ok = divide(adaptive, &divided, round, error);
         if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
@@ -315,9 +330,12 @@ bool adaptive_open(Adaptive *adaptive, const RefineSetup *setup, Error *error)
     const ThinSource thin = {frame,       setup->scene, setup->normalization, setup->flat->spheres,
                              setup->pool, true};
     adaptive->refined = memory_zeroed(pixels, sizeof *adaptive->refined, error);
-    const bool ok = adaptive->refined != NULL && scan_lines_make(&adaptive->lines, error) &&
-                    thin_parts_make(&adaptive->thin_parts, &thin, error) &&
-                    centers_trace(&adaptive->centers, renderer, frame, setup->observer, error);
+    adaptive->centers = memory_zeroed(pixels, sizeof *adaptive->centers, error);
+    const bool ok =
+        adaptive->refined != NULL && adaptive->centers != NULL &&
+        scan_lines_make(&adaptive->lines, error) &&
+        thin_parts_make(&adaptive->thin_parts, &thin, error) &&
+        sampler_draw_centers(renderer, frame, adaptive->centers, setup->observer, error);
     adaptive->samples = pixels;
     if (!ok)
         adaptive_close(adaptive);
@@ -334,7 +352,7 @@ static void store_rows(void *context, uint32_t first, uint32_t end)
         float *color = adaptive->setup.picture->pixels[pixel];
         if (number == 0 ||
             !scan_lines_color(&adaptive->lines, &adaptive->lines.pixels.data[number], color))
-            memcpy(color, centers_at(&adaptive->centers, pixel)->color, 3 * sizeof *color);
+            memcpy(color, adaptive->centers[pixel].color, 3 * sizeof *color);
     }
 }
 
@@ -356,7 +374,7 @@ void adaptive_close(Adaptive *adaptive)
 {
     thin_parts_free(&adaptive->thin_parts);
     scan_lines_free(&adaptive->lines);
-    centers_free(&adaptive->centers);
+    free(adaptive->centers);
     free(adaptive->refined);
     *adaptive = (Adaptive){0};
 }

@@ -14,16 +14,16 @@
 // of the picture therefore do not depend on the device or on the number of threads.
 #pragma once
 
-#include "refine/centers.h"
 #include "refine/refine_setup.h"
 #include "refine/scan_lines.h"
 #include "refine/thin_parts.h"
+#include "render/sampler.h"
 
 typedef struct {
     RefineSetup setup;
     FrameData frame;
-    Centers centers;
-    uint32_t *refined; // by pixel: index in lines.pixels; 0 if the pixel has one sample
+    SampleData *centers; // samples of the pixels' centers
+    uint32_t *refined;   // by pixel: index in lines.pixels; 0 if the pixel has one sample
     ThinParts thin_parts;
     ScanLines lines;
     uint64_t samples; // taken so far

@@ -67,9 +67,10 @@ bool ladder_open(Ladder *ladder, const RefineSetup *setup, Error *error)
         ladder->statistics.pixels > LADDER_PIXELS_MOST)
         return error_set(error, "a picture of %u x %u pixels is too large to be refined",
                          picture->width, picture->height);
-    const bool ok = make_arrays(ladder, error) &&
-                    pixel_requests_draw_centers(requests, picture, error) &&
-                    ladder_enter(ladder, setup, error);
+    const bool ok =
+        make_arrays(ladder, error) &&
+        sampler_draw_centers(renderer, &requests->frame, picture->pixels, setup->observer, error) &&
+        ladder_enter(ladder, setup, error);
     ladder->samples = ladder->statistics.pixels;
     if (!ok)
         ladder_close(ladder);
@@ -186,7 +187,7 @@ static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Erro
     PixelRequests *requests = &ladder->requests;
     uint32_t first = 0;
     bool ok = pixel_requests_trace(requests, error);
-    for (size_t i = 0; i < count && ok && pixel_requests_are_whole(requests); i++) {
+    for (size_t i = 0; i < count && ok && sampler_is_whole(ladder->requests.renderer); i++) {
         const RungSamples next = samples_from(rung_of(ladder, pixels[i]));
         if (i + PREFETCHED < count)
             prefetch_pixel(ladder, pixels[i + PREFETCHED]);
@@ -209,7 +210,7 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
             continue;
         if (!climb_all(ladder, &pixels[i + 1 - listed], listed, error))
             return false;
-        if (!pixel_requests_are_whole(&ladder->requests))
+        if (!sampler_is_whole(ladder->requests.renderer))
             return true;
         listed = 0;
     }
@@ -267,7 +268,7 @@ bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *
     bool ok = true, moves = true;
     *outcome = (GoalOutcome){0};
     for (int round = 0;
-         ok && moves && round < ROUNDS_MOST && pixel_requests_are_whole(&ladder->requests);
+         ok && moves && round < ROUNDS_MOST && sampler_is_whole(ladder->requests.renderer);
          round++) {
         uint64_t advanced;
         const StrataOutcome raised = strata_raise(&ladder->statistics, &aim);
@@ -297,7 +298,7 @@ bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome,
     uint64_t advanced = 1;
     bool ok = true;
     *outcome = (GoalOutcome){.reached = moment - time->start < time->seconds};
-    while (ok && pixel_requests_are_whole(&ladder->requests)) {
+    while (ok && sampler_is_whole(ladder->requests.renderer)) {
         const StrataEstimate estimate = strata_estimate(&ladder->statistics);
         const StrataAim aim = {FALL_OF_ROUND * estimate.bound,
                                samples_in_time(time, seconds_per_sample)};

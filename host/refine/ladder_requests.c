@@ -4,37 +4,10 @@
 
 #include <math.h>
 
-// Centers are rendered in bands of about this many pixels, to limit the memory for counters.
-#define BAND_PIXELS (1u << 18)
-
-bool pixel_requests_are_whole(const PixelRequests *requests)
-{
-    const RenderProgress *progress = &requests->renderer->progress;
-    return progress->tiles_done == progress->tiles;
-}
-
 bool pixel_requests_trace(PixelRequests *requests, Error *error)
 {
     const SampleList list = {requests->requests, requests->sums, requests->count, requests->small};
     return sampler_trace(requests->renderer, &requests->frame, &list, requests->observer, error);
-}
-
-bool pixel_requests_draw_centers(const PixelRequests *requests, Framebuffer *picture, Error *error)
-{
-    const uint32_t width = picture->width, height = picture->height;
-    const uint32_t rows = BAND_PIXELS / width, most = rows - rows % BLOCK_SIDE + BLOCK_SIDE;
-    FrameData frame = requests->frame;
-    frame.tile_width = width;
-    for (; frame.tile_y < height; frame.tile_y += most) {
-        frame.tile_height = height - frame.tile_y < most ? height - frame.tile_y : most;
-        if (!sampler_draw_centers(requests->renderer, &frame,
-                                  &picture->pixels[(size_t)frame.tile_y * width],
-                                  requests->observer, error))
-            return false;
-        if (!pixel_requests_are_whole(requests))
-            return true;
-    }
-    return true;
 }
 
 void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3])

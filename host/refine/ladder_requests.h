@@ -21,14 +21,8 @@ typedef struct {
     uint32_t count, small;          // requests in the list, and small requests in the list
 } PixelRequests;
 
-// Returns false if the observer has stopped a trace.
-bool pixel_requests_are_whole(const PixelRequests *requests);
-
 // Traces the requests and stores their sums. If the observer stops the trace, some are missing.
 bool pixel_requests_trace(PixelRequests *requests, Error *error);
-
-// Renders a picture of the frame's size with one sample at each pixel's center.
-bool pixel_requests_draw_centers(const PixelRequests *requests, Framebuffer *picture, Error *error);
 
 // Computes the mean color of the samples. `samples` must be a power of two.
 void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3]);

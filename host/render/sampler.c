@@ -14,6 +14,9 @@
 // In RenderProgress, this number of work-items counts as one tile.
 #define TILE_ITEMS 4096
 
+// Centers are rendered in bands of about this many pixels, to limit the memory for counters.
+#define BAND_PIXELS (1u << 18)
+
 // A launch in flight.
 typedef struct {
     cl_event done;
@@ -51,6 +54,11 @@ static bool has_tile(const FrameData *frame)
     return frame->tile_width > 0;
 }
 
+static size_t pixel_size(const Renderer *renderer)
+{
+    return is_ladder(renderer) ? sizeof(float[3]) : sizeof(SampleData);
+}
+
 static size_t requests_size(const Sampling *sampling)
 {
     if (has_tile(sampling->frame))
@@ -63,7 +71,7 @@ static size_t results_size(const Sampling *sampling)
 {
     const FrameData *frame = sampling->frame;
     if (has_tile(frame))
-        return (size_t)frame->tile_width * frame->tile_height * sizeof(float[3]);
+        return (size_t)frame->tile_width * frame->tile_height * pixel_size(sampling->renderer);
     return sampling->list->count *
            (is_ladder(sampling->renderer) ? sizeof(PixelSums) : sizeof(SampleData));
 }
@@ -285,20 +293,41 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
     return ok;
 }
 
-bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, float (*colors)[3],
-                          const RenderObserver *observer, Error *error)
+bool sampler_is_whole(const Renderer *renderer)
+{
+    return renderer->progress.tiles_done == renderer->progress.tiles;
+}
+
+// Renders the frame's tile.
+static bool draw_band(Renderer *renderer, const FrameData *frame, void *pixels,
+                      const RenderObserver *observer, Error *error)
 {
     const PixelRequest none = {0};
     const uint32_t side = block_side(renderer);
     const uint32_t blocks =
         range_count(frame->tile_width, side) * range_count(frame->tile_height, side);
-    const SampleList list = {&none, colors, blocks * side * side, 0};
+    const SampleList list = {&none, pixels, blocks * side * side, 0};
     return sampler_trace(renderer, frame, &list, observer, error);
 }
 
-// kernels/samples.cl and kernels/ladder.cl, embedded at build time.
-extern const char samples_source[], ladder_source[];
+bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, void *pixels,
+                          const RenderObserver *observer, Error *error)
+{
+    const uint32_t rows = BAND_PIXELS / frame->width, most = rows - rows % BLOCK_SIDE + BLOCK_SIDE;
+    FrameData band = *frame;
+    band.tile_width = frame->width;
+    for (; band.tile_y < frame->height && sampler_is_whole(renderer); band.tile_y += most) {
+        const uint32_t left = frame->height - band.tile_y;
+        char *first = (char *)pixels + (size_t)band.tile_y * frame->width * pixel_size(renderer);
+        band.tile_height = left < most ? left : most;
+        if (!draw_band(renderer, &band, first, observer, error))
+            return false;
+    }
+    return true;
+}
 
-const KernelEntry sample_entry = {"trace_samples", samples_source, "-DCLRT_SIGNATURES=1", "bnnbb",
+extern const char samples_source[]; // kernels/samples.cl, embedded at build time
+
+const KernelEntry sample_entry = {"trace_samples", samples_source, "-DCLRT_SIGNATURES=1", "bnnbbn",
                                   .dimensions = 1};
-const KernelEntry ladder_entry = {"trace_pixels", ladder_source, NULL, "bnnbbn", .dimensions = 1};
+const KernelEntry ladder_entry = {"trace_samples", samples_source, NULL, "bnnbbn", .dimensions = 1};

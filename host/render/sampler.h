@@ -2,8 +2,7 @@
 // A list of requests -> their samples. With sample_entry, a request is a sample's position, and the
 // result is its color and signature. With ladder_entry, a request is a small or large set of a
 // pixel's samples (SMALL_SAMPLES, LARGE_SAMPLES). The result has the sums of these samples' colors
-// and of the colors' squares. With ladder_entry, a tile can also be rendered with one sample per
-// pixel.
+// and of the colors' squares. Both also render pictures with one sample per pixel.
 //
 // Two samples have different signatures if their rays hit different surfaces, or if different
 // lights reach their hit points. The only exceptions are rare collisions of hashes.
@@ -11,19 +10,14 @@
 
 #include "render/renderer.h"
 
-// The kernels trace_samples and trace_pixels.
+// The kernel trace_samples, with and without CLRT_SIGNATURES.
 extern const KernelEntry sample_entry, ladder_entry;
-
-// A position in sub-pixels of the whole picture. The kernel skips samples whose x is NOTHING.
-typedef struct {
-    uint32_t x, y;
-} SamplePlace;
 
 // Requests and their results in the kernel's layout. sample_entry uses SamplePlace and
 // SampleData; ladder_entry uses PixelRequest and PixelSums.
 typedef struct {
     const void *requests;
-    void *results; // output; undefined for skipped requests
+    void *results; // output
     uint32_t count;
     uint32_t small; // with ladder_entry: number of small requests, which precede the large ones
 } SampleList;
@@ -35,8 +29,11 @@ typedef struct {
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
                    const RenderObserver *observer, Error *error);
 
-// Renders the tile of the frame into `colors`, with one sample at the center of each pixel. The
-// renderer's kernel must have ladder_entry, and the frame's camera must be made for LADDER_GRID
-// samples. Counts tiles as sampler_trace does.
-bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, float (*colors)[3],
+// Renders the whole picture of a frame without a tile, with one sample at the center of each pixel.
+// The frame's camera must be made for frame->samples samples. Stores the pixels row by row, as
+// SampleData with sample_entry and as three floats with ladder_entry. Stops as sampler_trace does.
+bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, void *pixels,
                           const RenderObserver *observer, Error *error);
+
+// Returns whether the observer has stopped none of the renderer's traces.
+bool sampler_is_whole(const Renderer *renderer);

@@ -6,7 +6,7 @@
 // form, on threads or on tiles.
 #include "session/level.h"
 
-#include "refine/ladder_requests.h"
+#include "render/sampler.h"
 #include "render/tile_pass.h"
 
 #include <math.h>
@@ -40,11 +40,11 @@ static bool measure(Renderer *renderer, const CameraData *camera, double *trunca
     Framebuffer colors;
     const uint32_t width = renderer->settings.width, height = renderer->settings.height;
     const bool is_ladder = renderer->kernel->entry == &ladder_entry;
-    PixelRequests centers = {.renderer = renderer, .frame = renderer_frame(renderer, camera)};
-    centers.frame.samples = LADDER_GRID;
+    FrameData frame = renderer_frame(renderer, camera);
+    frame.samples = LADDER_GRID;
     renderer->progress = (RenderProgress){0};
     const bool ok = framebuffer_make(&colors, width, height, error) &&
-                    (is_ladder ? pixel_requests_draw_centers(&centers, &colors, error)
+                    (is_ladder ? sampler_draw_centers(renderer, &frame, colors.pixels, NULL, error)
                                : renderer_draw(renderer, camera, NULL, &colors, error));
     framebuffer_free(&colors);
     *truncated = renderer_truncation(renderer, (uint64_t)width * height);

@@ -6,8 +6,8 @@
 
 #include <stdio.h>
 
-// The embedded sources of kernels/certify.cl, for probes in fp64, and of kernels/ladder.cl.
-extern const char certify_source[], ladder_source[];
+// The embedded sources of kernels/certify.cl, for probes in fp64, and of kernels/samples.cl.
+extern const char certify_source[], samples_source[];
 
 static bool probe_open(Probe *probe, const char *path, ClrtPrecision precision, Error *error)
 {
@@ -16,7 +16,7 @@ static bool probe_open(Probe *probe, const char *path, ClrtPrecision precision, 
     *probe = (Probe){0};
     bool ok = file_read(&file, path, error) && device_open(&probe->device, NULL, error);
     snprintf(source, sizeof source, "%s\n%s",
-             precision == CLRT_FP64 ? certify_source : ladder_source,
+             precision == CLRT_FP64 ? certify_source : samples_source,
              ok ? (const char *)file.bytes : "");
     const KernelEntry entry = {.source = source};
     const ProgramSource program = {.device = &probe->device,

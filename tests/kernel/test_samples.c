@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests the positions of a pixel's samples in kernels/ladder.cl.
+// Tests the positions of a pixel's samples in kernels/samples.cl.
 #include "kernel/probe.h"
 #include "unit/cmocka_all.h"
 

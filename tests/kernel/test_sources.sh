@@ -15,7 +15,7 @@ accepts() {
     -include render.cl "$source"
 }
 
-sources="tile.cl rays.cl samples.cl ladder.cl aov.cl explain.cl"
+sources="tile.cl rays.cl samples.cl aov.cl explain.cl"
 no_fp64="-Xclang -cl-ext=-cl_khr_fp64"
 for form in "0 -DCLRT_PACKET=0" "0 -DCLRT_GPU=1" "1 -DCLRT_PACKET=0" "1 -DCLRT_PACKET=1"; do
   for source in $sources; do
