@@ -18,7 +18,7 @@ typedef struct {
     const Options *options;
     Scene scene;
     char **mesh_paths; // the PLY files beside the scene text; NULL for one PLY mesh; owned
-    char **mesh_names; // point to the file names in mesh_paths; the array is owned
+    char **mesh_names; // the file names at the ends of mesh_paths; the array is owned
 } Conversion;
 
 static bool write_ply(void *context, FILE *stream, Error *cause)

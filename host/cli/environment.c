@@ -4,7 +4,8 @@
 // The C library's setenv frees or overwrites the array to which environ points.
 //
 // The executable therefore overrides setenv, unsetenv and putenv. Each change replaces environ by a
-// new array. Old arrays are never freed, because other threads may read them. Changes are rare.
+// new array. Old arrays are never freed, because other threads may read them. Changes are rare, so
+// the arrays take little memory.
 #include <errno.h>
 #include <pthread.h>
 #include <stdbool.h>
@@ -18,8 +19,8 @@ static bool is_named(const char *entry, const char *name, size_t length)
 }
 
 // Removes the variable whose name is the first `length` bytes of `name`, and adds `entry` unless it
-// is NULL. The first element of each array points to the previous array, so that leak checkers can
-// reach all arrays.
+// is NULL. Before its variables, each array has a pointer to the previous array, so that leak
+// checkers can reach all arrays.
 static int replace(const char *name, size_t length, char *entry)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

@@ -133,7 +133,8 @@ static json_t *report_json(const Options *options, const Session *session, const
                   FIELD("uploaded_bytes", arrays_json(&form->flat)));
 }
 
-// Prints the heading and the features that match both flags. Prints nothing if no feature matches.
+// Prints the heading and the features for which both flags hold. Prints nothing if there is no such
+// feature.
 static void write_parts(const json_t *parts, const char *heading, bool is_needed, bool is_compiled)
 {
     for (size_t i = 0; i < json_array_size(parts); i++) {

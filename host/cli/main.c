@@ -116,7 +116,7 @@ int main(int count, char **arguments)
     if (!CLRT_TIDY_EXIT)
         crash_watch();
     stack_run(run, &line);
-    // Drivers and libraries take 0.1 s to free their memory, and the operating system no time.
+    // Drivers and libraries take 0.1 s to free their memory. The operating system frees it at once.
     if (!CLRT_TIDY_EXIT)
         _exit((int)line.code);
     return (int)line.code;

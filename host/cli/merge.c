@@ -69,7 +69,8 @@ static bool has_name(const char *list, const char *name)
     return true;
 }
 
-// Appends the part's device and driver to the provenance, unless it contains them already.
+// Appends the names of the part's device and driver to the provenance, unless the provenance
+// contains these names already.
 static void note_device(Merging *merging, const StoredImage *image)
 {
     for (int kind = STORED_DEVICE; kind <= STORED_DRIVER; kind++) {

@@ -154,8 +154,8 @@ static bool write_statistics(Picture *picture, Error *error)
     return options->json_path == NULL || report_write_json(picture, options->json_path, error);
 }
 
-// Checks SOURCE_DATE_EPOCH, and whether the outputs can be written and resumed. This comes before
-// any work.
+// Before any work, checks SOURCE_DATE_EPOCH, and checks whether the outputs can be written and
+// resumed.
 static ExitCode check_files(Picture *picture, Error *error)
 {
     const Options *options = picture->options;

@@ -30,7 +30,7 @@ typedef struct {
     Layers layers;        // the channels other than the colors
     Resume resume;        // empty without --resume
     int stopped_by;       // the signal that stopped the picture, or 0
-    double start, moment; // begin of the command; end of the previous frame, initially `start`
+    double start, moment; // start of the command; end of the previous frame, initially `start`
 
     // For reports.
     const SceneForm *form; // the scene in the layout of the picture's kernels

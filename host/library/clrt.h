@@ -11,7 +11,7 @@
 //
 // Threads may call functions concurrently for different scenes and renderers. Several renderers may
 // draw one scene while no thread changes it. While one call uses a renderer, other calls with this
-// renderer fail.
+// renderer fail, and clrt_renderer_free must not be called.
 //
 // Structs that callers pass begin with their size, `.size = sizeof(...)`. Later versions of the
 // library may add members at the end. Members that an older program's struct lacks count as zero,
@@ -287,7 +287,7 @@ typedef struct {
 // share them.
 //
 // clrt_renderer_create, clrt_device_count and clrt_device_get read environment variables, and PoCL
-// sets some during the first of these calls. During them, other threads must not use the
+// sets some during the first of these calls. During these calls, other threads must not use the
 // environment, because most versions of getenv and setenv are not thread-safe. All other calls only
 // read the environment, and only to compile or store kernels.
 //
@@ -399,7 +399,7 @@ typedef struct {
 // new or changed scene also builds the scene's tree, if clrt uses one. Later pictures reuse the
 // tree, even with another size or camera.
 //
-// Returns false with CLRT_STOPPED if `progress` stops the picture before its last tile. If the
+// Returns false with CLRT_STOPPED if `progress` stops the picture before the last tile. If the
 // picture is stopped or the device fails, `rgb` contains the complete tiles, and all other pixels
 // are unchanged. With a goal, `rgb` is then undefined.
 CLRT_API bool clrt_render(ClrtRenderer *renderer, const ClrtScene *scene,

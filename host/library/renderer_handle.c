@@ -10,8 +10,8 @@
 #include <string.h>
 
 // Locked during calls that open drivers. PoCL 3.1 crashes if two threads make the first OpenCL
-// calls concurrently. These calls may also change the environment while cache_open
-// reads it.
+// calls concurrently. These calls may also change the environment while cache_open reads
+// it.
 static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
 
 static bool open_session(Session *session, Error *cause)

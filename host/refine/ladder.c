@@ -91,7 +91,7 @@ typedef struct {
     uint32_t requests;
 } RungSamples;
 
-// Returns the samples that advance a pixel from this rung. Requests are small until the pixel has
+// Returns the samples that advance a pixel from `rung`. Requests are small until the pixel has
 // LARGE_SAMPLES samples.
 static RungSamples samples_from(uint32_t rung)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Refines a picture for error and time goals. Each pixel climbs a ladder of samples: its center,
-// then 4, 8, 16 ... 1024 points of its own sequence. Statistics of similar pixels decide how many
-// pixels advance, and hashes of pixel positions decide which ones.
+// then 4, 8, 16 ... 1024 points of its own sequence. Statistics of similar pixels determine how
+// many of them advance, and hashes of their positions select these pixels.
 //
 // An error goal needs an honest estimate of the error. A pixel's own samples estimate its error
 // badly: samples that all miss a detail agree with each other. Therefore some pixels of each kind

@@ -25,7 +25,8 @@ typedef struct {
     uint32_t *counts;             // selected pixels in each row of blocks
 } Choosing;
 
-// Rows of blocks per task. Waking threads takes longer than a selection in a small picture.
+// The number of rows of blocks per task. It is large, because waking threads takes longer than a
+// selection in a small picture.
 #define ROWS_OF_TASK 64
 
 #define HASH_BITS 32

@@ -8,7 +8,7 @@
 #include "render/sampler.h"
 #include "scene/normalize.h"
 
-// The most requests per list.
+// The largest number of requests in a list.
 #define REQUESTS_MOST (1u << 16)
 
 typedef struct {

@@ -12,8 +12,8 @@ typedef union {
     uint32_t sums; // index in Ladder::sums
 } LadderPlace;
 
-// The side of a block of pixels. A selection skips a block if it selects no pixels from the strata
-// in the block's mask.
+// The side of a block of pixels. A selection skips blocks whose masks have none of the strata from
+// which it selects pixels.
 #define LADDER_BLOCK 8
 
 typedef struct {

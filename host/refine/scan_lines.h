@@ -39,7 +39,7 @@ typedef struct {
 typedef struct {
     uint32_t pixel;   // index in the picture
     uint32_t lines;   // the first line
-    uint32_t probes;  // the first probe, or the end of all probes
+    uint32_t probes;  // result of thin_parts_first_probe for this pixel
     uint32_t samples; // taken in the pixel
     uint32_t round;   // the latest round that has considered new lines
     uint8_t least;    // bands of this height are not divided

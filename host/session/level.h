@@ -4,8 +4,8 @@
 
 #include "session/picture.h"
 
-// If request->level_bound is at least 2^-22, sets request->settings.max_level to the smallest level
-// above 2 that causes an error of at most level_bound in a coarse picture, but not above
-// GLASS_LEVELS. The coarse picture shows the whole frame, so all parts and crops of a picture have
-// the same level.
+// If request->level_bound is at least 2^-22, sets request->settings.max_level. The level is the
+// smallest one from 3 to GLASS_LEVELS whose error in a coarse picture is at most level_bound. If
+// all errors are larger, the level is GLASS_LEVELS. The coarse picture shows the whole frame, so
+// all parts and crops of a picture have the same level.
 bool session_choose_level(Session *session, SessionPicture *request, Error *error);

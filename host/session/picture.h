@@ -23,8 +23,9 @@ typedef struct {
     uint32_t reference_level;   // the reference's max_level
     double truncated;           // bound on the error that RenderSettings::max_level causes
     bool includes_truncated;    // `truncated` is a part of the error goal
-    double level_bound;         // with glass: the allowed error, by which session_choose_level and
-                        // session_draw choose RenderSettings::max_level; 0 if the level is given
+    // With glass, the error by which session_choose_level and session_draw choose
+    // RenderSettings::max_level; 0 if the level is given.
+    double level_bound;
     AovSet channels; // to draw by session_draw_channels
 } SessionPicture;
 
@@ -35,7 +36,7 @@ typedef struct {
     size_t upload_size;
     double upload_seconds, build_seconds;
     uint32_t group[2]; // size of the work-groups
-    double truncated;  // SessionPicture::truncated, or with glass, session_draw's measurement of it
+    double truncated;  // SessionPicture::truncated; with glass, measured by session_draw
     // The following members are set by session_draw.
     RenderProgress progress;
     bool is_complete;

@@ -117,7 +117,7 @@ static uint32_t limited_level(uint32_t level, const Scene *scene)
     return level < limit ? level : limit;
 }
 
-// Returns the largest error that a max_level may cause if an error bound determines it.
+// Returns the largest error that max_level may cause, if an error bound determines max_level.
 static double level_bound(const ClrtPicture *wanted, const Scene *scene)
 {
     const double part = scene_has_glass(scene) ? GLASS_PART : TRUNCATION_PART;

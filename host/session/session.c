@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opens the device, and chooses and makes kernels. session_begin opens the device on a background
-// thread while the caller's thread reads the scene. Making kernels on this thread as well would
-// save no measurable time.
+// thread while the caller's thread reads the scene. Making kernels on the background thread, too,
+// would save no measurable time.
 //
 // Two choices save time and never change a picture. Small pictures use kernels that compile faster.
 // Kernels are specialized for the scene if this saves more time than compiling takes (costs.h).

@@ -86,8 +86,8 @@ static void orbit_turn(Orbit *orbit, double right, double down)
         limited(orbit->azimuth - DEGREES_PER_PIXEL * down, -AZIMUTH_LIMIT, AZIMUTH_LIMIT);
 }
 
-// Shows objects at the pivot in the size that they have in a perspective picture from this
-// distance. An orthographic camera does not move, but the height of its picture changes.
+// Shows objects at the pivot in the size that they have in a perspective picture from `distance`.
+// An orthographic camera does not move, but the height of its picture changes.
 static void set_shown_distance(Orbit *orbit, double distance)
 {
     const double shown = limited(distance, NEAREST * orbit->unit, FARTHEST * orbit->unit);

@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "explain/report.h"
 
-// The shortest interval between status updates for tiles, in seconds.
+// The shortest interval between status updates about finished tiles, in seconds.
 #define WAKE_STEP 0.03
 
 // For this many seconds, a request for another camera does not stop PASS_MOVING, so that pictures

@@ -15,8 +15,8 @@ typedef struct {
     const WorkerRequest *request; // the latest request, with the window's size in pixels
     const WorkerStatus *status;
     const char *scene_name;
-    const char *up;     // up axis of a mesh without a scene; NULL for a scene
-    uint32_t samples;   // along each side of a pixel, with anti-aliasing
+    const char *up;     // up axis of a lone mesh file; NULL for a scene file
+    uint32_t samples;   // along each side of a pixel, in anti-aliased pictures
     uint32_t box_count; // number of displayed boxes
     // The strings below are empty if there is nothing to report.
     const char *notice;      // names the pictures that were saved last

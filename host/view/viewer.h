@@ -10,7 +10,7 @@ typedef struct {
     SceneLoadOptions load;
     uint32_t view;          // number of the viewpoint, from 1
     uint32_t width, height; // 0: the scene's
-    uint32_t samples;       // along each side of a pixel, with anti-aliasing
+    uint32_t samples;       // along each side of a pixel, in anti-aliased pictures
     bool smooth, uses_bvh;  // initial values; smooth: resting pictures are anti-aliased
     Encoding encoding;
     int exposure;       // initial, in half stops

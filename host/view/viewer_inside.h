@@ -54,7 +54,7 @@ typedef struct {
     uint64_t moving_shown; // status.moving_frames at the latest displayed frame
     Error failure;         // failure of the window's own operations
     char notice[NOTICE_SIZE];
-    char printed_state[STATE_SIZE], printed_failure[STATE_SIZE]; // as printed last
+    char printed_state[STATE_SIZE], printed_failure[STATE_SIZE]; // the texts that were printed last
     char title[STATE_SIZE];                                      // the window's current title
     bool is_dirty, quits;
 } Viewer;

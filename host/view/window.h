@@ -13,7 +13,7 @@
 typedef struct {
     GLFWwindow *handle;
     Event events[WINDOW_EVENTS]; // the user's actions, added by GLFW's callbacks
-    int event_count;             // the caller resets it
+    int event_count;             // the caller resets this count
     char *dropped;               // path of the latest dropped file, or NULL; owned
     double mouse_x, mouse_y;     // pointer position, without small motions during a click
     int modifiers;               // GLFW's modifier bits at the latest button event

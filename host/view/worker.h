@@ -81,7 +81,7 @@ void worker_poll(Worker *worker, WorkerStatus *status);
 // model yet.
 Model *worker_model(Worker *worker);
 
-// Returns whether the request is finished, except for PASS_COUNT.
+// Returns whether all work for the request is finished, except for PASS_COUNT.
 bool worker_is_finished(const WorkerStatus *status, const WorkerRequest *request);
 
 // Stops and frees the worker. If the worker does not stop within `seconds` seconds, worker_stop

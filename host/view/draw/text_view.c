@@ -120,7 +120,7 @@ static void add_quad(TextView *view, const stbtt_aligned_quad *place, const floa
 typedef struct {
     TextView *view;
     float size;   // of the font, in pixels
-    float x, y;   // of the upper left corner
+    float x, y;   // of the next character's upper left corner
     float right;  // the right end of lines
     float widest; // the largest x so far
     bool draws;   // false: only measures characters
