@@ -78,7 +78,7 @@ bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *diffe
 
 // The cause of a pixel's difference.
 typedef enum {
-    CAUSE_PRIMITIVE,  // the rays through the center hit different primitives
+    CAUSE_PRIMITIVE,  // the rays through the pixel's center hit different primitives
     CAUSE_SHADOW,     // different lights reach the hit point
     CAUSE_TRUNCATION, // one picture's --max-level ends its reflections sooner than the other's
     CAUSE_REFLECTION, // the reflections differ for another reason

@@ -254,8 +254,8 @@ static bool add_ply(Scene *scene, const char *path, const MeshLoadOptions *optio
     return ok;
 }
 
-// Loads the mesh file. Messages that have no position in the mesh file begin with the position of
-// the path in the scene file.
+// Loads the mesh file. If a message names no position in the mesh file, it begins with the path's
+// position in the scene file.
 static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
                         const MeshLoadOptions *options)
 {
