@@ -74,7 +74,7 @@ static inline void expand_node(Beam *beam, uint number, uint packets)
         children_near(node, bounds_of(beam, packets), reach_of(beam, packets), &entry);
     vstore8((uint8)(packets), 0, beam->inside + beam->stack.count);
     push_children(&beam->stack, entry, near, number * WIDE + (uint8)(0, 1, 2, 3, 4, 5, 6, 7));
-    // Prefetching saves 3 % of the time of arrays of camera rays.
+    // For arrays of rays that start on no surface, prefetching saves 3 % of the time.
     if (CLRT_RAYS && exceeds_cache(beam->tracer))
         for (uint bits = lane_bits(near); bits != 0; bits &= bits - 1)
             prefetch_child(beam->tracer, node->child[lowest_bit(bits)]);

@@ -54,8 +54,8 @@ static inline Real3 corner_relative(global const float *corner, const Search *se
                     corner[search->axes.z] + search->backward.z);
 }
 
-// Tests range.y triangles, starting at index range.x. Stops at the first hit if any hit ends the
-// ray.
+// Tests range.y triangles, starting at index range.x. If any hit ends the ray, stops after the
+// first triangle that is hit.
 static inline void intersect_range(const Search *search, uint2 range, Hit *best)
 {
     for (uint index = range.x; index < range.x + range.y; index++) {

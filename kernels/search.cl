@@ -72,8 +72,8 @@ static inline Slabs slabs_of(Real3 origin, Real3 direction)
                    {-far.x * inverse.x, -far.y * inverse.y, -far.z * inverse.z}};
 }
 
-// A search in a tree or a list, with the prepared rays of all lanes. Tests of spheres do not use
-// the members from `limit` on.
+// A search in a tree or a list, with the prepared rays of all lanes. Only the tests against
+// triangles use `limit` and the members from `axes` on.
 typedef struct {
     const Tracer *tracer;
     const Ray *ray;

@@ -3,8 +3,9 @@
 // (host/scene/normalize.h).
 //
 // Invariant: this file compiles as C17 and as OpenCL C, with the same memory layout. Members are
-// float, uint and ulong, arrays of these, and structs. The size of every struct is a multiple of 8
-// bytes, which keeps array elements aligned. tests/kernel measures the layout on the device.
+// float, uint and ulong, arrays of these, and structs. The size of every struct is a multiple of 4
+// bytes, or of 8 if it has a ulong, which keeps array elements aligned. tests/kernel measures the
+// layout on the device.
 #ifndef CLRT_SHARED_H
 #define CLRT_SHARED_H
 

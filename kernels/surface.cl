@@ -234,7 +234,8 @@ static inline Hit hit_everywhere(const Hit *hit, Mask met)
     return filled;
 }
 
-// Returns the surfaces of lanes with a hit. The values of other lanes are unspecified.
+// Returns the surfaces of the lanes in `met`, which have a hit. The values of other lanes are
+// unspecified.
 static inline Surface surface_at(const Tracer *tracer, const Ray *ray, const Hit *hit, Mask met)
 {
     if (!CLRT_TRIANGLES) {

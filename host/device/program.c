@@ -2,9 +2,9 @@
 // Builds a program from a binary in the cache or, without a usable binary, from source.
 // docs/devices.md lists the times of both.
 //
-// Invariant: the key of a cached program contains every input of the compiler. These are the
-// source, the options, the device, the versions of its driver and platform, and PoCL's environment
-// variables. Equal keys therefore stand for equivalent programs.
+// Invariant: the key of a cached program contains every input of the compiler that changes its
+// kernels. These are the source, the options, the device, the versions of its driver and platform,
+// and PoCL's environment variables. Equal keys therefore stand for equivalent programs.
 #include "device/program.h"
 
 #include "base/array.h"
