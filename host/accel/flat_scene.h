@@ -40,7 +40,7 @@ typedef struct {
     const Normalization *normalization; // of the scene
     NodeLayout layout;
     ThreadPool *pool;   // NULL for the caller's thread only
-    bool is_two_sided;  // all meshes are two-sided; otherwise, each object's two_sided decides
+    bool is_two_sided;  // all meshes are two-sided; else only glass, and objects with two_sided
     bool has_tree;      // false: rays test every triangle and every sphere
     BvhBuilder builder; // of trees that scene_compile makes
 } FlatSource;

@@ -37,7 +37,7 @@ static const float cases[][3] = {
     {-0.5f, 0.5f, 0.25f},                                // rint to a negative zero
     {8388609.0f, 7.0f, -1.0f},                           // sums without a fraction
     {0x1.000006p+0f, 0x1.000004p+0f, 1.0f},              // a quotient next to 1
-    {0x1.921fb6p+1f, 0x1.5bf0a8p+1f, 0x1.6a09e6p+0f},    // common constants
+    {0x1.921fb6p+1f, 0x1.5bf0a8p+1f, 0x1.6a09e6p+0f},    // pi, e and the root of 2
     {0x1.fffffap+1f, 0x1.555554p-1f, 0x1.333334p-3f},    // a root just below 2
     {0x1.fffffcp-1f, 0x1.99999ap-4f, 0x1.99999ap-4f},    // a root next to 1
     {0x1.6a09e8p+0f, 0x1.6a09e6p+0f, -2.0f},             // near the root of 2
