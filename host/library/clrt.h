@@ -359,8 +359,8 @@ typedef struct {
 enum { CLRT_LEVEL_NONE = -1 };
 
 // A request for a picture. If only `size` is set, clrt draws the scene's first view as `clrt SCENE
-// -o FILE` does. At most one of `contrast`, `error` and `seconds` may be above 0. If one is, it is
-// the picture's goal. A goal decides where to take samples, so it excludes `samples`, a crop, a
+// -o FILE` does. At most one of `contrast`, `error` and `seconds` may be above 0. The one above 0
+// is the picture's goal. A goal decides where to take samples, so it excludes `samples`, a crop, a
 // tile size and the channels boxtests, tritests and certainty.
 typedef struct {
     size_t size;

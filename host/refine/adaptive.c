@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each pass lists the first samples of all new lines, and then one sample for each open gap. When
+// Each pass lists one sample for each open gap, and then the first samples of all new lines. When
 // all gaps are closed, pixels with new lines may be divided further.
 #include "refine/adaptive.h"
 
@@ -8,11 +8,12 @@
 
 #define PIXELS_MOST ((uint64_t)1 << 31)
 
-// Gaps are bisected until their contrast is at most GAP_PART of the threshold. The fraction is
-// small, because halving takes one sample, and a line takes at least three. Bands are divided if
-// the error of their bend exceeds BEND_PART of the threshold. New gaps between equal samples are
-// bisected if their error by the contrast of other gaps would exceed DOUBT_PART of it. Without
-// these samples, thin strips and tiles had 1.04 to 1.5 times the error at T = 0.01.
+// Gaps are bisected until their error is at most GAP_PART of the threshold. The fraction is small,
+// because bisecting a gap takes one sample, but a new line takes at least three. Bands are divided
+// if the error of their bend exceeds BEND_PART of the threshold. New gaps between equal samples are
+// bisected if their error, computed with the largest contrast of the line, exceeds DOUBT_PART of
+// the threshold. Without these samples, thin strips and tiles had 1.04 to 1.5 times the error at T
+// = 0.01.
 #define GAP_PART   0.13f
 #define BEND_PART  0.17f
 #define DOUBT_PART 1.5f
@@ -46,8 +47,8 @@ static const SampleData *center_beside(const Adaptive *adaptive, uint32_t pixel,
     return &adaptive->centers[neighbor];
 }
 
-// Returns whether lines of the pixel are columns: colors change more along columns, or a thin part
-// crosses columns.
+// Returns whether the pixel's lines are columns. They are if a thin part crosses columns or,
+// without a thin part, if colors change more along columns.
 static bool has_columns(const Adaptive *adaptive, uint32_t pixel)
 {
     const ThinAxis axis = (ThinAxis)adaptive->thin_parts.axes[pixel];
@@ -78,7 +79,8 @@ static bool add_pixel(Adaptive *adaptive, uint32_t pixel, Error *error)
                           end > first ? &parts->probes.data[first] : NULL, end - first, error);
 }
 
-// Fills in the places at which a new line is sampled, in ascending order. Returns their number.
+// Stores in `samples` the places at which a new line is sampled, in ascending order. Returns the
+// number of these places.
 static uint32_t first_places(const Adaptive *adaptive, const ScanLine *line, LineSample *samples)
 {
     const ThinParts *parts = &adaptive->thin_parts;
@@ -98,7 +100,7 @@ static uint32_t first_places(const Adaptive *adaptive, const ScanLine *line, Lin
     return count;
 }
 
-// Returns the position of a place of a line in the picture.
+// Returns the position in the picture of a place on a line.
 static SamplePlace position_of(const Adaptive *adaptive, const ScanLine *line, uint32_t place)
 {
     const RefinedPixel *pixel = &adaptive->lines.pixels.data[line->pixel];
@@ -136,7 +138,8 @@ static bool list_places(const Adaptive *adaptive, PlaceList *places, Error *erro
     return true;
 }
 
-// Adds the neighbor on that side, unless it is refined already or resembles the sample.
+// Adds the pixel's neighbor on a side, unless the neighbor is refined already or its center differs
+// from the sample by at most `most`.
 static bool spread(Adaptive *adaptive, uint32_t pixel, Side side, const SampleData *sample,
                    float most, Error *error)
 {
@@ -147,7 +150,8 @@ static bool spread(Adaptive *adaptive, uint32_t pixel, Side side, const SampleDa
     return add_pixel(adaptive, neighbor, error);
 }
 
-// Opens the next new line. Takes its samples from `data`, and returns their number in *count.
+// Opens the first line that has no samples yet. Takes the line's samples from `data`, and stores
+// the number of these samples in *count.
 static bool open_line(Adaptive *adaptive, const SampleData *data, float most, uint32_t *count,
                       Error *error)
 {
@@ -174,7 +178,8 @@ static bool open_line(Adaptive *adaptive, const SampleData *data, float most, ui
     return ok;
 }
 
-// Traces the samples of open gaps and new lines. If the observer stops the pass, drops its samples.
+// Traces the samples of open gaps and new lines. If the observer stops the pass, drops all samples
+// of the pass.
 static bool trace_pass(Adaptive *adaptive, PlaceList *places, float most, Error *error)
 {
     ScanLines *lines = &adaptive->lines;
@@ -201,8 +206,8 @@ static bool trace_pass(Adaptive *adaptive, PlaceList *places, float most, Error 
     return ok;
 }
 
-// Returns the line of the neighbor that is nearest to the pixel. Instead of a neighbor without such
-// lines, returns the line through its center with its mean color.
+// Returns the neighbor's line that is nearest to the pixel. If the neighbor has no lines along the
+// pixel's axis, returns a line through the neighbor's center with the neighbor's mean color.
 static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel, Side side)
 {
     const ScanLines *lines = &adaptive->lines;
@@ -229,7 +234,7 @@ static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel,
     return mean;
 }
 
-// Divides the pixels of the lines from *first on, which have no open gaps.
+// Adds lines to the pixels of the opened lines from *first on, if necessary. No gap may be open.
 static bool divide(Adaptive *adaptive, uint32_t *first, uint32_t round, Error *error)
 {
     ScanLines *lines = &adaptive->lines;
@@ -254,10 +259,11 @@ static bool divide(Adaptive *adaptive, uint32_t *first, uint32_t round, Error *e
 // The work of threads on rows of pixels.
 typedef struct {
     Adaptive *adaptive;
-    float most; // color difference between pixels that are not refined
+    float most; // largest color difference between pixels that are not refined
 } RowWork;
 
-// Marks the pixels of some rows that differ from a neighbor, or that a thin part touches.
+// Marks the pixels in the rows `first` to `end` - 1 that differ from a neighbor or that a thin part
+// touches.
 static void mark_rows(void *context, uint32_t first, uint32_t end)
 {
     const RowWork *work = context;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Adaptive anti-aliasing takes one sample per pixel, and then more where neighbors differ or parts
-// are thin. The idea is from Whitted, "An improved illumination model for shaded display", 1980.
+// Adaptive anti-aliasing takes one sample per pixel, and then more samples where neighbors differ
+// or parts are thin. The idea is from Whitted, "An improved illumination model for shaded display",
+// 1980.
 //
 // A pixel is refined if its color differs too much from a neighbor's, or if it touches a triangle
 // or sphere that samples may miss (thin_parts.h). Refined pixels have samples on scan lines
-// (scan_lines.h). If samples near a pixel's border differ from the neighbor, the neighbor is
-// refined too.
+// (scan_lines.h). If samples near the border of a refined pixel differ from the neighbor there, the
+// neighbor is refined too.
 //
 // A pass selects all its places before it traces any of them, so that the samples form one large
 // list for the device.
@@ -32,11 +33,11 @@ typedef struct {
 // Takes one sample per pixel. Fails if the picture has more than 2^31 pixels.
 bool adaptive_open(Adaptive *adaptive, const RefineSetup *setup, Error *error);
 
-// Refines pixels whose contrast exceeds the threshold, and pixels with thin parts. Stops when the
+// Refines pixels whose contrast exceeds `threshold`, and pixels with thin parts. Stops when the
 // observer returns false. The caller may call this function only once.
 bool adaptive_refine(Adaptive *adaptive, float threshold, Error *error);
 
-// Stores the current state in the setup's picture.
+// Stores the present colors of all pixels in the setup's picture.
 void adaptive_store(Adaptive *adaptive);
 
 // Returns the number of samples taken in a pixel.

@@ -25,7 +25,7 @@
 // small picture.
 #define TASK_PIXELS (1u << 16)
 
-// Statistics of the pixels of a row of areas, by stratum.
+// Statistics by stratum, for the pixels in one row of areas.
 typedef struct {
     uint32_t pixels[BEND_CLASSES];
     double features[BEND_CLASSES]; // sums

@@ -21,7 +21,8 @@ typedef struct {
     uint32_t count, small;          // requests in the list, and small requests in the list
 } PixelRequests;
 
-// Traces the requests and stores their sums. If the observer stops the trace, some are missing.
+// Traces the requests and stores their sums. If the observer stops the trace, some sums are
+// missing.
 bool pixel_requests_trace(PixelRequests *requests, Error *error);
 
 // Computes the mean color of the samples. `samples` must be a power of two.

@@ -20,7 +20,7 @@
 // - parts that are visible only in mirrors or by their shadows;
 // - the thinnest parts, if all probes together would take more than THIN_SAMPLES samples per pixel
 //   of the picture. The deepest levels are then omitted;
-// - pieces with too many thin triangles to list (thin_triangles.c). These have no probes.
+// - pieces with too many thin triangles to list (thin_triangles.c). Such pieces have no probes.
 #pragma once
 
 #include "refine/thin_places.h"
