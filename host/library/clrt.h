@@ -374,7 +374,7 @@ typedef struct {
     double contrast;  // adds samples where neighbors differ by more than this; at most 1
     double error;     // adds samples until the RMSE is at most this; at most 1; values below 1.6e-4
                       // require a renderer with CLRT_FP64
-    double seconds;   // adds samples for this time; at most 1e6
+    double seconds;   // adds samples for this many seconds; at most 1e6
     int32_t max_level; // rays of this level see the background; CLRT_LEVEL_NONE, or at most 1000;
                        // 0: `truncation` or `error` selects it; if both are 0, the scene's
     double truncation; // above 0: selects the smallest max_level whose error is at most this; in

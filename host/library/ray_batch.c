@@ -134,7 +134,7 @@ static double cube_entry(double cube, Vec3 origin, Vec3 direction)
                 entry_of_axis(cube, origin.z, direction.z));
 }
 
-// Returns half the side of a cube around the origin that is about twice as large as the scene.
+// Returns half the side of a cube around the origin. The cube is about twice as large as the scene.
 static double cube_around(const FlatScene *flat)
 {
     double cube = LEAST_CUBE;

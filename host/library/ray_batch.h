@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
     RayQuery query; // RAYS_NEAREST or RAYS_ALL
     ClrtHits hits;  // room is 1 for RAYS_NEAREST
-    uint8_t *flags; // of clrt_occluded or clrt_contains; may be NULL
+    uint8_t *flags; // the results of clrt_occluded or clrt_contains; may be NULL
 } RayResults;
 
 // A batch of rays, and arrays for its present part. Entry i of the arrays belongs to ray first +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Each pass lists one sample for each open gap, and then the first samples of all new lines. When
-// all gaps are closed, pixels with new lines may be divided further.
+// all gaps are closed, pixels with new lines may get further lines.
 #include "refine/adaptive.h"
 
 #include <stdlib.h>

@@ -26,7 +26,7 @@ typedef struct {
 
 typedef enum {
     PASS_NONE,
-    PASS_MOVING, // should take at most a frame's time; camera motion does not stop it at once
+    PASS_MOVING, // takes about a frame's time; a moving camera does not stop this pass at once
     PASS_FULL,   // all pixels, with one sample or with all samples
     PASS_COUNT   // the full picture again, with counters
 } PassKind;

@@ -80,7 +80,7 @@ def use_device():
 
 
 def call(name, *arguments):
-    """Calls clrt_NAME with a ClrtError as the last argument, which is raised if the call fails."""
+    """Calls clrt_NAME with a ClrtError as the last argument. Raises an Error if the call fails."""
     error = ffi.new("ClrtError *")
     result = getattr(lib, "clrt_" + name)(*arguments, error)
     if not result:
