@@ -83,10 +83,9 @@ static int compare_subtrees(const void *first, const void *second)
 // Counts the nodes, leaves and levels of a subtree. The depth of the tree bounds the recursion.
 static void count_nodes(Bvh *bvh, uint32_t number, uint32_t parents)
 {
-    BvhNode *node = &bvh->nodes[number];
+    const BvhNode *node = &bvh->nodes[number];
     bvh->node_count++;
     if (node->count > 0) {
-        node->leaf_count = 1;
         bvh->leaf_count++;
         bvh->largest_leaf = node->count > bvh->largest_leaf ? node->count : bvh->largest_leaf;
         bvh->depth = parents + 1 > bvh->depth ? parents + 1 : bvh->depth;
@@ -95,7 +94,6 @@ static void count_nodes(Bvh *bvh, uint32_t number, uint32_t parents)
     bvh->inner_counts[parents]++;
     count_nodes(bvh, node->first, parents + 1);
     count_nodes(bvh, node->first + 1, parents + 1);
-    node->leaf_count = bvh->nodes[node->first].leaf_count + bvh->nodes[node->first + 1].leaf_count;
 }
 
 static bool build_all(Whole *whole, Error *error)

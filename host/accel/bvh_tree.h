@@ -27,7 +27,6 @@ typedef struct {
 typedef struct {
     Box box; // tight bounds of the triangles below
     uint32_t first, count;
-    uint32_t leaf_count; // leaves of the subtree; 1 for a leaf
 } BvhNode;
 
 typedef struct {

@@ -17,6 +17,7 @@ typedef struct {
     BvhWide *nodes;     // node_count nodes; owned
     ItemRange *blocks;  // block_count ranges of at most WIDE items; owned
     uint32_t node_count, block_count;
+    uint32_t *left_slots; // for each node of bvh: 4 bits for each number of slots; owned
 } WideTree;
 
 // Makes the nodes and blocks of tree->bvh. If this Bvh has no nodes, makes only blocks, of items 0

@@ -35,7 +35,7 @@ static Box make_leaf(Making *making, const Part *part)
         const float *point = triangles_corner(making->triangles, part->first + i / 3, (int)(i % 3));
         box_include(&box, point, point);
     }
-    bvh->nodes[part->node] = (BvhNode){box, part->first, part->count, 1};
+    bvh->nodes[part->node] = (BvhNode){box, part->first, part->count};
     bvh->leaf_count++;
     if (part->count > bvh->largest_leaf)
         bvh->largest_leaf = part->count;
@@ -58,8 +58,7 @@ static Box make_node(Making *making, Part part)
     Box box = make_node(making, first);
     const Box other = make_node(making, second);
     box_include(&box, other.low, other.high);
-    bvh->nodes[part.node] = (BvhNode){
-        box, children, 0, bvh->nodes[children].leaf_count + bvh->nodes[children + 1].leaf_count};
+    bvh->nodes[part.node] = (BvhNode){box, children, 0};
     return box;
 }
 
