@@ -160,11 +160,11 @@ void jobs_trace(Worker *worker, const Job *job)
     report_failure(worker, job, &error);
 }
 
-static void report_taken(Worker *worker, const Job *job, const Error *error)
+static void report_taken(Worker *worker, const Job *job, uint64_t renewals, const Error *error)
 {
     WorkerStatus *status = begin_update(worker);
     status->done.uses_bvh = job->request.uses_bvh;
-    status->done.renewals = job->request.renewals;
+    status->done.renewals = renewals;
     status->failure = *error;
     status->busy = "";
     if (error->text[0] == '\0')
@@ -277,7 +277,7 @@ void jobs_load(Worker *worker, const Job *job)
         report_fault(worker, model == NULL ? FAULT_SCENE : FAULT_DEVICE,
                      model == NULL ? &scene_failure : &failure);
     else if (ok)
-        report_taken(worker, job, &failure);
+        report_taken(worker, job, worker->status.done.renewals, &failure);
     report_loaded(worker, job, &scene_failure);
     model_release(model);
 }
@@ -290,7 +290,7 @@ void jobs_take(Worker *worker, const Job *job)
         job->request.uses_bvh == done->uses_bvh || take(worker, job, worker->traced, &error);
     if (is_taken && job->request.renewals != done->renewals)
         renew(worker, &error);
-    report_taken(worker, job, &error);
+    report_taken(worker, job, job->request.renewals, &error);
 }
 
 void jobs_explain(Worker *worker, const Job *job)

@@ -2,13 +2,15 @@
 // If preloaded, this library makes the device fail as if it ran out of memory or were lost.
 // CLRT_FAIL_NAME names an OpenCL function of this file. The function's first CLRT_FAIL_CALL - 1
 // calls succeed, and all later calls fail. The text of CLRT_FIRST_LINES precedes the source of
-// every OpenCL program. Macros in this text can make the device round wrongly.
+// every OpenCL program. Macros in this text can make the device round wrongly. While the file
+// CLRT_BUILD_WAITS exists, no program is built.
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static atomic_long calls;
 
@@ -76,4 +78,16 @@ cl_int clWaitForEvents(cl_uint count, const cl_event *events)
     *(void **)&real = dlsym(RTLD_NEXT, "clWaitForEvents");
     const cl_int status = real(count, events);
     return fails("clWaitForEvents") ? CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST : status;
+}
+
+cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id *devices,
+                      const char *options, void(CL_CALLBACK *notify)(cl_program, void *),
+                      void *context)
+{
+    const char *file = getenv("CLRT_BUILD_WAITS");
+    __typeof__(clBuildProgram) *real;
+    *(void **)&real = dlsym(RTLD_NEXT, "clBuildProgram");
+    while (file != NULL && access(file, F_OK) == 0)
+        usleep(10000);
+    return real(program, count, devices, options, notify, context);
 }
