@@ -12,8 +12,9 @@
 #include <math.h>
 
 // After the window is closed, the process waits at most this many seconds for the worker thread to
-// end. The thread may be compiling, and PoCL's files must not be removed during compilation.
-#define PATIENCE 10
+// end. The thread may be compiling, which takes longer. Builds with sanitizers free everything at
+// the end, so they wait for the compilation.
+#define PATIENCE (CLRT_TIDY_EXIT ? 10 : 1)
 
 void show_write_keys(FILE *stream)
 {
@@ -49,7 +50,12 @@ ExitCode show_scene(const Options *options, Session *session, Scene *scene, Erro
     // without a display.
     if (!file_check(options->scene_path, error))
         return EXIT_SCENE;
-    return codes[viewer_run(&settings, error)];
+    bool is_stopped;
+    const ViewerEnd end = viewer_run(&settings, &is_stopped, error);
+    // PoCL needs its files during compilation. The next process removes the folder.
+    if (!is_stopped)
+        session->cache.private_folder[0] = '\0';
+    return codes[end];
 }
 #else
 void show_write_keys(FILE *stream)

@@ -209,8 +209,8 @@ static ViewerEnd show(Viewer *viewer, Error *error)
 }
 
 // Stops the worker and frees the viewer. If the worker does not stop in time, it may still use the
-// viewer. The viewer is then not freed, and the process must end.
-static void close_viewer(Viewer *viewer)
+// viewer. The viewer is then not freed, and the function returns false.
+static bool close_viewer(Viewer *viewer)
 {
     if (viewer->window.handle != NULL)
         glfwHideWindow(viewer->window.handle);
@@ -225,18 +225,20 @@ static void close_viewer(Viewer *viewer)
         views_close(&viewer->views);
     window_close(&viewer->window);
     if (viewer->worker != NULL && !worker_stop(viewer->worker, viewer->settings.patience))
-        return;
+        return false;
     for (size_t i = 0; i < viewer->dropped.count; i++)
         free(viewer->dropped.data[i]);
     free(viewer->dropped.memory);
     glfwTerminate();
     canvas_close(&viewer->canvas);
     free(viewer);
+    return true;
 }
 
-ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
+ViewerEnd viewer_run(const ViewerSettings *settings, bool *is_stopped, Error *error)
 {
     Viewer *viewer = memory_zeroed(1, sizeof *viewer, error);
+    *is_stopped = true;
     if (viewer == NULL || !window_connect(error)) {
         free(viewer);
         return VIEWER_NO_WINDOW;
@@ -260,6 +262,6 @@ ViewerEnd viewer_run(const ViewerSettings *settings, Error *error)
         viewer->worker = worker_start(&setup, &viewer->request, error);
     if (viewer->worker != NULL)
         end = show(viewer, error);
-    close_viewer(viewer);
+    *is_stopped = close_viewer(viewer);
     return end;
 }

@@ -23,5 +23,6 @@ typedef struct {
 
 typedef enum { VIEWER_CLOSED, VIEWER_NO_WINDOW, VIEWER_NO_SCENE, VIEWER_NO_DEVICE } ViewerEnd;
 
-// Shows the scene until the window is closed or a failure occurs.
-ViewerEnd viewer_run(const ViewerSettings *settings, Error *error);
+// Shows the scene until the window is closed or a failure occurs. *is_stopped receives false if the
+// worker thread still runs. The process must then end, and must not remove PoCL's private folder.
+ViewerEnd viewer_run(const ViewerSettings *settings, bool *is_stopped, Error *error);

@@ -145,10 +145,22 @@ bool viewer_is_settled(const Viewer *viewer)
            !viewer->wants_save && (viewer->state.turning || still);
 }
 
+// Returns whether the camera has moved since the traced picture, and the worker cannot trace yet.
+// It compiles kernels, for example.
+static bool is_outdated(const Viewer *viewer)
+{
+    const WorkerStatus *status = &viewer->status;
+    return (status->busy[0] != '\0' || status->reached.subject == 0) &&
+           memcmp(&status->done.camera, &viewer->state.camera, sizeof(Viewpoint)) != 0;
+}
+
+// OpenGL replaces an outdated traced picture, so that the window follows the camera.
 static Frame frame_of(Viewer *viewer)
 {
-    const bool lags = viewer->state.traced && viewer->status.reached.subject > 0;
+    const bool is_traced = viewer->state.traced && !is_outdated(viewer);
+    const bool lags = is_traced && viewer->status.reached.subject > 0;
     return (Frame){.state = &viewer->state,
+                   .is_traced = is_traced,
                    .is_moving = viewer->moved > 0,
                    .model = viewer->model,
                    .has_tree = viewer->status.has_tree,

@@ -127,9 +127,9 @@ static bool draw(Views *views, const Frame *frame, uint32_t factor, Error *error
     if (lens.farthest > 0)
         glEnable(GL_CLIP_DISTANCE0);
     glDepthFunc(GL_LEQUAL);
-    if (!state->traced || state->boxes || state->normals || !has_picture(frame->canvas))
+    if (!frame->is_traced || state->boxes || state->normals || !has_picture(frame->canvas))
         draw_scene(views, frame, &lens);
-    if (state->traced)
+    if (frame->is_traced)
         ray_view_draw(&views->rays, frame->canvas, width, height);
     const bool ok = draw_lines(views, frame, &lens, error);
     glDisable(GL_CLIP_DISTANCE0);

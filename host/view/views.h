@@ -20,6 +20,7 @@ typedef struct {
 
 typedef struct {
     const State *state;
+    bool is_traced; // the ray-traced picture is displayed
     bool is_moving; // the camera moves, so OpenGL's picture is not anti-aliased
     const Model *model;
     bool has_tree; // the model's tree is built

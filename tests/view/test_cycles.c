@@ -42,8 +42,10 @@ static void show_once(const char *keys)
         .worker = {.session = {.wanted = {.threads = 2}}, .cache = cache},
         .keys = keys,
         .patience = 60};
-    if (viewer_run(&settings, &error) != VIEWER_CLOSED)
+    bool is_stopped;
+    if (viewer_run(&settings, &is_stopped, &error) != VIEWER_CLOSED)
         fail_msg("%s", error.text);
+    assert_true(is_stopped);
 }
 
 // The linker replaces calls of window_open, window_is_lost and file_read by the __wrap_ functions.

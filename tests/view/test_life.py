@@ -99,6 +99,28 @@ def camera_moves_while_a_picture_is_traced(screen):
     window.end()
 
 
+def the_camera_moves_and_q_quits_while_kernels_are_built(screen, folder):
+    library, wait = os.environ["CLRT_FAIL_DEVICE"], folder / "wait"
+    if not library:
+        print("skipped: a build with sanitizers preloads no library")
+        return
+    os.environ.update(LD_PRELOAD=library, CLRT_BUILD_WAITS=str(wait))
+    window = opened(screen, SCENE)
+    del os.environ["LD_PRELOAD"], os.environ["CLRT_BUILD_WAITS"]
+    before = window.read()
+    wait.touch()  # from now on, no kernel is built
+    screen.do("key", "R")
+    window.drag(1, 60, 10)
+    window.until(lambda shown: shown != before, "follows the mouse")
+    time.sleep(0.5)
+    assert not any("moved" in line for line in list(window.lines.queue)), "a kernel was built"
+    wait.unlink()
+    window.wait("ray traced, view 1 moved")
+    wait.touch()
+    screen.do("key", "R", "q")
+    window.end()
+
+
 def a_minimised_and_a_tiny_window_go_on(screen, window):
     before = window.read()
     screen.do("search", "--name", "clrt", "windowunmap", "--sync")
