@@ -97,8 +97,11 @@ static bool draw_reference(Drawing *drawing, ClrtError *error)
     if (ok && !drawing->is_stopped)
         memcpy(frame->pixels, reference.picture.pixels,
                (size_t)frame->width * frame->height * sizeof *frame->pixels);
+    SessionPicture *request = &drawing->request;
+    request->settings.max_level = request->reference_level;
     drawing->drawn.estimate = reference.own_error;
-    drawing->drawn.truncated = drawing->request.truncated;
+    drawing->drawn.truncated = truncation_bound(drawing->scene, request->reference_level);
+    drawing->drawn.samples = (uint64_t)frame->width * frame->height * request->reference_samples;
     drawing->seconds = clock_seconds() - start;
     framebuffer_free(&reference.picture);
     return ok && check_stopped(drawing, error);

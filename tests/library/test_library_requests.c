@@ -260,13 +260,16 @@ TEST(the_reference_is_the_programs)
     assert_true(handle >= 0);
     close(handle);
     picture.reference_samples = 16;
+    picture.max_level = 1; // the reference has the scene's level
     picture.result = &result;
     assert_true(clrt_reference(renderer, scene, &picture, rgb, NULL));
-    snprintf(options, sizeof options, "--reference=%s --reference-samples 16", path);
+    snprintf(options, sizeof options, "--reference=%s --reference-samples 16 --max-level 1", path);
     free(program_draw(program_file(file), options, WIDTH, HEIGHT));
     float *expected = program_read(path, WIDTH, HEIGHT);
     assert_memory_equal(rgb, expected, sizeof rgb);
     assert_true(result.error > 0 && result.error < 0.1);
+    assert_int_equal(result.max_level, 3);
+    assert_int_equal(result.sample_count, 16 * PIXELS);
     free(expected);
     unlink(path);
 }
