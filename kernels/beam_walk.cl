@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Walks the trees with a beam, first the tree over spheres. If all rays start on one triangle, the
-// beam skips it. If all rays start on triangles of one level plane, the beam skips the plane's
-// triangles.
+// beam skips it. If all rays start on triangles of one plane that is perpendicular to an axis, the
+// beam skips the plane's triangles.
 #ifndef CLRT_BEAM_WALK_CL
 #define CLRT_BEAM_WALK_CL
 #include "beam.cl"

@@ -208,8 +208,9 @@ static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
     }
 }
 
-// Returns whether the axis enters the sphere before `reach` if the sphere has grown `factor` times
-// as much as it must. If not, the tracer finds no hit of the sphere before `reach` (B21).
+// Returns whether the axis enters the sphere before `reach` after the sphere has grown by `factor`
+// times the bound of B21. If the result is false, the tracer finds no hit of the sphere before
+// `reach`.
 static inline bool cone_may_meet(const RayCone *ray, const PlainSphere *sphere, Real factor,
                                  Real reach)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds a surface's material: its own, with the color of a check or of vertices.
+// Finds a surface's material. The color of a check or of vertices, if the surface has any, replaces
+// the material's color.
 //
 // For checks, cubes fill the scene. A cube is odd if the sum of its three indices is odd. A
 // triangle shows the cube on the side away from the ray, and a sphere shows the cube inside it. A

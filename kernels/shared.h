@@ -178,7 +178,8 @@ typedef struct {
 } SphereBlock;
 CLRT_SAME_SIZE(SphereBlock, 288)
 
-// Entries of the array of spheres that a SphereBlock takes.
+// The number of SphereData that have the size of a SphereBlock. The array of spheres ends with the
+// blocks.
 #define SPHERE_BLOCK_ENTRIES 6
 
 // A leaf of the wide tree: up to WIDE triangles, component by component. An empty slot holds the id
@@ -189,7 +190,8 @@ typedef struct {
 } TriangleBlock;
 CLRT_SAME_SIZE(TriangleBlock, 320)
 
-// The data for shading a triangle of a block, besides its corners. Entries are in file order.
+// The data for shading a triangle of a block, besides its corners. The array has the triangles in
+// the order of the file, although the blocks have the tree's order.
 typedef struct {
     uint material; // index
     uint shading;  // see TRIANGLE_COLORED

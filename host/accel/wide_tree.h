@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Bvh -> wide nodes and the ranges of their blocks. The items are triangles or spheres.
+// A Bvh over triangles or spheres, its items -> wide nodes, and the items of each block.
 #pragma once
 
 #include "accel/bvh_tree.h"

@@ -2,7 +2,8 @@
 // Turns counts and measurements into findings with texts. The check fails if the scene cannot be
 // drawn, if it has only points, or if a fault can cause holes or wrong pixels. Such faults are
 // values that are not finite, triangles without area, leaks of closed meshes, and duplicates of
-// meshes, triangles or spheres. The scene's author may intend all other findings.
+// meshes, triangles or spheres. The scene's author may have intended all other findings, so they do
+// not fail the check.
 #include "check/findings.h"
 
 #include "scene/camera.h"

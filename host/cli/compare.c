@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// clrt compare: reads two pictures, measures their difference and reports it as text and JSON. JSON
-// contains shares as fractions. The text contains them in percent, except in the lines on limits.
+// clrt compare: reads two pictures, measures their difference and reports it as text and JSON.
+// Errors and parts of the picture are numbers from 0 to 1 in JSON and in the lines on limits, and
+// percentages elsewhere in the text.
 // The limits of --fail determine the exit status.
 #include "cli/commands.h"
 

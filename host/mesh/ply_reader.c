@@ -81,7 +81,7 @@ bool ply_reader_check_room(PlyReader *reader, int64_t count, size_t size)
 {
     assert(count >= 0 && size > 0);
     const size_t left = (size_t)(reader->end - reader->next);
-    // An ASCII value takes a character and a blank, but the last value of the file needs no blank.
+    // An ASCII value takes at least a digit and a blank, but the file's last value needs no blank.
     const size_t room = reader->format == PLY_ASCII ? left + 1 : left;
     if ((uint64_t)count <= room / size)
         return true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // FlatScene and camera -> the certainty of each pixel, and new colors for pixels repaired in fp64
 // (kernels/certify.cl). A pixel is certified if rounding cannot change the hits of its rays, the
-// lights that reach the hits, or the checks that the hits show.
+// lights that reach the hits, or the squares of checkers at the hits.
 #pragma once
 
 #include "image/framebuffer.h"

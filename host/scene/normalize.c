@@ -75,7 +75,7 @@ static double distance_to_triangles(const Scene *scene, Vec3 point)
     return nearest;
 }
 
-// Returns the camera's reach, the distance up to which the camera shows details. The reach is the
+// Returns the camera's reach, which stands for the size of the visible details. The reach is the
 // distance to the look-at point or, if no surface is that near, to the nearest surface. For an
 // orthographic camera, it is the picture's height.
 static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
@@ -182,8 +182,7 @@ bool normalization_is_fine(const Normalization *normalization, const Scene *scen
     for (size_t i = 0; i < scene->viewpoints.count; i++) {
         const Viewpoint *viewpoint = &scene->viewpoints.data[i];
         const double away = vec3_extent(vec3_sub(viewpoint->eye, normalization->center));
-        // reach_of visits all triangles, so it runs only if the distance to the look-at point is
-        // too small for this test.
+        // A distant look-at point suffices. Otherwise reach_of visits all triangles.
         if (viewpoint->height == 0 &&
             away <= COARSE / 2 * distance_between(viewpoint->look_at, viewpoint->eye))
             continue;

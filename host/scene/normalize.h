@@ -57,6 +57,6 @@ Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);
 
 // Returns false with a note if floats are too coarse for a camera: rounding may move its eye by
-// more than 2^-12 of the distance up to which the camera shows details. Such scenes have small and
-// very distant parts.
+// more than 2^-12 of the distance to the look-at point and to the nearest surface, or of the height
+// of an orthographic picture. Such scenes have small and very distant parts.
 bool normalization_is_fine(const Normalization *normalization, const Scene *scene, Error *note);

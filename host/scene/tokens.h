@@ -52,6 +52,6 @@ bool tokens_integer(Tokens *tokens, int64_t *value, int64_t low, int64_t high);
 bool tokens_end(Tokens *tokens);
 
 // Sets the error to "NAME:LINE:COLUMN: MESSAGE: found TOKEN; the statement is 'USAGE'" and returns
-// false. Omits the statement if it is unknown.
+// false. If the statement is unknown, the text ends after TOKEN.
 __attribute__((format(printf, 3, 4))) bool tokens_fail(const Tokens *tokens, Token token,
                                                        const char *format, ...);

@@ -6,8 +6,8 @@
 // A session makes kernels and layouts at their first use and then keeps them. Only one thread at a
 // time may use a session.
 //
-// Invariant: except for precision, replaced kernels and compiler options, the settings change no
-// bit of a picture.
+// Invariant: the settings change no bit of a picture. The exceptions are the precision, other
+// sources of kernels, and extra options for the compiler.
 #pragma once
 
 #include "device/cache_private.h"

@@ -206,8 +206,8 @@ typedef struct {
     Error *error;
 } Collection;
 
-// Adds the boxes at collection->depth in a subtree. The subtree's root is node `number`, which has
-// depth `depth`. The depth of the tree bounds the recursion.
+// Adds the boxes of those nodes below node `number` whose depth in the whole tree is
+// collection->depth. Node `number` has the depth `depth`. The tree's depth bounds the recursion.
 static bool collect(const Collection *collection, uint32_t number, uint32_t depth)
 {
     const BvhNode *node = &collection->bvh->nodes[number];
