@@ -79,24 +79,34 @@ static bool add_pixel(Adaptive *adaptive, uint32_t pixel, Error *error)
                           end > first ? &parts->probes.data[first] : NULL, end - first, error);
 }
 
+// Inserts a place into an ascending list, unless the list has the place. The list's first place is
+// 0. Returns the new number of places.
+static uint32_t insert_place(LineSample *samples, uint32_t count, uint32_t place)
+{
+    uint32_t i = count;
+    while (samples[i - 1].place > place)
+        i--;
+    if (samples[i - 1].place == place)
+        return count;
+    memmove(&samples[i + 1], &samples[i], (count - i) * sizeof *samples);
+    samples[i].place = place;
+    return count + 1;
+}
+
 // Stores in `samples` the places at which a new line is sampled, in ascending order. Returns the
 // number of these places.
 static uint32_t first_places(const Adaptive *adaptive, const ScanLine *line, LineSample *samples)
 {
     const ThinParts *parts = &adaptive->thin_parts;
     const RefinedPixel *pixel = &adaptive->lines.pixels.data[line->pixel];
-    bool wanted[REFINE_GRID] = {false};
-    uint32_t count = 0;
     const uint32_t gaps = line->height < band_height(0) ? 2 * LINE_GAPS : LINE_GAPS;
-    for (uint32_t i = 0; i <= gaps; i++)
-        wanted[i * (REFINE_GRID - 1) / gaps] = true;
+    uint32_t count = 0;
+    for (; count <= gaps; count++)
+        samples[count].place = count * (REFINE_GRID - 1) / gaps;
     for (size_t i = pixel->probes;
          i < parts->probes.count && parts->probes.data[i].pixel == pixel->pixel; i++)
         if (parts->probes.data[i].line == line->middle)
-            wanted[parts->probes.data[i].place] = true;
-    for (uint32_t place = 0; place < REFINE_GRID; place++)
-        if (wanted[place])
-            samples[count++].place = place;
+            count = insert_place(samples, count, parts->probes.data[i].place);
     return count;
 }
 
@@ -262,21 +272,28 @@ typedef struct {
     float most; // largest color difference between pixels that are not refined
 } RowWork;
 
+// Returns whether a pixel differs from a neighbor.
+static bool has_contrast(const Adaptive *adaptive, uint32_t x, uint32_t y, float most)
+{
+    const uint32_t width = adaptive->frame.width, height = adaptive->frame.height;
+    const SampleData *center = &adaptive->centers[y * width + x];
+    return (x > 0 && sample_difference(center, center - 1) > most) ||
+           (x + 1 < width && sample_difference(center, center + 1) > most) ||
+           (y > 0 && sample_difference(center, center - width) > most) ||
+           (y + 1 < height && sample_difference(center, center + width) > most);
+}
+
 // Marks the pixels in the rows `first` to `end` - 1 that differ from a neighbor or that a thin part
 // touches.
 static void mark_rows(void *context, uint32_t first, uint32_t end)
 {
     const RowWork *work = context;
     Adaptive *adaptive = work->adaptive;
-    for (uint32_t pixel = first * adaptive->frame.width; pixel < end * adaptive->frame.width;
-         pixel++) {
-        const SampleData *center = &adaptive->centers[pixel];
-        bool is_refined = adaptive->thin_parts.axes[pixel] != THIN_NONE;
-        for (int side = 0; side < 4 && !is_refined; side++)
-            is_refined =
-                sample_difference(center, center_beside(adaptive, pixel, (Side)side)) > work->most;
-        adaptive->refined[pixel] = is_refined;
-    }
+    uint32_t pixel = first * adaptive->frame.width;
+    for (uint32_t y = first; y < end; y++)
+        for (uint32_t x = 0; x < adaptive->frame.width; x++, pixel++)
+            adaptive->refined[pixel] = adaptive->thin_parts.axes[pixel] != THIN_NONE ||
+                                       has_contrast(adaptive, x, y, work->most);
 }
 
 // The side of the blocks in which pixels are refined.

@@ -187,6 +187,11 @@ LineMean scan_line_mean(const ScanLine *line)
     return mean;
 }
 
+static inline double larger(double one, double other)
+{
+    return one > other ? one : other;
+}
+
 // Returns the change in slope of the mean color at the middle one of three lines, mean[-1] to
 // mean[1].
 static double bend_at(const LineMean *mean)
@@ -197,44 +202,54 @@ static double bend_at(const LineMean *mean)
             (mean[0].color[channel] - mean[-1].color[channel]) / (mean[0].middle - mean[-1].middle);
         const double after =
             (mean[1].color[channel] - mean[0].color[channel]) / (mean[1].middle - mean[0].middle);
-        bend = fmax(bend, fabs(after - before));
+        bend = larger(bend, fabs(after - before));
     }
     return bend;
 }
 
-// Stores the mean colors of a pixel's lines in order. Returns their number.
-static uint32_t sorted_means(const ScanLines *scan, uint32_t number, LineMean means[REFINE_GRID])
+// Stores the indices of a pixel's lines in the order of their middles. Returns their number.
+static uint32_t sorted_lines(const ScanLines *scan, uint32_t number, uint32_t lines[REFINE_GRID])
 {
-    uint32_t lines[REFINE_GRID] = {0}, count = 0;
-    for (uint32_t i = scan->pixels.data[number].lines; i != 0; i = scan->lines.data[i].next)
-        lines[scan->lines.data[i].middle] = i;
-    for (uint32_t middle = 0; middle < REFINE_GRID; middle++)
-        if (lines[middle] != 0)
-            means[count++] = scan_line_mean(&scan->lines.data[lines[middle]]);
+    const ScanLine *all = scan->lines.data;
+    uint32_t count = 0;
+    for (uint32_t i = scan->pixels.data[number].lines; i != 0; i = all[i].next) {
+        uint32_t place = count++;
+        for (; place > 0 && all[lines[place - 1]].middle > all[i].middle; place--)
+            lines[place] = lines[place - 1];
+        lines[place] = i;
+    }
     return count;
+}
+
+// Divides a line's band into three.
+static bool divide_line(ScanLines *scan, uint32_t index, Error *error)
+{
+    ScanLine *line = &scan->lines.data[index];
+    const uint32_t number = line->pixel, middle = line->middle, part = line->height / 3u;
+    line->height = (uint8_t)part;
+    return add_line(scan, number, middle - part, part, error) &&
+           add_line(scan, number, middle + part, part, error);
 }
 
 bool scan_lines_divide(ScanLines *scan, uint32_t number, const LineMean beyond[2], Error *error)
 {
-    LineMean means[REFINE_GRID + 2] = {beyond[0]};
-    const uint32_t count = sorted_means(scan, number, means + 1);
-    double bends[REFINE_GRID] = {0};
+    uint32_t lines[REFINE_GRID];
+    LineMean means[REFINE_GRID + 2];
+    double bends[REFINE_GRID + 2] = {0};
+    const uint32_t count = sorted_lines(scan, number, lines);
     bool ok = true;
+    means[0] = beyond[0];
     means[count + 1] = beyond[1];
+    for (uint32_t i = 0; i < count; i++)
+        means[i + 1] = scan_line_mean(&scan->lines.data[lines[i]]);
     for (uint32_t i = 1; i <= count; i++)
-        for (uint32_t near = i - 1; near <= i + 1; near++)
-            if (near > 0 && near <= count)
-                bends[means[near].middle] = fmax(bends[means[near].middle], bend_at(&means[i]));
-    for (uint32_t i = scan->pixels.data[number].lines; ok && i != 0; i = scan->lines.data[i].next) {
-        ScanLine *line = &scan->lines.data[i];
-        const uint32_t middle = line->middle, part = line->height / 3u;
-        const double error_of_bend =
-            bends[middle] * line->height * line->height / (8 * REFINE_GRID);
-        if (error_of_bend <= (double)scan->bend || part < scan->pixels.data[number].least)
-            continue;
-        line->height = (uint8_t)part;
-        ok = add_line(scan, number, middle - part, part, error) &&
-             add_line(scan, number, middle + part, part, error);
+        bends[i] = bend_at(&means[i]);
+    for (uint32_t i = 0; ok && i < count; i++) {
+        const uint32_t height = scan->lines.data[lines[i]].height;
+        const double bend = larger(larger(bends[i], bends[i + 1]), bends[i + 2]);
+        if (bend * height * height / (8 * REFINE_GRID) > (double)scan->bend &&
+            height / 3 >= scan->pixels.data[number].least)
+            ok = divide_line(scan, lines[i], error);
     }
     return ok;
 }
