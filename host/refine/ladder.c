@@ -29,19 +29,18 @@ uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel)
 // Allocates all arrays of fixed size as one block, because only large blocks get huge pages.
 static bool make_arrays(Ladder *ladder, Error *error)
 {
-    PixelRequests *requests = &ladder->requests;
     const size_t pixels = ladder->statistics.pixels;
-    const size_t request_size = sizeof *requests->sums + sizeof *requests->requests;
+    const size_t request_size = sizeof *ladder->answers + sizeof *ladder->requests;
     const size_t pixel_size =
         sizeof *ladder->places + sizeof *ladder->chosen + sizeof *ladder->strata;
-    const size_t blocks = (size_t)range_count(ladder->picture->width, LADDER_BLOCK) *
-                          range_count(ladder->picture->height, LADDER_BLOCK);
+    const size_t blocks = (size_t)range_count(ladder->setup.picture->width, LADDER_BLOCK) *
+                          range_count(ladder->setup.picture->height, LADDER_BLOCK);
     ladder->memory = memory_raw(REQUESTS_MOST * request_size + blocks * sizeof *ladder->blocks +
                                     pixels * pixel_size,
                                 sizeof(char), error);
-    requests->sums = (PixelSums *)ladder->memory;
-    requests->requests = (PixelRequest *)(requests->sums + REQUESTS_MOST);
-    ladder->blocks = (uint64_t *)(requests->requests + REQUESTS_MOST);
+    ladder->answers = (PixelSums *)ladder->memory;
+    ladder->requests = (PixelRequest *)(ladder->answers + REQUESTS_MOST);
+    ladder->blocks = (uint64_t *)(ladder->requests + REQUESTS_MOST);
     ladder->places = (LadderPlace *)(ladder->blocks + blocks);
     ladder->chosen = (uint32_t *)(ladder->places + pixels);
     ladder->strata = (uint8_t *)(ladder->chosen + pixels);
@@ -52,15 +51,11 @@ bool ladder_open(Ladder *ladder, const RefineSetup *setup, Error *error)
 {
     Renderer *renderer = setup->renderer;
     Framebuffer *picture = setup->picture;
-    PixelRequests *requests = &ladder->requests;
-    *ladder = (Ladder){.requests = {.renderer = renderer,
-                                    .frame = renderer_frame(renderer, setup->camera),
-                                    .observer = setup->observer,
-                                    .pool = setup->pool},
-                       .picture = picture,
+    *ladder = (Ladder){.setup = *setup,
+                       .frame = renderer_frame(renderer, setup->camera),
                        .statistics.pixels = (size_t)picture->width * picture->height};
-    requests->frame.samples = LADDER_GRID;
-    if (requests->frame.max_level > 1)
+    ladder->frame.samples = LADDER_GRID;
+    if (ladder->frame.max_level > 1)
         ladder->statistics.reflectivity = (double)renderer->scene->reflectivity;
     renderer->progress = (RenderProgress){0};
     if (picture->width > LADDER_SIDE_MOST || picture->height > LADDER_SIDE_MOST ||
@@ -69,8 +64,8 @@ bool ladder_open(Ladder *ladder, const RefineSetup *setup, Error *error)
                          picture->width, picture->height);
     const bool ok =
         make_arrays(ladder, error) &&
-        sampler_draw_centers(renderer, &requests->frame, picture->pixels, setup->observer, error) &&
-        ladder_enter(ladder, setup, error);
+        sampler_draw_centers(renderer, &ladder->frame, picture->pixels, setup->observer, error) &&
+        ladder_enter(ladder, error);
     ladder->samples = ladder->statistics.pixels;
     if (!ok)
         ladder_close(ladder);
@@ -102,14 +97,13 @@ static RungSamples samples_from(uint32_t rung)
 
 static void list_pixel(Ladder *ladder, uint32_t pixel)
 {
-    PixelRequests *requests = &ladder->requests;
-    const uint32_t width = ladder->picture->width;
+    const uint32_t width = ladder->setup.picture->width;
     const RungSamples next = samples_from(rung_of(ladder, pixel));
     for (uint32_t i = 0; i < next.requests; i++)
-        requests->requests[requests->count++] =
+        ladder->requests[ladder->listed++] =
             (PixelRequest){pixel % width, pixel / width, next.first + i * next.samples};
     if (next.samples == SMALL_SAMPLES)
-        requests->small = requests->count;
+        ladder->small = ladder->listed;
 }
 
 static double mean_square_change(const float before[3], const float after[3])
@@ -146,12 +140,12 @@ static double feature_of(const Ladder *ladder, uint32_t pixel)
 // Advances the pixel by one rung. `first` is the index of the pixel's first request.
 static bool climb(Ladder *ladder, uint32_t pixel, uint32_t first, Error *error)
 {
-    const PixelSums *answers = &ladder->requests.sums[first];
-    const PixelRequest *request = &ladder->requests.requests[first];
+    const PixelSums *answers = &ladder->answers[first];
+    const PixelRequest *request = &ladder->requests[first];
     const uint32_t stratum = ladder->strata[pixel], rung = strata_rung(stratum);
     const uint32_t samples = ladder_samples[rung + 1];
     const double feature = feature_of(ladder, pixel);
-    float *color = ladder->picture->pixels[pixel], before[3];
+    float *color = ladder->setup.picture->pixels[pixel], before[3];
     PixelSums *sums = sums_of(ladder, pixel, error);
     if (sums == NULL)
         return false;
@@ -176,7 +170,7 @@ static bool climb(Ladder *ladder, uint32_t pixel, uint32_t first, Error *error)
 // on cache misses.
 static void prefetch_pixel(const Ladder *ladder, uint32_t pixel)
 {
-    __builtin_prefetch(ladder->picture->pixels[pixel], 1);
+    __builtin_prefetch(ladder->setup.picture->pixels[pixel], 1);
     __builtin_prefetch(&ladder->places[pixel], 1);
     __builtin_prefetch(&ladder->strata[pixel], 1);
 }
@@ -184,10 +178,11 @@ static void prefetch_pixel(const Ladder *ladder, uint32_t pixel)
 // Traces the requests of the listed pixels, advances the pixels, and empties the list.
 static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Error *error)
 {
-    PixelRequests *requests = &ladder->requests;
+    const SampleList list = {ladder->requests, ladder->answers, ladder->listed, ladder->small};
     uint32_t first = 0;
-    bool ok = pixel_requests_trace(requests, error);
-    for (size_t i = 0; i < count && ok && sampler_is_whole(ladder->requests.renderer); i++) {
+    bool ok =
+        sampler_trace(ladder->setup.renderer, &ladder->frame, &list, ladder->setup.observer, error);
+    for (size_t i = 0; i < count && ok && sampler_is_whole(ladder->setup.renderer); i++) {
         const RungSamples next = samples_from(rung_of(ladder, pixels[i]));
         if (i + PREFETCHED < count)
             prefetch_pixel(ladder, pixels[i + PREFETCHED]);
@@ -195,7 +190,7 @@ static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Erro
         first += next.requests;
         ladder->samples += next.requests * next.samples;
     }
-    requests->count = requests->small = 0;
+    ladder->listed = ladder->small = 0;
     return ok;
 }
 
@@ -206,11 +201,11 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
     for (uint64_t i = 0; i < count; i++) {
         list_pixel(ladder, pixels[i]);
         listed++;
-        if (i + 1 < count && ladder->requests.count + most <= REQUESTS_MOST)
+        if (i + 1 < count && ladder->listed + most <= REQUESTS_MOST)
             continue;
         if (!climb_all(ladder, &pixels[i + 1 - listed], listed, error))
             return false;
-        if (!sampler_is_whole(ladder->requests.renderer))
+        if (!sampler_is_whole(ladder->setup.renderer))
             return true;
         listed = 0;
     }
@@ -268,8 +263,7 @@ bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *
     bool ok = true, moves = true;
     *outcome = (GoalOutcome){0};
     for (int round = 0;
-         ok && moves && round < ROUNDS_MOST && sampler_is_whole(ladder->requests.renderer);
-         round++) {
+         ok && moves && round < ROUNDS_MOST && sampler_is_whole(ladder->setup.renderer); round++) {
         uint64_t advanced;
         const StrataOutcome raised = strata_raise(&ladder->statistics, &aim);
         outcome->reached = raised == STRATA_REACHED;
@@ -298,7 +292,7 @@ bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome,
     uint64_t advanced = 1;
     bool ok = true;
     *outcome = (GoalOutcome){.reached = moment - time->start < time->seconds};
-    while (ok && sampler_is_whole(ladder->requests.renderer)) {
+    while (ok && sampler_is_whole(ladder->setup.renderer)) {
         const StrataEstimate estimate = strata_estimate(&ladder->statistics);
         const StrataAim aim = {FALL_OF_ROUND * estimate.bound,
                                samples_in_time(time, seconds_per_sample)};

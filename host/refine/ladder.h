@@ -9,8 +9,7 @@
 // stay (ladder_strata.h).
 //
 // First, ladder_entry.c places all pixels on rung 0. In ladder_advance, ladder_choice.c selects
-// pixels, ladder_requests.c traces the samples of these pixels, and ladder.c assigns the pixels to
-// new strata.
+// pixels, and ladder.c traces the samples of these pixels and assigns the pixels to new strata.
 //
 // Invariant: with an error goal, choices depend only on sums of samples, and sums are added in a
 // fixed order. The picture therefore depends neither on the order of work nor on the device.

@@ -85,8 +85,8 @@ static inline uint32_t *choose_row(const Choosing *choosing, uint32_t first, uin
 static uint32_t *choose_block(const Choosing *choosing, uint32_t left, uint32_t top,
                               uint32_t *chosen)
 {
-    const uint32_t width = choosing->ladder->picture->width;
-    const uint32_t height = choosing->ladder->picture->height;
+    const uint32_t width = choosing->ladder->setup.picture->width;
+    const uint32_t height = choosing->ladder->setup.picture->height;
     const uint32_t count = width - left < LADDER_BLOCK ? width - left : LADDER_BLOCK;
     for (uint32_t y = top; y < top + LADDER_BLOCK && y < height; y++)
         chosen = choose_row(choosing, y * width + left, count, chosen);
@@ -97,7 +97,7 @@ static void choose_rows(void *context, uint32_t first, uint32_t end)
 {
     const Choosing *choosing = context;
     const Ladder *ladder = choosing->ladder;
-    const uint32_t width = ladder->picture->width;
+    const uint32_t width = ladder->setup.picture->width;
     for (uint32_t row = first; row < end; row++) {
         uint32_t *start = ladder->chosen + (size_t)row * LADDER_BLOCK * width, *chosen = start;
         for (uint32_t left = 0; left < width; left += LADDER_BLOCK)
@@ -112,7 +112,7 @@ static void choose_rows(void *context, uint32_t first, uint32_t end)
 static uint64_t join_rows(const Choosing *choosing, uint32_t rows)
 {
     uint32_t *pixels = choosing->ladder->chosen;
-    const size_t row_pixels = (size_t)LADDER_BLOCK * choosing->ladder->picture->width;
+    const size_t row_pixels = (size_t)LADDER_BLOCK * choosing->ladder->setup.picture->width;
     uint64_t count = 0;
     for (uint32_t row = 0; row < rows; row++) {
         memmove(pixels + count, pixels + row * row_pixels, choosing->counts[row] * sizeof *pixels);
@@ -123,7 +123,7 @@ static uint64_t join_rows(const Choosing *choosing, uint32_t rows)
 
 bool ladder_choose(Ladder *ladder, uint64_t *count, Error *error)
 {
-    const uint32_t rows = range_count(ladder->picture->height, LADDER_BLOCK);
+    const uint32_t rows = range_count(ladder->setup.picture->height, LADDER_BLOCK);
     Choosing choosing = {.ladder = ladder,
                          .counts = memory_raw(rows, sizeof *choosing.counts, error)};
     *count = 0;
@@ -131,7 +131,7 @@ bool ladder_choose(Ladder *ladder, uint64_t *count, Error *error)
         return false;
     set_limits(&choosing);
     if (choosing.strata != 0) {
-        thread_pool_share(ladder->requests.pool, rows, ROWS_OF_TASK, choose_rows, &choosing);
+        thread_pool_share(ladder->setup.pool, rows, ROWS_OF_TASK, choose_rows, &choosing);
         *count = join_rows(&choosing, rows);
     }
     free(choosing.counts);

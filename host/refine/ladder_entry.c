@@ -149,7 +149,7 @@ static void spread_bends(const Area *area, uint32_t row, float nearby[AREA_WIDTH
 static void count_pixels(const Ladder *ladder, uint32_t x, uint32_t y, uint32_t count,
                          Entries *entries)
 {
-    const size_t first = (size_t)y * ladder->picture->width + x;
+    const size_t first = (size_t)y * ladder->setup.picture->width + x;
     const uint8_t *strata = &ladder->strata[first];
     for (uint32_t i = 0; i < count;) {
         const uint32_t start = i, stratum = strata[i];
@@ -168,7 +168,7 @@ static void enter_row(const Entering *entering, const Area *area, uint32_t row, 
 {
     const Ladder *ladder = entering->ladder;
     const ThinParts *parts = &entering->thin_parts;
-    const uint32_t width = ladder->picture->width, y = area->top + row;
+    const uint32_t width = ladder->setup.picture->width, y = area->top + row;
     const uint32_t count = width - area->left < AREA_WIDTH ? width - area->left : AREA_WIDTH;
     const float *bends = &area->bends[row + RADIUS][RADIUS];
     uint8_t *strata = &ladder->strata[(size_t)y * width + area->left];
@@ -193,7 +193,7 @@ static void enter_row(const Entering *entering, const Area *area, uint32_t row, 
 static void enter_areas(const Entering *entering, uint32_t number)
 {
     const Ladder *ladder = entering->ladder;
-    const Framebuffer *picture = ladder->picture;
+    const Framebuffer *picture = ladder->setup.picture;
     const uint32_t left_over = picture->height - number * AREA_HEIGHT;
     const uint32_t rows = left_over < AREA_HEIGHT ? left_over : AREA_HEIGHT;
     Area area = {.top = number * AREA_HEIGHT};
@@ -216,9 +216,9 @@ static void enter_rows(void *context, uint32_t first, uint32_t end)
 static void enter_all(const Entering *entering)
 {
     Ladder *ladder = entering->ladder;
-    const uint32_t rows = range_count(ladder->picture->height, AREA_HEIGHT);
-    const uint32_t part = TASK_PIXELS / (AREA_HEIGHT * ladder->picture->width) + 1;
-    thread_pool_share(ladder->requests.pool, rows, part, enter_rows, (void *)entering);
+    const uint32_t rows = range_count(ladder->setup.picture->height, AREA_HEIGHT);
+    const uint32_t part = TASK_PIXELS / (AREA_HEIGHT * ladder->setup.picture->width) + 1;
+    thread_pool_share(ladder->setup.pool, rows, part, enter_rows, (void *)entering);
     for (uint32_t row = 0; row < rows; row++)
         for (uint32_t stratum = 0; stratum < BEND_CLASSES; stratum++)
             strata_enter(&ladder->statistics, stratum, entering->entries[row].pixels[stratum],
@@ -238,12 +238,13 @@ static bool find_thin_parts(ThinParts *parts, const RefineSetup *setup, Error *e
     return thin_parts_make(parts, &source, error);
 }
 
-bool ladder_enter(Ladder *ladder, const RefineSetup *setup, Error *error)
+bool ladder_enter(Ladder *ladder, Error *error)
 {
-    const uint32_t tasks = range_count(ladder->picture->height, AREA_HEIGHT);
+    const uint32_t tasks = range_count(ladder->setup.picture->height, AREA_HEIGHT);
     Entering entering = {.ladder = ladder,
                          .entries = memory_zeroed(tasks, sizeof *entering.entries, error)};
-    const bool ok = entering.entries != NULL && find_thin_parts(&entering.thin_parts, setup, error);
+    const bool ok =
+        entering.entries != NULL && find_thin_parts(&entering.thin_parts, &ladder->setup, error);
     if (ok)
         enter_all(&entering);
     free(entering.entries);

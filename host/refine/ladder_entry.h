@@ -5,4 +5,4 @@
 #include "refine/ladder_state.h"
 
 // Assigns all pixels to strata of rung 0. The pixels' centers must be drawn.
-bool ladder_enter(Ladder *ladder, const RefineSetup *setup, Error *error);
+bool ladder_enter(Ladder *ladder, Error *error);

@@ -2,9 +2,11 @@
 // The data of a ladder (ladder.h). ladder.c, ladder_choice.c and ladder_entry.c share it.
 #pragma once
 
-#include "refine/ladder_requests.h"
+#include "base/array.h"
 #include "refine/ladder_strata.h"
+#include "refine/pixel_sums.h"
 #include "refine/refine_setup.h"
+#include "render/sampler.h"
 
 // On rung 0, a pixel has a feature (ladder_strata.h). On higher rungs, it has sums of samples.
 typedef union {
@@ -16,15 +18,21 @@ typedef union {
 // which it selects pixels.
 #define LADDER_BLOCK 8
 
+// The most requests per list.
+#define REQUESTS_MOST (1u << 16)
+
 typedef struct {
-    PixelRequests requests;
-    Framebuffer *picture; // borrowed; means of the pixels' samples
-    void *memory;         // of the next four arrays and of the requests' arrays
-    uint32_t *chosen;     // room for all pixels
-    LadderPlace *places;  // of each pixel
-    uint8_t *strata;      // of each pixel
+    RefineSetup setup;      // the picture has the means of the pixels' samples
+    FrameData frame;        // with a camera made for LADDER_GRID samples
+    void *memory;           // of the next six arrays
+    PixelSums *answers;     // to the requests of the latest trace; room for REQUESTS_MOST
+    PixelRequest *requests; // room for REQUESTS_MOST; small requests come first
+    uint32_t *chosen;       // room for all pixels
+    LadderPlace *places;    // of each pixel
+    uint8_t *strata;        // of each pixel
     uint64_t *blocks; // masks of blocks: bits of all strata that have or had pixels of the block
-    ARRAY(PixelSums) sums; // of the pixels above rung 0
+    uint32_t listed, small; // requests in the list, and small requests in the list
+    ARRAY(PixelSums) sums;  // of the pixels above rung 0
     Strata statistics;
     Strata chosen_by; // the statistics at the latest selection of pixels
     uint64_t samples; // taken so far
@@ -39,6 +47,6 @@ static inline uint64_t ladder_stratum_bit(uint32_t stratum)
 // Returns the mask of the block that contains the pixel at (x, y).
 static inline uint64_t *ladder_block(const Ladder *ladder, uint32_t x, uint32_t y)
 {
-    const uint32_t columns = range_count(ladder->picture->width, LADDER_BLOCK);
+    const uint32_t columns = range_count(ladder->setup.picture->width, LADDER_BLOCK);
     return &ladder->blocks[(size_t)(y / LADDER_BLOCK) * columns + x / LADDER_BLOCK];
 }

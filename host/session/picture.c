@@ -182,7 +182,7 @@ static bool needs_level(const PictureDrawing *drawing, const Ladder *ladder)
     return request->level_bound > 0 && request->wanted.error > 0 &&
            request->settings.max_level < GLASS_LEVELS &&
            drawing->result->truncated > TRUNCATED_MOST * request->wanted.error &&
-           sampler_is_whole(ladder->requests.renderer);
+           sampler_is_whole(ladder->setup.renderer);
 }
 
 // Opens a ladder, which takes a sample in each pixel. If max_level causes too much of an error

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The kernel adds the samples of a pixel in fixed point, so sums are exact in any order.
-#include "refine/ladder_requests.h"
+// Sums of a pixel's samples. They are integers, so they are exact in any order.
+#pragma once
+
+#include "scene/scene.h"
 
 #include <math.h>
 
-bool pixel_requests_trace(PixelRequests *requests, Error *error)
-{
-    const SampleList list = {requests->requests, requests->sums, requests->count, requests->small};
-    return sampler_trace(requests->renderer, &requests->frame, &list, requests->observer, error);
-}
-
-void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3])
+// Computes the mean color of the samples. `samples` must be a power of two.
+static inline void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3])
 {
     const double part = 1.0 / samples;
     for (int channel = 0; channel < 3; channel++) {
@@ -19,7 +16,8 @@ void pixel_sums_mean(const PixelSums *sums, uint32_t samples, float color[3])
     }
 }
 
-double pixel_sums_variance(const PixelSums *sums, uint32_t samples)
+// Returns the variance of the samples' colors, averaged over the channels.
+static inline double pixel_sums_variance(const PixelSums *sums, uint32_t samples)
 {
     const double part = 1.0 / samples;
     double squares = (double)(int64_t)sums->squares * (0x1p-48 * part);
@@ -30,7 +28,7 @@ double pixel_sums_variance(const PixelSums *sums, uint32_t samples)
     return fmax(squares / 3, 0);
 }
 
-void pixel_sums_add(PixelSums *sums, const PixelSums *more)
+static inline void pixel_sums_add(PixelSums *sums, const PixelSums *more)
 {
     for (int channel = 0; channel < 3; channel++)
         sums->colors[channel] += more->colors[channel];
