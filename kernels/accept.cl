@@ -7,8 +7,8 @@
 // and hits whose distances differ only by rounding (triangle_is_nearer). On CPUs, these two
 // functions are not inlined.
 //
-// Invariant: the decision depends only on the ray, the limit of its search, the triangle and the
-// best hit so far. The best of several triangles therefore does not depend on the order of the
+// Invariant: the choice between two triangles depends only on these triangles, the ray and the
+// limit of its search. The best of several triangles therefore does not depend on the order of the
 // tests.
 #ifndef CLRT_ACCEPT_CL
 #define CLRT_ACCEPT_CL
@@ -42,8 +42,8 @@ static inline Sides sides_exchanged(Mask exchange, Sides sides)
 //    if it is on the opposite side.
 //  - The plane of `other`: `other` is ahead if `own` is on the side from which the ray comes, and
 //    behind if `own` is on the opposite side.
-// A ray does not hit coplanar neighbors. `cross` receives the lanes in which order.cl must decide,
-// because a triangle has corners on both sides of the other triangle's plane.
+// A ray does not hit coplanar neighbors. `cross` receives the lanes in which neither plane decides,
+// although the triangles are not coplanar. There, order.cl must decide.
 static inline Mask hits_neighbor(const Corners *own, const Corners *other, Real3 direction,
                                  Mask from_back, Mask *cross)
 {

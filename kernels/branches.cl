@@ -11,7 +11,7 @@
 typedef struct {
     Ray ray;
     Real weight;
-    Real3 tint; // multiplies the weight: the product of the colors of glass
+    Real3 tint; // product of the colors of the glass on the path; multiplies the weight
 } Branch;
 
 static inline Branch choose_branch(Mask first, const Branch *a, const Branch *b)

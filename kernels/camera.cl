@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Computes the rays of a perspective or orthographic camera (CameraData in shared.h). The integers
-// x and y are exact in Real, and two fma compute each component, so every device computes the same
-// rays.
+// Computes the rays of a perspective or orthographic camera. The integers x and y of its formulas
+// (CameraData in shared.h) are exact in Real, and two fma compute each component, so every device
+// computes the same rays.
 #ifndef CLRT_CAMERA_CL
 #define CLRT_CAMERA_CL
 #include "ray.cl"
 
-// Returns the ray through a position in the whole picture. `x` and `y` count half sub-pixels.
+// Returns the ray through a position in the whole picture. `x` and `y` count half sub-pixels from
+// the picture's top left corner.
 static inline Ray camera_ray_toward(const FrameData *frame, UInt x, UInt y, Mask active)
 {
     const Real across = to_real(to_int(x) - (int)(frame->width * frame->samples));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The kernel of --aov certainty. A tracer makes decisions: which primitive a ray hits first, which
-// check the hit shows, and which lights reach the hit. The kernel repeats the decisions of each
-// pixel's ray tree with ray cones, which contain the exact ray and the tracer's rounded ray
-// (certify_cone.cl). A decision is certain if it holds for the whole cone.
+// check (square of a checker) the hit shows, and which lights reach the hit. The kernel repeats the
+// decisions of each pixel's ray tree with ray cones, which contain the exact ray and the tracer's
+// rounded ray (certify_cone.cl). A decision is certain if it holds for the whole cone.
 //
 // A pixel is certified if all its decisions are certain for the fp32 tracer. If they are certain
 // only for the fp64 tracer, the pixel is repaired: it gets the color of the fp64 tracer. All other

@@ -7,7 +7,8 @@
 // distance. The 140u cover the rounding of a corner's projection (18u, blur_at) and of the distance
 // (70u + 25u, B12). For rays that leave a surface, boxes also grow by behind_of, because rounding
 // may put a hit behind the origin. With this growth, the axis enters a box before any possible hit
-// of a triangle in the box. Spheres, and the bounding spheres of the tree over them, grow likewise.
+// of a triangle in the box. Spheres, and the bounding spheres of the tree over them, also grow
+// (cone_may_meet).
 #ifndef CLRT_CERTIFY_SEARCH_CL
 #define CLRT_CERTIFY_SEARCH_CL
 #include "certify_sphere.cl"
@@ -208,9 +209,8 @@ static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
     }
 }
 
-// Returns whether the axis enters the sphere before `reach` after the sphere has grown by `factor`
-// times the bound of B21. If the result is false, the tracer finds no hit of the sphere before
-// `reach`.
+// Returns whether the axis enters a grown sphere before `reach`. The sphere grows by `factor` times
+// the bound of B21. If the result is false, the tracer finds no hit of the sphere before `reach`.
 static inline bool cone_may_meet(const RayCone *ray, const PlainSphere *sphere, Real factor,
                                  Real reach)
 {
@@ -238,7 +238,7 @@ static inline SphereVisit first_sphere(const FrameData *frame)
 // Finds the next sphere that the cone may hit, from visit->entry on. Returns false if there is
 // none. A bounding sphere grows three times as much as a sphere. Despite rounding, the axis
 // therefore enters a bounding sphere if it enters a sphere in it, so the search's result does not
-// depend on the tree. For the same reason, spheres beyond the nearest hit are not left out.
+// depend on the tree. To keep this independence, spheres beyond the nearest hit are not left out.
 static inline bool find_sphere(const Tracer *tracer, const ConeSearch *search, SphereVisit *visit)
 {
     const FrameData *frame = tracer->frame;

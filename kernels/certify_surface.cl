@@ -53,8 +53,8 @@ static inline void face_viewer(UncertainSurface *surface)
     surface->face = negative3(surface->face);
 }
 
-// Sets area, room and edge. The exact point and the tracer's point may be closer to an edge than
-// end.point, so end.slide reduces the room.
+// Sets the surface's members `area`, `room` and `edge`. The exact point and the tracer's point may
+// be closer to an edge than end.point, so end.slide reduces the room.
 static inline void note_room(UncertainSurface *surface, const Corners *corners, Real3 weights)
 {
     const Real3 ab = difference(corners->b, corners->a), ac = difference(corners->c, corners->a);
@@ -224,8 +224,8 @@ static inline Answer certify_face_facing(const UncertainSurface *surface, const 
 }
 
 // Returns whether the shading normal and the face both face the light. Seen from outside, a
-// sphere's face normal is its shading normal. From inside, its face is opposite to its normal. A
-// light near the horizon could then pass both tests, but only because of rounding.
+// sphere's face normal is its shading normal. From inside, the two are opposite, so only rounding
+// could make both face a light. The result is then never YES.
 static inline Answer certify_facing(const UncertainSurface *surface, const RayCone *to_light)
 {
     const Answer normal = certify_normal_facing(surface, to_light);

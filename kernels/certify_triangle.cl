@@ -266,9 +266,9 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
 //  - An edge leaves the plane perpendicular to n by 4u n.|edge|: 3u from rounding the components of
 //    n, and u from rounding the edge.
 //  - Subtracting a corner from the start and multiplying by n adds 4u n.|start - corner|.
-// Both sides of the comparison are in units of u. E is the product of the largest edge components.
-// The normal computed here differs from n by 4u E per axis, because the tracer rounds the edges.
-// Coordinates are at most 1, so this error changes the comparison by less than 1100u E.
+// Both sides of the comparison below are in units of u. E is the product of the largest edge
+// components. The normal computed here differs from n by 4u E per axis, because the tracer rounds
+// the edges. Coordinates are at most 1, so this error changes the comparison by less than 1100u E.
 static inline bool certainly_misses_coincident(const Corners *corners, const RayCone *ray)
 {
     const UncertainPoint *start = &ray->start;

@@ -14,7 +14,7 @@
 #define CLRT_TRIANGLES 1 // the scene has triangles
 #endif
 #ifndef CLRT_BVH
-#define CLRT_BVH 1 // rays find triangles and spheres with trees (0: they test all)
+#define CLRT_BVH 1 // rays find triangles, or spheres with wide nodes, by trees (0: they test all)
 #endif
 #ifndef CLRT_MIRRORS
 #define CLRT_MIRRORS 1 // a used material reflects

@@ -64,8 +64,8 @@ static inline void intersect_search(const Tracer *tracer, const Ray *rays,
 }
 #endif
 
-// Finds the nearest sphere before hit->t, unless intersect_search finds it. Returns the lanes that
-// must then search.
+// Finds the nearest sphere before hit->t, or leaves it to intersect_search. Returns the lanes for
+// which the caller must call intersect_search.
 static inline Mask meet_spheres(const Tracer *tracer, const Ray *ray, Hit *hit)
 {
     if (!any_lane(ray->active))

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Finds a surface's material. The color of a check or of vertices, if the surface has any, replaces
-// the material's color.
+// Finds a surface's material. The colors of a checker or of vertices, if the surface has any,
+// replace the material's color.
 //
-// For checks, cubes fill the scene. A cube is odd if the sum of its three indices is odd. A
-// triangle shows the cube on the side away from the ray, and a sphere shows the cube inside it. A
-// solid then looks as if it were cut out of a block of cubes.
+// A checker fills the scene with cubes. A cube is odd if the sum of its three indices is odd. The
+// part of a surface that shows one cube is a check. A triangle shows the cube on the side away from
+// the ray, and a sphere shows the cube inside it. A solid then looks as if it were cut out of a
+// block of cubes.
 //
 // Floors often lie in a plane between cubes, where rounding would choose the cube of each pixel.
 // Two rules prevent this (docs/numerics.md, B19):

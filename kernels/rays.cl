@@ -54,8 +54,8 @@ static inline Ray ray_at(const Tracer *tracer, const RayArray *array, uint first
     return ray;
 }
 
-// Finds the nearest sphere before hit->t, unless intersect_search finds it. Returns the lanes that
-// must then search.
+// Calls meet_spheres, and returns the lanes that must then search. If the rays end at any hit,
+// these lanes exclude hits on spheres.
 static inline Mask begin_search(const Tracer *tracer, const Ray *ray, Hit *hit)
 {
     const Mask searching = meet_spheres(tracer, ray, hit);

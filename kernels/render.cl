@@ -96,7 +96,7 @@ static inline void pixel_colors(const Tracer *tracer, const Places pixels[PACKET
             colors[i] = scaled3(0x1p-32f, colors[i]);
 }
 
-// Stores the tally as number `number`.
+// Stores the tally at place `number` of `tallies`.
 static inline void store_tally(global uint *tallies, size_t number, const Tally *tally)
 {
     global uint *counts = tallies + number * TALLY_STORED;

@@ -36,10 +36,10 @@ typedef uint64_t ulong;
 // 22 and 4 become 34 and 8.
 //
 // The error of a hit's distance can put the hit up to 54 units behind the ray's start, and
-// search_behind allows 256 more. A box at the start has nearly the origin's coordinates, so the box
-// grows as far as the origin moves. The growth and the move each cover half of these 256 units.
-// Each must cover at most 34 + 8 + 54 + 128 = 224 units. search_reach (search.cl) covers hits
-// beyond the best hit. Doubling the slack costs no measurable time.
+// search_behind allows another 256 units. A box at the start has nearly the origin's coordinates,
+// so the box grows as far as the origin moves. The growth and the move each cover half of these 256
+// units. Each must cover at most 34 + 8 + 54 + 128 = 224 units. search_reach (search.cl) covers
+// hits beyond the best hit. Doubling the slack costs no measurable time.
 #define BVH_SLACK 0x1p-16f
 
 // The box around all primitives grows by this fraction of its largest coordinate. Kernels grow the
@@ -178,8 +178,7 @@ typedef struct {
 } SphereBlock;
 CLRT_SAME_SIZE(SphereBlock, 288)
 
-// The number of SphereData that have the size of a SphereBlock. The array of spheres ends with the
-// blocks.
+// The size of a SphereBlock, as a number of SphereData. The array of spheres ends with the blocks.
 #define SPHERE_BLOCK_ENTRIES 6
 
 // A leaf of the wide tree: up to WIDE triangles, component by component. An empty slot holds the id
@@ -268,7 +267,7 @@ typedef struct {
 CLRT_SAME_SIZE(PixelSums, 32)
 
 // The certainty of a pixel's decisions: which surfaces its rays hit, which lights reach them, and
-// which checks they show.
+// which squares of checkers they show.
 typedef enum {
     CERTAINTY_OPEN,      // a decision may differ from real arithmetic's
     CERTAINTY_REPAIRED,  // all fp64 decisions equal real arithmetic's

@@ -314,11 +314,11 @@ static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 
     return lifted;
 }
 
-// Returns the start of a ray near an edge. There, rounding may have put the surface point outside
-// its triangle, beyond the neighbor that should stop the ray, or the point may be a corner. While
-// the ray's line does not pass through the triangle, the start moves toward the triangle's middle.
-// Its distance from the surface point is then UNIT_ROUNDOFF / `sine` times 1, 2, 4 and so on to
-// 256, on the axis on which this distance is largest. The start never moves beyond the middle. If a
+// Returns the start of a ray near an edge. There, the surface point may be a corner, or rounding
+// may have put it outside its triangle and beyond the neighbor that should stop the ray. While the
+// ray's line does not pass through the triangle, the start moves toward the triangle's middle. Its
+// distance from the surface point is then UNIT_ROUNDOFF / `sine` times 1, 2, 4 and so on to 256, on
+// the axis on which this distance is largest. The start never moves beyond the middle. If a
 // reflected or refracted ray still misses the triangle, the ray is lifted.
 static NOT_INLINE Real3 point_inside(const Tracer *tracer, const Surface *surface, Heading *heading,
                                      Real sine, Mask near_edge)

@@ -208,14 +208,14 @@ typedef struct {
 //
 // Near the ray's start, t is only rounding error. If t decided there, neighbors of the triangle on
 // which the ray starts would wrongly stop shadow and reflected rays. The ray therefore stops only
-// if its start is certainly on the side of the triangle from which the ray comes. For a ray that
-// meets the inner side of a two-sided triangle, this also holds if the triangle is a neighbor
-// across a convex edge. Such a ray therefore stops only if t is also certainly positive. The eye is
-// on no surface, so rays from the eye need no positive t. A triangle does not block the ray if the
-// triangle's t is within `error` of the light's t.
+// if its start is certainly on the side of the triangle from which the ray comes. A ray from a
+// convex edge starts on the inner side of the neighbor across the edge, so it would stop on this
+// neighbor if the neighbor is two-sided. On inner sides, a ray therefore stops only if t is also
+// certainly positive. The eye is on no surface, so rays from the eye need no positive t. A triangle
+// does not block the ray if the triangle's t is within `error` of the light's t.
 //
 // `in_doubt` receives the lanes whose rays pass, but perhaps only because of rounding. In a valley,
-// rounding can also put the start beyond the neighbor that should stop the ray.
+// for example, rounding can put the start beyond the neighbor that should stop the ray.
 static inline Real OVERLOAD surface_ray_distance(const Corners *corners, const SurfaceRay *ray,
                                                  Real t, Real error, Mask *in_doubt)
 {
