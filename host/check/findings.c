@@ -237,7 +237,7 @@ static void add_shape(Check *check, size_t object)
     add(check, "inside_out", note(object, is_inside_out && !is_glass && !mesh->two_sided),
         "its fronts face inwards, so only its far side is visible from outside");
     add(check, "inside_out", note(object, is_inside_out && is_glass),
-        "its fronts face inwards, so its glass is outside");
+        "its fronts face inwards, so the space around it counts as its glass");
     add(check, "open_glass", note(object, is_glass && is_open),
         "it is glass but not closed, so light that enters it may never leave it");
     const size_t unused = census->facts.unused_vertices;

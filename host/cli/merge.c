@@ -133,7 +133,7 @@ static bool check_part(Merging *merging, const StoredTiles *tiles, const ExrFile
 {
     const StoredImage *image = &file->head;
     if (strcmp(image->texts[STORED_COMPLETE], "yes") != 0)
-        return error_set(error, "%s: part %u of %u was stopped before its end", path,
+        return error_set(error, "%s: part %u of %u was stopped before its end: draw it again", path,
                          tiles->settings.part + 1, tiles->settings.parts);
     if (merging->paths == NULL && !begin(merging, tiles, file, path, error))
         return false;
@@ -284,7 +284,8 @@ static ExitCode run(Merging *merging, Error *error)
     if (!visit_parts(merging, NULL, error) || !check_missing(merging, error))
         return EXIT_SCENE;
     if (merging->layers.count > 0 && !image_format_takes_layers(options->format)) {
-        error_set(error, "the parts have channels, which %s does not hold: give -o FILE.exr",
+        error_set(error,
+                  "the parts have channels, which the format %s cannot store: give -o FILE.exr",
                   options->format);
         return EXIT_USAGE;
     }

@@ -88,7 +88,9 @@ static bool open_film(Picture *picture, Error *error)
     const RenderSettings *settings = &picture->request.settings;
     const uint64_t rows = (uint64_t)frames_count(&picture->options->frames) * settings->height;
     if (rows > INT32_MAX)
-        return error_set(error, "the pictures are too many for one file");
+        return error_set(error,
+                         "the pictures are too many for one GIF: draw fewer or smaller ones, or "
+                         "numbered files such as a.####.png");
     const bool ok = framebuffer_make(&picture->film, settings->width, (uint32_t)rows, error);
     picture->film.height = 0;
     return ok;

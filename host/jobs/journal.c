@@ -46,10 +46,11 @@ static bool check_head(const Journal *journal, const uint64_t key[2], Error *err
     if (memcmp(head.magic, MAGIC, sizeof head.magic) != 0)
         return error_set(error, "%s: is not a journal of clrt", journal->path);
     return memcmp(head.key, key, sizeof head.key) == 0 ||
-           error_set(error,
-                     "%s: has another scene, other settings or another version of clrt: remove "
-                     "it to begin again",
-                     journal->path);
+           error_set(
+               error,
+               "%s: belongs to another scene, other settings or another version of clrt: remove "
+               "it to begin again",
+               journal->path);
 }
 
 // Returns whether the journal is a regular file. Reading from a pipe would block.

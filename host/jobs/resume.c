@@ -70,7 +70,7 @@ static bool take_stored(const Resume *resume, const Provenance *own, RenderSetti
     if (!is_same_picture(&file->head, own, settings) || file->tile_width != stored.tile_width ||
         file->tile_height != stored.tile_height)
         return error_set(error,
-                         "%s: has another scene, other settings or another version of clrt: "
+                         "%s: belongs to another scene, other settings or another version of clrt: "
                          "remove it to begin again",
                          resume->stored_path);
     Error cause = {0};

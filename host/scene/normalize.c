@@ -190,8 +190,9 @@ bool normalization_is_fine(const Normalization *normalization, const Scene *scen
         if (away > COARSE / 2 * reach)
             return error_set(
                 note,
-                "view %zu shows what is %.3g away, but the coordinates of its eye are multiples of "
-                "%.3g, because the scene's center is %.3g away: render distant parts separately",
+                "view %zu shows objects %.3g away, but the coordinates of its eye are rounded to "
+                "multiples of %.3g, because the scene's center is %.3g away: render distant parts "
+                "separately",
                 i + 1, reach, step_at(normalization, away), away);
     }
     return true;
@@ -211,7 +212,7 @@ bool normalization_check(const Normalization *normalization, const Scene *scene,
     for (size_t i = 0; i < scene->viewpoints.count; i++)
         if (!viewpoint_fits(normalization, &scene->viewpoints.data[i]))
             return error_set(error,
-                             "the height of orthographic camera %zu is not within 1e-12 and 1e6 "
+                             "the height of orthographic camera %zu is not between 1e-12 and 1e6 "
                              "times the scene's size",
                              i + 1);
     for (size_t i = 0; i < scene->spheres.count; i++)

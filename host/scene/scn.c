@@ -335,18 +335,19 @@ static bool load_mesh(Scene *scene, const File *ply, const char *path,
 static bool check_for_text(const SceneLoadOptions *options, const char *name, Error *error)
 {
     if (options->up != UP_AUTO)
-        return error_set(
-            error,
-            "%s: only lone mesh files can be turned; in a scene, write 'up %s' after the path",
-            name, up_axis_names[options->up]);
+        return error_set(error,
+                         "%s: an up axis can be chosen only for a lone mesh file; in a scene, "
+                         "write 'up %s' after the path",
+                         name, up_axis_names[options->up]);
     if (options->studio != STUDIO_HARD)
         return error_set(error,
-                         "%s: only lone mesh files have a studio; in a scene, write 'area' after a "
+                         "%s: a studio can be chosen only for a lone mesh file; in a scene, write "
+                         "'area' after a "
                          "light",
                          name);
     return options->normals == NORMALS_AUTO ||
            error_set(error,
-                     "%s: only lone mesh files leave their normals open; in a scene, write "
+                     "%s: normals can be chosen only for a lone mesh file; in a scene, write "
                      "'normals %s' before the mesh",
                      name, options->normals == NORMALS_FLAT ? "flat" : "smooth");
 }

@@ -69,8 +69,8 @@ FINDINGS = [
     ("twice.ply", 1, ["FAULT: 1 triangle with the corners of another: triangle 4"]),
     ("far.ply", 0, ["note: recenter it"]),
     ("mixed.scn", 0, ["note: the scale is too mixed", "1e+08 times"]),
-    ("distant.scn", 0, ["note: view 1 shows what is 6.78 away, but the coordinates of its eye are multiples of 0.5, "
-                        "because the scene's center is 5e+06 away: "]),
+    ("distant.scn", 0, ["note: view 1 shows objects 6.78 away, but the coordinates of its eye are rounded to "
+                        "multiples of 0.5, because the scene's center is 5e+06 away: "]),
     ("apart.scn", 1, ["FAULT: the scene cannot be drawn: sphere 1", "5e11 times"]),
     ("scene.scn", 1, ["FAULT: 1 sphere that is the same as another", "note: its fronts face inwards",
                       "note: 1 material that is defined and not used",

@@ -122,7 +122,8 @@ class Upright(Random):
         self.write(a_ply=models.ply(KNOT, TRIANGLES), a_scn="mesh a.ply\n", b_scn="mesh a.ply up w\n",
                    c_scn="mesh a.ply up\n")
         self.refuses(2, "--up wants auto, x, y, z, -x, -y or -z, not 'up'", "a.ply", "--up", "up", "-o", "a.png")
-        self.refuses(3, "a.scn: only lone mesh files can be turned; in a scene, write 'up -y' after the path",
+        self.refuses(3, "a.scn: an up axis can be chosen only for a lone mesh file; in a scene, write "
+                     "'up -y' after the path",
                      "a.scn", "--up", "-y", "-o", "a.png")
         usage = "the statement is 'mesh PATH [up AXIS] [scale S] [rotate AX AY AZ DEGREES] [translate X Y Z]'"
         self.fails(f"b.scn:1:15: expected x, y, z, -x, -y or -z: found 'w'; {usage}", "b.scn")
@@ -221,7 +222,7 @@ class Normals(Meshes):
             self.refuses(2, f"--normals smooth= wants degrees from 0 to 180, not '{degrees}'", "a.ply",
                          f"--normals=smooth={degrees}", "-o", "a.png")
         for words, statement in ("flat", "flat"), ("smooth=50", "smooth"):
-            self.refuses(3, "a.scn: only lone mesh files leave their normals open; in a scene, write "
+            self.refuses(3, "a.scn: normals can be chosen only for a lone mesh file; in a scene, write "
                          f"'normals {statement}' before the mesh", "a.scn", "--normals", words, "-o", "a.png")
 
 
@@ -344,7 +345,7 @@ class Studio(Random):
                   for scene in (["a.ply"], ["a.ply", "--studio", "soft"], ["a.scn"])]
         self.assertEqual(hashes[1], hashes[2], self.seed)
         self.assertNotEqual(hashes[0], hashes[1], self.seed)
-        self.refuses(3, "only lone mesh files have a studio", "a.scn", "--studio", "soft", "--hash")
+        self.refuses(3, "a studio can be chosen only for a lone mesh file", "a.scn", "--studio", "soft", "--hash")
 
     def test_its_materials_are_no_findings(self):
         self.write(a_ply=models.ply(KNOT, TRIANGLES))

@@ -246,7 +246,7 @@ class Parts(SharedWork):
 
     def test_channels_need_a_file_that_holds_them(self):
         names = self.draw("channel", *SMALL, *CHANNELS, of=1)
-        self.refuses(2, "the parts have channels, which png does not hold: give -o FILE.exr",
+        self.refuses(2, "the parts have channels, which the format png cannot store: give -o FILE.exr",
                      "merge", *names, "-o", "m.png")
 
     def test_options_that_exclude_parts_are_refused(self):
@@ -260,7 +260,7 @@ class Parts(SharedWork):
             (["-o", "a.exr", "--no-metadata"], "--part and --no-metadata exclude each other"),
         ):
             self.refuses(2, sentence, *SMALL, "--part", "1/2", *words)
-        self.refuses(2, "clrt merge wants the name of the whole picture: -o FILE", "merge", "a.exr")
+        self.refuses(2, "clrt merge needs a file for the whole picture: give -o FILE", "merge", "a.exr")
         self.refuses(2, "a name is missing", "merge", "-o", "a.exr")
 
 

@@ -152,7 +152,7 @@ class Provenance(Work):
 
     def test_one_thing_at_most_goes_to_standard_output(self):
         for words, thing in ((["-o", "-"], "picture"), (["-o", "a.pfm", "--json=-"], "statistics")):
-            self.refuses(2, f"the {thing} and the hash cannot both go to standard output", *SMALL, *words, "--hash")
+            self.refuses(2, f"the hash goes to standard output: write the {thing} to a file", *SMALL, *words, "--hash")
 
     def test_json_replaces_a_file_whole_or_not_at_all(self):
         self.write(a_json="what was there")

@@ -25,7 +25,7 @@ TILES = WIDTH // TILE * HEIGHT // TILE
 LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=6", "--tune", f"tile={TILE}x{TILE}", "-j", "1"]
 ONE_TILE = [SCENE, "-s", "2000x2000", "--aa=16", "--tune", "tile=2000x2000", "-j", "1"]
 SMALL = [SCENE, "-s", "61x43", "--tune", "tile=16x8"]
-OTHER = "has another scene, other settings or another version of clrt: remove it to begin again"
+OTHER = "belongs to another scene, other settings or another version of clrt: remove it to begin again"
 
 
 class Resume(Work):

@@ -62,7 +62,7 @@ class Shares(Work):
     def test_shares_of_nothing_are_refused(self):
         self.refuses(2, "--frames I/N divides the pictures of a turntable or of a range: give --turntable, or "
                      "--frames A-B,I/N", *SMALL, "--frames", "1/2", "-o", "a.pfm")
-        self.refuses(2, "--frames: 3 pictures make at most 3 runs, not 4", *SMALL, "--frames", "1-3,1/4", "-o", "a.pfm")
+        self.refuses(2, "--frames: 3 pictures cannot be divided into 4 runs: give at most 3", *SMALL, "--frames", "1-3,1/4", "-o", "a.pfm")
 
 
 if __name__ == "__main__":

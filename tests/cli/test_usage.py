@@ -66,7 +66,7 @@ class Combinations(Work):
             self.assertEqual(self.clrt(*SMALL, *words, "--hash", DISPLAY=None, WAYLAND_DISPLAY=None), whole)
         self.assertEqual(self.clrt(*SMALL, "--hash=" + whole.strip(), DISPLAY=None, WAYLAND_DISPLAY=None), "")
         self.assertIn("the hash of the pixels is", self.clrt(*SMALL, "--hash=" + 32 * "0", code=1))
-        self.refuses("the statistics and the hash cannot both go to standard output", *SMALL, "--hash", "--json=-")
+        self.refuses("the hash goes to standard output: write the statistics to a file", *SMALL, "--hash", "--json=-")
         self.clrt(*SMALL, "--hash", "--json=a.json", "--reference=r.pfm", "--reference-samples", "2", "-q")
         self.assertEqual(sorted(os.listdir(self.work)), ["a.json", "r.pfm"])
 
@@ -148,8 +148,8 @@ class Notes(Work):
     def test_cameras_that_rounding_moves_are_noted(self):
         cube = f"light 9 -9 9 1\ncamera 3 -6 1 0 0 0 30\nmesh {SCENES}/cube.ply\n"
         self.write(a_scn=cube + f"mesh {SCENES}/cube.ply translate 1e7 0 0\n", b_scn=cube)
-        self.draws("a.scn: view 1 shows what is 6.78 away, but the coordinates of its eye are multiples of 0.5, because "
-                   "the scene's center is 5e+06 away: render distant parts separately", "a.scn")
+        self.draws("a.scn: view 1 shows objects 6.78 away, but the coordinates of its eye are rounded to "
+                   "multiples of 0.5, because the scene's center is 5e+06 away: render distant parts separately", "a.scn")
         self.draws("", "b.scn")
 
     def test_check_notes_both(self):

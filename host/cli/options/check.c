@@ -115,7 +115,7 @@ static bool check_window(const Options *options, Error *error)
     if (options->fits_level)
         return error_set(error, "--max-level auto is for files: give one with -o FILE");
     return !options_read_input(options) ||
-           error_set(error, "the window reads its scene again and again, and standard input "
+           error_set(error, "the window reads its scene repeatedly, but standard input "
                             "can be read once: give -o FILE");
 #else
     (void)options;
@@ -240,9 +240,10 @@ static bool check_streams(const Options *options, Error *error)
                statistics = is_standard_output(options->json_path),
                hash = options->hash && options->expected_hash == NULL;
     if (picture && statistics)
-        return error_set(error, "the picture and the statistics cannot both go to standard output");
+        return error_set(error, "the picture and the statistics cannot both go to standard output: "
+                                "give one a file by -o FILE or --json=FILE");
     return !hash || !(picture || statistics) ||
-           error_set(error, "the %s and the hash cannot both go to standard output",
+           error_set(error, "the hash goes to standard output: write the %s to a file",
                      picture ? "picture" : "statistics");
 }
 
@@ -265,14 +266,16 @@ static bool check_compare(Options *options, Error *error)
                          "--format is for the picture of differences: give one with -o FILE");
     if (is_standard_output(options->output_path) &&
         (options_print_json(options) || !options->quiet))
-        return error_set(error, "the picture and the report cannot both go to standard output");
+        return error_set(error,
+                         "the picture and the report cannot both go to standard output: write the "
+                         "picture with -o FILE");
     return check_format(options, error);
 }
 
 static bool check_merge(Options *options, Error *error)
 {
     if (options->output_path == NULL)
-        return error_set(error, "clrt merge wants the name of the whole picture: -o FILE");
+        return error_set(error, "clrt merge needs a file for the whole picture: give -o FILE");
     return check_format(options, error) && check_streams(options, error);
 }
 

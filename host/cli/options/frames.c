@@ -59,8 +59,9 @@ bool frames_complete(Frames *frames, Error *error)
     }
     const uint32_t count = frames_count(frames), first = frames->first;
     if (share->count > count)
-        return error_set(error, "--frames: %u pictures make at most %u runs, not %u", count, count,
-                         share->count);
+        return error_set(error,
+                         "--frames: %u pictures cannot be divided into %u runs: give at most %u",
+                         count, share->count, count);
     if (share->count > 0) {
         frames->first = first + share_begin(share, count) * frames->step;
         share->index++; // this share ends where the next one begins

@@ -23,7 +23,7 @@ const Option option_table[] = {
      "write the picture; the file's ending sets the format; - is standard output"},
     {"format", "NAME", 0, ODD(set_format), GROUP_OUTPUT, CLASS_NONE,
      FOR_FILE | FOR_COMPARE | FOR_MERGE,
-     "write this format regardless of the ending; standard output has png without this option"},
+     "write this format regardless of the ending; without this option, standard output gets png"},
     {"encode", "raw|srgb", 0, WORD(encoding), GROUP_OUTPUT, CLASS_NONE,
      FOR_FILE | FOR_WINDOW | FOR_PIXEL, "values of 8-bit files: raw (default) or srgb"},
     {"exposure", "EV", 0, ODD(set_exposure), GROUP_OUTPUT, CLASS_NONE, FOR_FILE | FOR_WINDOW,
@@ -44,20 +44,21 @@ const Option option_table[] = {
      "fractions of the sides; an EXR file records the position"},
     {"view", "N", 0, COUNT(picture.view, VIEW_MOST), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL,
-     "use the scene's N-th camera (default: 1); a scene without cameras has the course's six"},
+     "use the scene's N-th camera (default: 1); a scene without cameras has six default ones"},
     {"up", "auto|x|y|z|-x|-y|-z", 0, WORD(load.up), GROUP_PICTURE, CLASS_NONE,
      FOR_SCENE | FOR_CONVERT,
      "axis that points up in a lone mesh (default: auto); auto chooses by format and shape"},
     {"normals", "flat|smooth", 0, ODD(set_normals), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN | FOR_CONVERT,
-     "ignore a lone mesh's normals, or compute missing ones (default, or smooth=DEGREES); larger "
-     "angles than DEGREES stay sharp (default: 33 or 70, by shape)"},
+     "normals of a lone mesh: flat ignores the file's; smooth (default), or smooth=DEGREES, "
+     "computes missing ones; edges with angles above DEGREES stay sharp (default: 33 or 70, by "
+     "shape)"},
     {"studio", "hard|soft", 0, WORD(load.studio), GROUP_PICTURE, CLASS_NONE,
      FOR_SCENE | FOR_CONVERT,
      "shadows of a lone mesh (default: hard); soft ones take several times as long"},
     {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_PICTURE, CLASS_NONE,
      FOR_DRAWING | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
-     "drop triangles with equal corners, or fail at any without area; drop is the default"},
+     "drop triangles with equal corners (default), or fail if any triangle has no area"},
 
     {"aa", "[=N]", 0, FIELD(COUNT, picture.samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
@@ -65,10 +66,11 @@ const Option option_table[] = {
      "and files of lone meshes 3 x 3; the window takes N x N when the camera rests, unless N is 1"},
     {"aa-adaptive", "[=T]", 0, FIELD(PART, picture.contrast), 0, "0.02", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_DRAWING | FOR_GENERAL | FOR_WARM,
-     "add samples to a contrast of at most T (default: 0.02); they go where neighbors differ"},
+     "add samples at thin parts, and where neighbors differ by more than a threshold that grows "
+     "with T (default: 0.02)"},
     {"max-level", "N|auto", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED,
      FOR_PICTURE | FOR_PIXEL,
-     "rays of level N see the background (default: the scene's); N is 3 if the scene has no level; "
+     "rays of level N see the background (default: the scene's max_level, or 3 if it has none); "
      "without glass, the error is at most R^N, where R is the highest reflectivity; auto: the "
      "smallest N whose error is below half a step of the file's values, but at most 16 with glass, "
      "and always 16 with glass in float files"},
@@ -80,33 +82,33 @@ const Option option_table[] = {
      FOR_DRAWING | FOR_GENERAL | FOR_WARM, "take as many samples as fit in S seconds of tracing"},
     {"precision", "fp32|fp64", 0, WORD(renderer.precision), GROUP_QUALITY, CLASS_STATISTICAL,
      FOR_KERNELS,
-     "arithmetic: fp32 (default), or fp64 as a reference; fp64 has single rays and pair nodes"},
+     "arithmetic: fp32 (default), or fp64 as a reference; fp64 traces single rays through pair "
+     "nodes"},
 
     {"tune", "LIST", 0, ODD(set_tune), GROUP_SPEED, CLASS_EXACT, FOR_KERNELS,
      "settings for experiments, such as kernel=pair,tile=64x64; they change no bit of the picture"},
     {"tune kernel", "auto|pair|wide[:LANES]|packet[:LANES]", 0, ODD(set_kernel), GROUP_SPEED,
      CLASS_EXACT, FOR_KERNELS,
-     "single rays through nodes of 2 (pair) or 8 (wide), or packets; packets of rays use nodes of "
-     "8; auto (default) chooses by the device; LANES: 4, 8 or 16 for the width of "
-     "vectors"},
+     "single rays through nodes of 2 (pair) or 8 children (wide), or packets of rays through nodes "
+     "of 8; auto (default) chooses by the device; LANES is the width of vectors: 4, 8 or 16"},
     {"tune tile", "WxH", 0, AREA(picture.tile_width, PICTURE_SIZE_MAX), GROUP_SPEED, CLASS_EXACT,
      FOR_DRAWING, "size of the picture's tiles (default: 128x128, in parts 64x64)"},
     {"tune group", "WxH", 0, AREA(renderer.group_width, GROUP_SIDE_MOST), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_GENERAL | FOR_WARM,
      "size of work-groups (default: 8x8, on CPUs with wide nodes 2x2); on GPUs, the kernel may "
-     "need another"},
+     "need another size"},
     {"tune specialize", "auto|always|never", 0, WORD(renderer.specialize), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
-     "compile kernels for the scene if it pays (auto), always or never; auto is the default"},
+     "compile kernels for the scene if this saves time (auto, the default), always or never"},
     {"tune bvh", "auto|sah|midpoint|none", 0, WORD(renderer.tree), GROUP_SPEED, CLASS_EXACT,
      FOR_SCENE | FOR_WARM,
      "build the tree by surface areas, by midpoints or not at all; without a tree, rays test every "
-     "triangle; auto (default) is sah, but up to 32 triangles get no tree with wide nodes"},
+     "triangle; auto (default) is sah, or none for wide nodes and at most 32 triangles"},
 
     {"turntable", "N", 0, COUNT(frames.turntable, FRAMES_MOST), GROUP_JOB, CLASS_NONE, FOR_FILE,
-     "draw N pictures, and turn the camera by an N-th of a circle for each; it turns about its "
-     "look-at point; numbers replace #### in the file's name or precede its ending; FILE.gif holds "
-     "all"},
+     "draw N pictures, and turn the camera by an N-th of a circle for each; the camera turns "
+     "about its look-at point; numbers replace #### in the file's name or precede its ending; "
+     "FILE.gif contains all pictures"},
     {"frames", "A-B[:S][,I/N]", 0, ODD(set_frames), GROUP_JOB, CLASS_NONE, FOR_FILE,
      "draw views A to B, or pictures A to B of the turntable, or the I-th of N equal runs of them; "
      "S: every S-th of them; auto/N: as for --part"},
@@ -125,7 +127,7 @@ const Option option_table[] = {
 
     {"stats", NULL, 0, FLAG(picture.statistics), GROUP_REPORT, CLASS_NONE,
      FOR_PICTURE | FOR_EXPLAIN | FOR_GENERAL | FOR_WARM,
-     "count rays and tests, and print them; in the window, time frames"},
+     "print the numbers of rays and tests; in the window, print frame times"},
     {"reference", "[=FILE]", 0, ODD(set_reference), GROUP_REPORT, CLASS_NONE, FOR_DRAWING,
      "measure the picture against a reference in fp64 with many samples; write the reference to "
      "FILE"},
@@ -134,11 +136,11 @@ const Option option_table[] = {
     {"repeat", "N", 0, COUNT(repeat, REPEAT_MAX), GROUP_REPORT, CLASS_NONE, FOR_DRAWING,
      "draw the picture N times, for timing; -v and --json report each time (default: 1)"},
     {"fail", "LIMITS", 0, ODD(set_fail), GROUP_REPORT, CLASS_NONE, FOR_COMPARE,
-     "compare: exit with status 1 above LIMITS, such as rmse=1%; LIMITS is a list of rmse=V, "
-     "max=V, share1=V, share4=V and hits=V, or psnr=V, which is a lower limit"},
+     "exit with status 1 if a difference exceeds a limit, such as rmse=1%; LIMITS is a list of "
+     "rmse=V, max=V, share1=V, share4=V and hits=V, or psnr=V, which is a lower limit"},
     {"json", "[=FILE]", 0, ODD(set_json), GROUP_REPORT, CLASS_NONE,
      FOR_DRAWING | FOR_CHECK | FOR_COMPARE | FOR_EXPLAIN | FOR_PIXEL | FOR_DEVICES,
-     "write the report as JSON, to FILE or standard output; of a picture, its statistics"},
+     "write the report as JSON, to FILE or standard output; for a picture, it is the statistics"},
 
     {"keys", "KEYS", 0, TEXT(keys), GROUP_WINDOW, CLASS_NONE, FOR_WINDOW,
      "play these keys in the window, one per displayed frame; q closes it"},
@@ -149,7 +151,8 @@ const Option option_table[] = {
      "print each step and its settings"},
     {"version", NULL, 0, ACTION(ACTION_VERSION), GROUP_TALK, CLASS_NONE, FOR_PICTURE,
      "print the version"},
-    {"help", NULL, 'h', ACTION(ACTION_HELP), GROUP_TALK, CLASS_NONE, FOR_PICTURE, "print this"},
+    {"help", NULL, 'h', ACTION(ACTION_HELP), GROUP_TALK, CLASS_NONE, FOR_PICTURE,
+     "print this help"},
 };
 
 const size_t option_count = sizeof option_table / sizeof option_table[0];
@@ -188,17 +191,16 @@ bool option_is_given(const Options *options, const char *name)
 const Command command_table[] = {
     {"", "SCENE", 1, 1, ACTION_VIEW, FOR_WINDOW,
      "show a scene or a mesh in a window, where h lists the keys"},
-    {"", "SCENE -o FILE", 1, 1, ACTION_RENDER, FOR_FILE, "draw it to a file"},
-    {"", "SCENE --hash", 1, 1, ACTION_RENDER, FOR_HASH, "print the hash of its pixels"},
+    {"", "SCENE -o FILE", 1, 1, ACTION_RENDER, FOR_FILE, "draw the scene to a file"},
+    {"", "SCENE --hash", 1, 1, ACTION_RENDER, FOR_HASH, "print the hash of the picture's pixels"},
     {"check", "SCENE", 1, 1, ACTION_CHECK, FOR_CHECK, "report faults in the scene's geometry"},
     {"compare", "PICTURE PICTURE", 2, 2, ACTION_COMPARE, FOR_COMPARE,
      "report how much two pictures differ; -o draws a map of the differences"},
     {"merge", "PART... -o FILE", 1, INT_MAX, ACTION_MERGE, FOR_MERGE,
      "join the EXR files of all parts (--part)"},
     {"convert", "SCENE FILE", 2, 2, ACTION_CONVERT, FOR_CONVERT,
-     "write a scene or mesh as FILE; it is a .scn with a binary .ply per mesh beside it, or one "
-     ".ply "
-     "with all meshes"},
+     "write a scene or mesh as FILE; FILE is a .scn with a binary .ply per mesh beside it, or one "
+     ".ply with all meshes"},
     {"explain", "SCENE", 1, 1, ACTION_EXPLAIN_SCENE, FOR_EXPLAIN,
      "explain which kernel features and buffers the scene uses; the others are listed with the "
      "reasons why they are left out"},
