@@ -53,7 +53,7 @@ static void find_program(char path[COMPANION_PATH_SIZE])
         snprintf(path, COMPANION_PATH_SIZE, "%s/clrt-foreign", CLRT_FOREIGN_INSTALLED);
 }
 
-#define PIECE ((size_t)1 << 16) // bytes; minimum free space before each read
+#define PIECE ((size_t)1 << 16) // minimum free bytes in the buffer before each read
 
 // Returns the environment with which this process was started, or an empty one if /proc is missing.
 // Reading environ would be unsafe, because OpenCL drivers call setenv in other threads. The strings

@@ -38,10 +38,10 @@ typedef struct {
 } ForeignReader;
 
 // Stores the path of clrt's file `name`, and returns whether the file was found. Searches the
-// folder of the running program first, where a build tree has the file. The second place is
-// `installed`, a path from this folder. The third is the folder of clrt's library, which other
-// programs such as Python may load. Never searches the current folder, which may contain anybody's
-// files. If no place has the file, stores "" or the last path that was tried.
+// folder of the running program first, where a build tree has the file. Then tries the path
+// `installed`, relative to this folder, and then the folder of clrt's library, which other programs
+// such as Python may load. Never searches the current folder, which may contain anybody's files. If
+// no place has the file, stores "" or the last path that was tried.
 #define COMPANION_PATH_SIZE (2 * PATH_MAX)
 bool foreign_companion(char path[COMPANION_PATH_SIZE], const char *name, const char *installed);
 

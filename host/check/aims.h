@@ -33,7 +33,7 @@ typedef struct {
 typedef struct {
     Vec3 point; // in normalized coordinates
     Star star;
-    float tolerance; // error bound of t for the latest ray
+    float tolerance; // error bound of the hit's t, for the latest ray
     AimState state;
 } Aim;
 

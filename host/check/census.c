@@ -180,7 +180,7 @@ static bool find_unused_materials(Census *census, const Scene *scene, Error *err
     return true;
 }
 
-// Adds the faults that the file's reader found and the flat triangles. Replaces indices of
+// Adds the flat triangles, and the faults that the file's reader found. Replaces indices of
 // triangles by their numbers in the file.
 static void complete_faults(MeshCensus *census, const MeshObject *object)
 {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // clrt compare: reads two pictures, measures their difference and reports it as text and JSON.
-// Errors and parts of the picture are numbers from 0 to 1 in JSON and in the lines on limits, and
-// percentages elsewhere in the text.
-// The limits of --fail determine the exit status.
+// Shares of pixels are numbers from 0 to 1 in JSON and in the lines about limits, and percentages
+// in other lines. The limits of --fail determine the exit status.
 #include "cli/commands.h"
 
 #include "base/output_file.h"

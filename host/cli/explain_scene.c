@@ -32,8 +32,8 @@ static json_t *count_reason(uint32_t count)
     return count > 0 ? json_sprintf("%u of them", count) : json_string("there are none");
 }
 
-// Returns the reason why the scene needs a trait or does not need it. Reasons without numbers come
-// from the table of traits.
+// Returns the reason why the scene needs, or does not need, the kernel feature of a trait. Reasons
+// without numbers come from the table of traits.
 static json_t *part_reason(const Session *session, const SceneForm *form, const Trait *trait,
                            bool is_needed)
 {
@@ -133,8 +133,8 @@ static json_t *report_json(const Options *options, const Session *session, const
                   FIELD("uploaded_bytes", arrays_json(&form->flat)));
 }
 
-// Prints the heading and the features for which both flags hold. Prints nothing if there is no such
-// feature.
+// Prints the heading and the features whose fields "needed" and "compiled" equal the flags. Prints
+// nothing if there is no such feature.
 static void write_parts(const json_t *parts, const char *heading, bool is_needed, bool is_compiled)
 {
     for (size_t i = 0; i < json_array_size(parts); i++) {

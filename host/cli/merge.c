@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // clrt merge: joins the parts of a picture. A first pass checks all parts, and a second pass copies
-// their tiles into the whole picture. All parts must have the same scene, version and settings, and
-// each part must occur once. If can_join() is true, compressed tiles are copied, and the picture is
-// never in memory. Otherwise, tiles are decoded into a picture in memory, which is allocated after
-// the first pass.
+// their tiles into the whole picture. All parts must have the same scene, version, settings and
+// channels, and each part must occur once. If can_join() is true, compressed tiles are copied, and
+// the picture is never in memory. Otherwise, tiles are decoded into a picture in memory, which is
+// allocated after the first pass.
 #include "cli/commands.h"
 
 #include "base/output_file.h"

@@ -18,6 +18,6 @@ bool reference_measure(Picture *picture, Error *error);
 bool reference_write(const Picture *picture, Error *error);
 
 // With --aov certainty, computes the certainty of each pixel of a finished picture. If only fp64 is
-// exact enough for a pixel, the pixel gets the color of fp64. Does nothing to a picture that was
-// stopped.
+// exact enough for a pixel, the pixel gets the color that fp64 yields. Does nothing to a picture
+// that was stopped.
 bool picture_certify(Picture *picture, Error *error);

@@ -19,6 +19,6 @@ void stop_wait_for_tiles(void);
 int stop_signal(void);
 
 // Calls work(context) with a stack that is large enough for compilers, regardless of `ulimit -s`.
-// Returns when `work` has returned. If this limit is below 8 MiB, `work` runs on a new thread with
-// a larger stack, and threads of drivers get larger stacks too.
+// Returns when `work` has returned. If the limit of `ulimit -s` is below 8 MiB, `work` runs on a
+// new thread with a larger stack, and threads of drivers get larger stacks too.
 void stack_run(void *(*work)(void *context), void *context);

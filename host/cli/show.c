@@ -52,7 +52,8 @@ ExitCode show_scene(const Options *options, Session *session, Scene *scene, Erro
         return EXIT_SCENE;
     bool is_stopped;
     const ViewerEnd end = viewer_run(&settings, &is_stopped, error);
-    // PoCL needs its files during compilation. The next process removes the folder.
+    // The worker thread may still compile, and PoCL then needs the private folder. The next process
+    // of clrt removes the folder.
     if (!is_stopped)
         session->cache.private_folder[0] = '\0';
     return codes[end];

@@ -17,8 +17,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// The default side of a tile in pixels, if the picture is divided into parts. It is smaller than in
-// other pictures. Each part then has many tiles, and all parts take about the same time.
+// The default side of a tile in pixels, if the picture is divided into parts. With such small
+// tiles, each part has many tiles, so all parts take about the same time.
 #define PART_TILE 64
 
 double stage_lap(double *moment)

@@ -91,8 +91,8 @@ static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
     return list;
 }
 
-// Returns all factors of the surface's color except the lights. Shaders without highlights ignore
-// the material's ks.
+// Returns all factors of the surface's color except the lights. Includes the factors of highlights
+// even if the shader has no highlights.
 static json_t *factors_json(const Scene *scene, const Material *material, Vec3 diffuse)
 {
     if (material->shader == SHADER_GLASS)

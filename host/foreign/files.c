@@ -32,8 +32,8 @@ static bool is_below(const char *file, const char *folder)
     return strncmp(file, folder, length) == 0 && file[length] == '/';
 }
 
-// Returns whether `path` is in the model's folder or below. Links are resolved first, because the
-// folder may contain hostile links.
+// Returns whether `path` is in the model's folder or below, or does not exist. Links are resolved
+// first, because the folder may contain hostile links.
 static bool stays_inside(const Files *files, const char *path)
 {
     char *target = realpath(path, NULL);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a picture as a tiled EXR file. The file of a part contains only the part's tiles. The
-// header, and the length of the table of tiles, are those of the whole picture, so that clrt merge
-// can copy tiles without decoding them.
+// Writes a picture as a tiled EXR file. The file of a part contains only the part's tiles, but it
+// has the header of the whole picture and a table with entries for all tiles. clrt merge can
+// therefore copy tiles without decoding them.
 //
 // OpenEXRCore writes the header and compresses the tiles, but it cannot omit tiles. The code here
 // therefore writes the table and the tiles itself. Threads compress tiles concurrently, but write

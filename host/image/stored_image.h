@@ -37,7 +37,7 @@ typedef struct {
     uint32_t width, height, channel_count;
     char names[STORED_CHANNELS_MAX][STORED_NAME_SIZE]; // "R", "G", "B" and others; "Y" for gray
     char texts[STORED_TEXTS][STORED_TEXT_SIZE];        // empty if missing
-    float *values; // all channels of a pixel together, top row first; owned
+    float *values; // pixel by pixel, each with all its channels; top row first; owned
 } StoredImage;
 
 void stored_image_free(StoredImage *image);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A hash table with open addressing finds the lowest vertex at each position. A counting sort puts
-// each EdgeSide into the bucket of its edge's lower point. Each bucket is then sorted. The average
-// bucket has about six sides. Fans are joined by union-find.
+// A hash table with open addressing finds the vertex with the lowest index at each position. A
+// counting sort puts each EdgeSide into the bucket of its edge's lower point. Each bucket is then
+// sorted. The average bucket has about six sides. Fans are joined by union-find.
 #include "mesh/edges.h"
 
 #include "base/array.h"

@@ -4,7 +4,8 @@
 // A file's vertices do not show which triangles are neighbors. STL repeats each vertex for each
 // triangle, and other files repeat vertices along texture seams. Vertices at equal positions are
 // therefore merged into one point. An edge is a pair of points, and may have any number of
-// triangles. A fan is a set of triangle corners at one point, joined across edges.
+// triangles. A fan is a set of triangle corners at one point, joined across edges. "Lower" and
+// "higher" compare indices.
 //
 // Invariant: the order of points, edges and fans follows from the mesh alone, not from hashing or
 // sorting.
@@ -22,7 +23,7 @@ typedef struct {
     size_t repeated_count; // used vertices at the position of a lower used vertex
 } Weld;
 
-// A triangle at an edge. The higher of two points is the one with the larger index.
+// A triangle at an edge.
 typedef struct {
     uint32_t high;     // the edge's higher point
     uint32_t opposite; // the triangle's third point

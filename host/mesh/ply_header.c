@@ -283,8 +283,8 @@ static bool has_roles(const PlyElement *element, unsigned bits)
     return (element->roles & bits) == bits;
 }
 
-// Returns whether the element has the role `first` and the next two roles. If one of the three is
-// missing, marks the others as unused.
+// Returns whether the element has properties with the role `first` and the next two roles. If one
+// of the three properties is missing, marks the others as unused.
 static bool has_vector(PlyHeader *header, const PlyElement *element, PlyRole first)
 {
     const PlyRole last = first + 2;

@@ -42,7 +42,7 @@ typedef struct {
 } PlyElement;
 
 typedef struct {
-    ARRAY(PlyElement) elements; // each has the needed properties, except PLY_OTHER and empty ones
+    ARRAY(PlyElement) elements; // only empty ones and PLY_OTHER may lack needed properties
     ARRAY(PlyProperty) properties;
     int64_t vertex_count;
     bool has_normals, has_colors;

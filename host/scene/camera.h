@@ -12,7 +12,7 @@
 CameraData camera_make(const Viewpoint *viewpoint, const Normalization *normalization,
                        uint32_t width, uint32_t height, uint32_t samples);
 
-// Returns the factor by which the camera shrinks sizes at `depth`, compared with depth 1.
+// Returns how many times smaller the camera shows an object at `depth` than at depth 1.
 static inline double camera_reduction(const CameraData *camera, double depth)
 {
     return camera->orthographic != 0 ? 1 : depth;

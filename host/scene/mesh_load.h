@@ -10,8 +10,8 @@
 #define NO_CREASE (-2)
 
 // The outputs of clrt-foreign for the files of a scene, kept so that each file is read once. An
-// output that would bring the total above FOREIGN_KEPT_MOST bytes is not kept, so each statement
-// that names its file reads the file again.
+// output that would bring the total above FOREIGN_KEPT_MOST bytes is not kept, so every statement
+// that names the same file reads it again.
 #define FOREIGN_KEPT_MOST ((size_t)256 << 20)
 typedef struct {
     char *path;

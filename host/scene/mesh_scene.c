@@ -301,8 +301,8 @@ static UpAxis up_axis_of_collada(const char *path)
 }
 
 // Returns the up axis of a mesh file.
-// - PLY, STL and OFF define no axis, and z is usual. OBJ defines none either, and y is usual. In
-// these formats, the mesh's shape decides.
+// - PLY, STL and OFF define no axis, but usually z is up. OBJ defines none either, but usually y is
+// up. The mesh's shape can overrule the usual axis.
 // - A Collada file names its axis.
 // - 3MF and AMF define z. glTF defines y, and Assimp turns several other formats to y.
 static UpAxis up_axis_of_file(const Scene *scene, const char *path, bool is_ply)

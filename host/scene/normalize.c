@@ -4,8 +4,9 @@
 #include "scene/normalize.h"
 
 // The scene counts as coarse for a camera if its bounding box is this many times as large as the
-// camera's reach (reach_of). With the box's center as the origin, rounding could then move the eye
-// by up to 2^-12 of the reach. In pictures of 1000 rows, this is about a third of a pixel.
+// camera's reach, which is its distance from the objects that it shows (reach_of). With the box's
+// center as the origin, rounding could then move the eye by up to 2^-12 of the reach. In pictures
+// of 1000 rows, this is about a third of a pixel.
 #define COARSE          0x1p13
 #define LARGEST_RATIO   0x1p40
 #define LARGEST_RATE    0x1p60 // so that products with coordinates stay finite
@@ -75,9 +76,9 @@ static double distance_to_triangles(const Scene *scene, Vec3 point)
     return nearest;
 }
 
-// Returns the camera's reach, which stands for the size of the visible details. The reach is the
-// distance to the look-at point or, if no surface is that near, to the nearest surface. For an
-// orthographic camera, it is the picture's height.
+// Returns the camera's reach, to which the sizes of visible details are proportional: the distance
+// to the look-at point or, if no surface is that near, to the nearest surface. For an orthographic
+// camera, returns the picture's height.
 static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
 {
     if (viewpoint->height > 0)
@@ -133,7 +134,8 @@ Vec3 normalize_light(const Normalization *normalization, const Light *light)
                          : normalize_point(normalization, light->position);
 }
 
-// remainder() subtracts an even number of cubes, so the shift stays precise far from the origin.
+// A checker consists of cubes of two colors, so a shift by an even number of cubes changes nothing.
+// remainder() removes this number, so the shift stays precise far from the origin.
 void normalize_checker(Material *material, const Normalization *normalization)
 {
     const double size = (double)material->check_size;

@@ -25,8 +25,9 @@ typedef struct {
 Normalization normalization_of_primitives(const Scene *scene);
 
 // Returns the normalization for pictures. It differs from normalization_of_primitives only in
-// scenes without triangles, if their box is thousands of times as large as a camera's reach and
-// several times as large as the box of all eyes (normalize.c). The center is then between the eyes.
+// scenes without triangles, if their box is thousands of times as large as a camera's distance from
+// the visible objects, and several times as large as the box of all eyes (normalize.c). The center
+// is then between the eyes.
 Normalization normalization_of(const Scene *scene);
 
 // Returns the longest side of the box that normalization_of scales, or a negative number if the box
@@ -56,7 +57,7 @@ Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 // most 2^20. Outside these ranges, the kernels' floats could overflow or underflow.
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);
 
-// Returns false with a note if floats are too coarse for a camera: rounding may move its eye by
-// more than 2^-12 of the distance to the look-at point and to the nearest surface, or of the height
-// of an orthographic picture. Such scenes have small and very distant parts.
+// Returns false with a note if floats are too coarse for a camera, because the scene has small and
+// very distant parts. Rounding may then move the eye by more than 2^-12 of its distances from the
+// look-at point and from the nearest surface, or of the height of an orthographic picture.
 bool normalization_is_fine(const Normalization *normalization, const Scene *scene, Error *note);

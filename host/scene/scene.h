@@ -23,7 +23,7 @@ enum { MESH_CLAY = COURSE_MATERIALS, MESH_FLOOR, MESH_OWN_MATERIALS };
 
 typedef struct {
     Vec3 position;    // of a sun: a vector toward it, not 0
-    double intensity; // 0 or more; lights do not attenuate
+    double intensity; // 0 or more; does not decrease with the distance
     Vec3 color;       // each component in [0, 1]
     bool is_sun;      // infinitely far away
 } Light;

@@ -145,8 +145,8 @@ bool viewer_is_settled(const Viewer *viewer)
            !viewer->wants_save && (viewer->state.turning || still);
 }
 
-// Returns whether the camera has moved since the traced picture, and the worker cannot trace yet.
-// It compiles kernels, for example.
+// Returns whether the camera has moved since the traced picture, and the worker cannot trace yet,
+// for example because it compiles kernels.
 static bool is_outdated(const Viewer *viewer)
 {
     const WorkerStatus *status = &viewer->status;

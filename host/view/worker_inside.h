@@ -31,8 +31,8 @@ typedef struct {
     Pass pass;
 } Job;
 
-// Returns the settings of the requested picture. Its tiles have one pixel, and plan_pass chooses
-// larger tiles.
+// Returns the settings of the requested picture. The tile size is a placeholder of one pixel, which
+// plan_pass replaces.
 RenderSettings worker_settings(const Worker *worker, const WorkerRequest *request);
 
 // Each function runs one kind of job. The first load also opens the device.

@@ -71,7 +71,7 @@ typedef struct {
     double corners[4]; // left, top, right and bottom; right and bottom are exclusive
 } Crop;
 
-// Returns false if `text` is malformed.
+// Returns false if `text` is malformed, a number is out of range, or the crop is empty.
 bool crop_parse(Crop *crop, const char *text);
 
 // Sets the crop of *picture, whose size must be set. Rounds fractions to the nearest pixel edge, so

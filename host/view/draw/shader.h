@@ -64,8 +64,8 @@ void light_apply(const Scene *scene, const Normalization *normalization, const T
                  GLuint program);
 
 // Packs a material into six vectors of four numbers: diffuse and kd; specular and ks; shader, 0,
-// shininess and reflectivity; the color of even cubes and check_rate; the color of odd cubes and 0;
-// check_shift and 0.
+// shininess and reflectivity; the color of the checker's even cubes and check_rate; the color of
+// its odd cubes and 0; check_shift and 0.
 #define MATERIAL_VECTORS 6
 void light_store_material(float vectors[MATERIAL_VECTORS][4], const Material *material,
                           const Normalization *normalization);

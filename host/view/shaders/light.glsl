@@ -19,7 +19,7 @@ struct Surface {
     vec4 diffuse;  // color and kd
     vec4 specular; // color and ks
     vec4 look;     // shader, unused, shininess, reflectivity; of glass, only the shader counts
-    vec4 even;     // color of even cubes, and cubes per unit; 0 for no checker
+    vec4 even;     // color of the checker's even cubes, and cubes per unit; 0 for no checker
     vec4 odd;      // color of odd cubes
     vec4 shift;    // offset of the cubes along each axis
 };
@@ -31,10 +31,10 @@ vec3 encoded(vec3 color)
     return is_srgb ? mix(curve, 12.92 * shown, lessThanEqual(shown, vec3(0.0031308))) : shown;
 }
 
-// Returns the color of the cube behind the surface, as in the traced picture (kernels/material.cl).
-// Interpolated places are less precise than traced points, so this function moves places 32 times
-// as far behind the surface. It does not move places along axes parallel to the surface, because
-// moves of this length would cross the edges of solids.
+// Returns the color of the checker's cube behind the surface, as in the traced picture.
+// Interpolated places are less precise than traced points, so this function moves them 32 times as
+// far behind the surface as kernels/material.cl moves traced points. It does not move places along
+// axes parallel to the surface, because moves of this length would cross the edges of solids.
 vec3 checked(Surface surface)
 {
     float move = (surface.even.w + 1.0) / 16384.0;
