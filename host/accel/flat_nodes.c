@@ -37,7 +37,7 @@ Box flat_bounds(const FlatScene *flat, const FlatSource *source)
     return box_grow(&box, SKY_SLACK);
 }
 
-// Returns the number of pairs: one per inner node, and one if the root is a leaf.
+// Returns the number of pairs: one per inner node, or one if the root is a leaf.
 static uint32_t pair_count(const Bvh *bvh)
 {
     return bvh->node_count <= 1 ? bvh->node_count : bvh->node_count - bvh->leaf_count;

@@ -13,7 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// A group of more spheres is split in halves, so each group has at least two spheres.
+// A group of more than GROUP_MOST spheres is split in halves, so each group has at least two
+// spheres.
 #define GROUP_MOST 4
 
 typedef struct {

@@ -80,8 +80,8 @@ static Part part_of(const Bvh *bvh, uint32_t number)
     return (Part){node->box, number, is_leaf ? node->first : 0, node->count};
 }
 
-// The smallest sum of the areas of the wide nodes at and below a binary node that becomes at most n
-// children of one wide node, for n from 1 to WIDE.
+// A binary node can become up to n children of one wide node, for n from 1 to WIDE. areas[n] is
+// then the smallest sum of the areas of the wide nodes at and below the binary node.
 typedef struct {
     float areas[WIDE + 1];
 } Collapse;
@@ -146,8 +146,8 @@ static void add_parts(const WideTree *tree, uint32_t number, uint32_t slots, Par
     add_parts(tree, child + 1, slots - left, parts, count);
 }
 
-// Halves ranges at multiples of WIDE items until the node is full or all are blocks. Returns the
-// number of ranges.
+// Halves ranges at multiples of WIDE items until the node is full or each range fits into a block.
+// Returns the number of ranges.
 static uint32_t divide_range(Part parts[WIDE])
 {
     uint32_t count = 1;

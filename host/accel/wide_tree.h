@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Bvh over triangles or spheres, its items -> wide nodes, and the items of each block.
+// A Bvh over items (triangles or spheres) -> wide nodes, and the items of each block.
 #pragma once
 
 #include "accel/bvh_tree.h"

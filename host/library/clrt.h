@@ -422,7 +422,8 @@ CLRT_API void clrt_hash(const float *rgb, uint32_t width, uint32_t height, char 
 
 // Rays origin + t * direction. A ray hits primitives at t in [near, far]. It hits triangles from
 // both sides, unless `one_sided` is set. A ray hits nothing if its origin, direction or near is not
-// finite, if its far is NaN, or if its direction is shorter than 1e-300 or longer than 1e300.
+// finite, or if its far is NaN. It also hits nothing if all components of its direction are below
+// 1e-300 in magnitude, or if their magnitudes add up to more than 1e300.
 //
 // `starts` contains the primitive on which each ray starts. The ray does not hit this primitive
 // again. The only exception is a ray with near 0 that hits its sphere from inside. If near is 0 and

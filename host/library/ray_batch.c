@@ -2,7 +2,7 @@
 // Callers pass rays and read hits in fp64 and in scene coordinates. The device receives rays and
 // returns hits in float and in normalized coordinates. A ray's direction is scaled by a power of
 // two so that its largest component is in [1, 2). The device's t then stays in the range of floats.
-// An origin is far if a coordinate exceeds the side of a cube around the scene in magnitude.
+// An origin is far if the magnitude of a coordinate exceeds the side of a cube around the scene.
 // Rounding such an origin to float would move the ray too far, so the origin first advances to the
 // cube.
 //
@@ -151,7 +151,7 @@ static double sum_of(Vec3 v)
 }
 
 // Returns the power of two that scales a size from [1e-300, 1e300] into [1, 2). The bit operations
-// replace ilogb and scalbn, which took 15 % of a call's processor time together with fmax.
+// replace ilogb and scalbn. With fmax, these functions took 15 % of a batch's processor time.
 static double power_to_one(double size)
 {
     uint64_t bits;

@@ -12,8 +12,8 @@
 // because bisecting a gap takes one sample, but a new line takes at least three. Bands are divided
 // if the error of their bend exceeds BEND_PART of the threshold. New gaps between equal samples are
 // bisected if their error, computed with the largest contrast of the line, exceeds DOUBT_PART of
-// the threshold. Without these samples, thin strips and tiles had 1.04 to 1.5 times the error at T
-// = 0.01.
+// the threshold. Without these samples, thin strips and tiles had 1.04 to 1.5 times the error at a
+// threshold of 0.01.
 #define GAP_PART   0.13f
 #define BEND_PART  0.17f
 #define DOUBT_PART 1.5f

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The rounds of an error or time goal. A round has two steps. strata_raise raises the fractions of
-// some strata. ladder_advance then selects pixels by these fractions and moves them up by one rung.
-// The changes of the pixels' colors correct the strata's estimates for the next round.
+// Runs the rounds of an error or time goal (ladder.h explains rungs and strata). A round has two
+// steps. strata_raise raises the fractions of some strata. ladder_advance then selects pixels by
+// these fractions and moves them up by one rung. The changes of the pixels' colors correct the
+// strata's estimates for the next round.
 //
 // ladder_advance lists the selected pixels in a fixed order, traces their samples, and records the
 // pixels' changes in this order. Floating-point sums therefore do not depend on threads.

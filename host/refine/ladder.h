@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Refines a picture for error and time goals. Each pixel climbs a ladder of samples: its center,
-// then 4, 8, 16 ... 1024 points of its own sequence. Statistics of similar pixels determine how
-// many of them advance, and hashes of their positions select these pixels.
+// Refines a picture for error and time goals. Each pixel climbs a ladder of samples. Rung 0 is the
+// pixel's center, and the next rungs are 4, 8, 16 ... 1024 points of the pixel's sequence. Similar
+// pixels of a rung form a stratum. Statistics of the stratum determine how many of its pixels
+// advance, and hashes of their positions select these pixels.
 //
 // An error goal needs an honest estimate of the error. A pixel's own samples estimate its error
 // badly: samples that all miss a detail agree with each other. Therefore some pixels of each kind

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Assigns each pixel to a stratum of rung 0 by its bend, by the bends nearby, and by whether a thin
-// part touches it. The picture is processed in small areas, which stay in the cache. The features
-// (squared bends) of a row of areas are summed in order, and one thread then adds the rows' sums in
-// order. The result therefore does not depend on threads.
+// Assigns each pixel to a stratum of rung 0 by its bend (defined below), by the bends nearby, and
+// by whether a thin part touches it. The picture is processed in small areas, which stay in the
+// cache. The features (squared bends) of a row of areas are summed in order, and one thread then
+// adds the rows' sums in order. The result therefore does not depend on threads.
 #include "refine/ladder_entry.h"
 
 #include "refine/thin_parts.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Pixels that have advanced from a stratum are its controls (ladder_strata.h defines the other
 // terms). The estimate for a stratum is a weighted mean of its controls' errors and a prior. The
-// prior is the product of the pixels' mean feature in the stratum, which the first samples show,
-// and of the rung's ratio of squared errors to features. Pixels that look
-// flat may hide detail that no sample hit. The feature in a prior therefore has a minimum. The
-// minimum is larger near contrast, because most hidden detail was found there. With one minimum for
-// all strata, errors reached 1.3 times the goal on tiled floors.
+// prior is the mean feature of the stratum's pixels, times the rung's ratio of squared errors to
+// features. Pixels that look flat may hide detail that no sample hit. The feature in a prior
+// therefore has a minimum. The minimum is larger near contrast, because most hidden detail was
+// found there. With one minimum for all strata, errors reached 1.3 times the goal on tiled floors.
 #include "refine/ladder_strata.h"
 
 #include <math.h>
@@ -61,9 +60,10 @@
 // goal.
 #define NESTED_FACTOR 1.75
 
-// A stratum's first step selects the number of controls at which the prior contributes PRIOR_PART
-// of the aim to the estimate. This number is limited to between FIRST_LEAST and FIRST_MOST of the
-// stratum's pixels, but is at least FIRST_PIXELS.
+// A step raises the fraction of a stratum's pixels that advance. A stratum's first step selects the
+// number of controls at which the prior contributes PRIOR_PART of the aim to the estimate. This
+// number is limited to between FIRST_LEAST and FIRST_MOST of the stratum's pixels, but is at least
+// FIRST_PIXELS.
 #define PRIOR_PART   0.03
 #define FIRST_LEAST  (1.0 / 128)
 #define FIRST_MOST   (1.0 / 32)

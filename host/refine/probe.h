@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The grid of places in a pixel, and requests for samples at thin parts.
+// A pixel's grid of places, which are square cells, and requests for samples at thin parts.
 //
 // A pixel is covered by parallel bands, and the middle of a band is a scan line. Level 0 has three
 // bands, and each further level divides each band into three. A band of the last level is as high

@@ -87,10 +87,9 @@ static void close_gap(ScanLines *scan, const Gap *gap)
         add_color(&scan->lines.data[gap->line], &gap->ends[end], gap->to - gap->from);
 }
 
-// Returns the error of the pixel if a color that differs by `contrast` fills the gap. The errors of
-// lines are independent, so their squares add up. Lines that divide a band therefore count by the
-// square root of their height. Together, their error is then as large as the error of one line in
-// the whole band.
+// Returns the pixel's error if a color that differs by `contrast` fills the gap. If several lines
+// divide a band, their errors are independent, so the squares of their errors add up. The results
+// are therefore increased: together, these lines count as much as one line in the whole band.
 static float gap_error(const ScanLines *scan, const Gap *gap, float contrast)
 {
     const float height = (float)(scan->lines.data[gap->line].height * band_height(0));

@@ -8,10 +8,10 @@
 // pixel or of an adjacent pixel. Such a piece is at least as wide as a pixel, and contrast finds
 // its outline.
 //
-// In pixels at which a piece is not wide, its thin triangles are drawn on the grid of places. On
-// each line of level 0, each run of drawn places gets probes on both sides of both ends. The lines
-// of each further level lie closer together. A line gets probes only where no line of the level
-// before passes near the piece.
+// In pixels at which a piece is not wide, its thin triangles are drawn on the grid of places
+// (probe.h). On each line of level 0, each run of drawn places gets probes (requests for samples)
+// on both sides of both ends. The lines of each further level lie closer together. A line gets
+// probes only where no line of the level before passes near the piece.
 //
 // Invariant: a sample hits each sphere that is at least 1/57 pixel across, and each triangle whose
 // incircle is at least 1/57 pixel across. The exceptions are

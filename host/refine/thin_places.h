@@ -57,5 +57,5 @@ bool thin_parts_add(ThinParts *parts, const Probe *probe, Error *error);
 // picture.
 uint32_t thin_parts_affordable(const ThinParts *parts);
 
-// Returns the index of the pixel's first probe. Without one, returns the index of the next pixel's.
+// Returns the index of the first probe of this pixel or of a later one, or the number of probes.
 size_t thin_parts_first_probe(const ThinParts *parts, uint32_t pixel);

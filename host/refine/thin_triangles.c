@@ -20,7 +20,7 @@ typedef struct {
     uint32_t pixel, triangle;
 } PixelTriangle;
 
-// The pairs of one pixel: `first` to `end` - 1.
+// The pairs with one pixel: elements `first` to `end` - 1 of ThinSearch::pairs.
 typedef struct {
     uint32_t first, end;
     ThinAxis axis; // of the pixel's lines
@@ -235,8 +235,7 @@ static void exchange_axes(Outline *outline)
     outline_complete(outline);
 }
 
-// Draws the pixel's triangles, which means that the places whose middles they contain become
-// PLACE_DRAWN.
+// Draws the pixel's triangles: the places whose middles they contain become PLACE_DRAWN.
 static void draw_triangles(const ThinSearch *search, const PixelRun *run, CellGrid grid,
                            ThinDrawing drawing)
 {

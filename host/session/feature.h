@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The numbers of samples in a picture's pixels -> the smallest feature that the samples are likely
-// to hit.
+// The numbers of samples in a picture's pixels -> the smallest feature (a disk) that the samples
+// are likely to hit.
 #pragma once
 
 #include <stddef.h>

@@ -106,8 +106,8 @@ static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
         drawing->result->truncated = renderer_truncation(renderer, samples);
 }
 
-// Of refined pixels, counts only the samples of the first lines, because later samples are not
-// spread evenly.
+// Returns the smallest feature. In refined pixels, only the samples of the first lines count,
+// because later samples are not spread evenly.
 static double adaptive_feature(const Adaptive *adaptive, size_t pixels)
 {
     const uint64_t refined = adaptive->lines.pixels.count - 1;
