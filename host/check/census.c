@@ -17,8 +17,8 @@ static void judge_edge(MeshCensus *census, const EdgeSide *sides, size_t count)
     uint32_t lowest = sides[0].triangle;
     for (size_t side = 1; side < count; side++) {
         lowest = sides[side].triangle < lowest ? sides[side].triangle : lowest;
-        // A duplicate triangle appears at three edges. It is counted only at the edge opposite its
-        // highest point.
+        // A duplicate triangle appears at three edges. It is counted only at the edge opposite the
+        // point with the highest index.
         if (sides[side].opposite == sides[side - 1].opposite &&
             sides[side].opposite > sides[side].high)
             mesh_fault_add(&census->faults[FAULT_DUPLICATES], sides[side].triangle);

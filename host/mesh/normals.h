@@ -44,7 +44,7 @@ void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b);
 // Adds all edges of the mesh that have two triangles.
 bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error);
 
-// Returns 70 degrees if the angles indicate a smooth shape, such as a scan, whose coarse parts have
-// angles above CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose edges may be meant to
-// be sharp.
+// Returns 70 degrees if the angles indicate a smooth shape, such as a scan. In coarse parts of such
+// shapes, angles exceed CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose edges may be
+// meant to be sharp.
 double crease_of_angles(const EdgeAngles *angles);

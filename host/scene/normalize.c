@@ -89,8 +89,8 @@ static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
 }
 
 // Returns the center of the normalized coordinates of a scene without triangles. `center` is the
-// center of the scene's box. Coordinates of spheres are stored as sums of two floats, but
-// coordinates of eyes as single floats, so only eyes need a near center.
+// center of the scene's box. Spheres store coordinates as sums of two floats, but eyes store them
+// as single floats, so only eyes lose precision far from the center.
 static Vec3 center_of(const Scene *scene, Vec3 center)
 {
     const double extent = scene_extent(scene);

@@ -58,6 +58,7 @@ Vec3 denormalize_point(const Normalization *normalization, Vec3 point);
 bool normalization_check(const Normalization *normalization, const Scene *scene, Error *error);
 
 // Returns false with a note if floats are too coarse for a camera, because the scene has small and
-// very distant parts. Rounding may then move the eye by more than 2^-12 of its distances from the
-// look-at point and from the nearest surface, or of the height of an orthographic picture.
+// very distant parts. Rounding may then move the eye by more than 2^-12 of its distance from the
+// look-at point, and of its distance from the nearest surface. For orthographic cameras, the
+// picture's height replaces these distances.
 bool normalization_is_fine(const Normalization *normalization, const Scene *scene, Error *note);

@@ -67,7 +67,7 @@ static void use_vectors(GLuint attribute, const void *vectors)
     (vectors != NULL ? glEnableVertexAttribArray : glDisableVertexAttribArray)(attribute);
 }
 
-// Sets the material of an object. An object with vertex colors has no checker.
+// Sets the material of an object. Vertex colors replace the material's checker.
 static void set_material(GLuint program, const Model *model, const MeshObject *object)
 {
     static const char *const names[MATERIAL_VECTORS] = {"diffuse", "specular", "look",

@@ -33,8 +33,8 @@ vec3 encoded(vec3 color)
 
 // Returns the color of the checker's cube behind the surface, as in the traced picture.
 // Interpolated places are less precise than traced points, so this function moves them 32 times as
-// far behind the surface as kernels/material.cl moves traced points. It does not move places along
-// axes parallel to the surface, because moves of this length would cross the edges of solids.
+// far behind the surface as kernels/material.cl moves traced points. Places do not move along axes
+// parallel to the surface, because moves of this length would cross the edges of solids.
 vec3 checked(Surface surface)
 {
     float move = (surface.even.w + 1.0) / 16384.0;
