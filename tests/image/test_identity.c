@@ -210,6 +210,54 @@ TEST(no_primitive_is_mistaken_for_sky)
     }
 }
 
+// Writes 48 strips of two triangles. Every second strip is 4 roundings lower than the others, and
+// the scene's last triangle is far below.
+#define STRIPS 48
+static void write_strips(char path[TEMPORARY_PATH])
+{
+    static double corners[4 * STRIPS + 3][3];
+    static uint32_t triangles[2 * STRIPS + 1][3];
+    for (uint32_t i = 0; i < 4 * STRIPS; i++) {
+        corners[i][0] = (i / 4 + (i % 4 == 1 || i % 4 == 2)) / (double)STRIPS - 0.5;
+        corners[i][1] = i % 4 < 2 ? -0.5 : 0.5;
+        corners[i][2] = i / 4 % 2 == 0 ? 1 : 1 - 0x1p-22;
+    }
+    for (uint32_t i = 0; i < 2 * STRIPS; i++) {
+        triangles[i][0] = i / 2 * 4;
+        triangles[i][1] = i / 2 * 4 + 1 + i % 2;
+        triangles[i][2] = i / 2 * 4 + 2 + i % 2;
+    }
+    for (uint32_t i = 0; i < 3; i++) {
+        corners[4 * STRIPS + i][0] = i / 2.0 - 0.5;
+        corners[4 * STRIPS + i][1] = i == 1 ? 0.5 : -0.5;
+        corners[4 * STRIPS + i][2] = -0.9;
+        triangles[2 * STRIPS][i] = 4 * STRIPS + i;
+    }
+    temporary_mesh(path, &(Mesh){.positions = corners,
+                                 .triangles = triangles,
+                                 .vertex_count = 4 * STRIPS + 3,
+                                 .triangle_count = 2 * STRIPS + 1});
+}
+
+// Rays that leave a level plane skip its triangles. A ray that starts lower, although within
+// rounding of the plane, does not skip them: the higher strips shade the lower ones.
+TEST(rays_from_just_below_a_level_plane_hit_it)
+{
+    char mesh[TEMPORARY_PATH], scene[TEMPORARY_PATH];
+    write_strips(mesh);
+    FILE *stream = temporary_open(scene);
+    fprintf(stream,
+            "up 0 1 0\ncamera 0 0 2  0 0 1  orthographic 1\nbackground 0 0 0\nambient 0\n"
+            "sides two\nsun 1 0 1e-5 8e4\nmaterial 1\nmesh %s\n",
+            mesh);
+    temporary_close(stream);
+    PictureRequest request = picture_request(scene, 1);
+    request.width = request.height = 64;
+    expect_same_in_every_form_and_tree(request);
+    unlink(mesh);
+    unlink(scene);
+}
+
 // A ray may be near all 8 spheres of a block. A vector of 4 lanes tests only half of these pairs.
 TEST(every_form_draws_nested_spheres)
 {
