@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each pass lists one sample for each open gap, and then the first samples of all new lines. When
-// all gaps are closed, pixels with new lines may get further lines.
+// Each pass lists one sample for each open gap (scan_lines.h), and then the first samples of all
+// new lines. When all gaps are closed, pixels with new lines may get further lines.
 #include "refine/adaptive.h"
 
 #include <stdlib.h>
@@ -10,10 +10,10 @@
 
 // Gaps are bisected until their error is at most GAP_PART of the threshold. The fraction is small,
 // because bisecting a gap takes one sample, but a new line takes at least three. Bands are divided
-// if the error of their bend exceeds BEND_PART of the threshold. New gaps between equal samples are
-// bisected if their error, computed with the largest contrast of the line, exceeds DOUBT_PART of
-// the threshold. Without these samples, thin strips and tiles had 1.04 to 1.5 times the error at a
-// threshold of 0.01.
+// if the bend of the lines' mean colors causes an error of more than BEND_PART of the threshold.
+// New gaps between equal samples are bisected if their error, computed with the largest contrast of
+// the line, exceeds DOUBT_PART of the threshold. Without these samples, thin strips and tiles had
+// 1.04 to 1.5 times the error at a threshold of 0.01.
 #define GAP_PART   0.13f
 #define BEND_PART  0.17f
 #define DOUBT_PART 1.5f
@@ -22,7 +22,7 @@
 // levels have twice as many gaps.
 #define LINE_GAPS 2
 
-// The places of a pass.
+// The places that a pass samples.
 typedef ARRAY(SamplePlace) PlaceList;
 
 typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW } Side;

@@ -41,7 +41,7 @@ typedef struct {
     double feature;             // sum over the pixels that entered
     double advanced_feature;    // sum over the pixels that advanced
     double change, square;      // sums over controls: estimated squared error, and its square
-    double fraction;            // of the stratum's pixels to advance, in [0, 1]
+    double fraction;            // part of the stratum's pixels that should advance, in [0, 1]
 } Stratum;
 
 typedef struct {

@@ -22,16 +22,18 @@ typedef struct {
     uint32_t small; // with ladder_entry: number of small requests, which precede the large ones
 } SampleList;
 
-// Traces the requests in `list`. The frame must not have a tile. The renderer's kernel must have
-// sample_entry or ladder_entry. renderer->progress counts every 4096 work-items as a tile, and adds
-// them to its previous counts. If the observer stops the trace early, tiles_done stays below tiles,
-// and some results are undefined.
+// Traces the requests in `list`. The frame's tile members must be 0, except when
+// sampler_draw_centers calls this function. The renderer's kernel must have sample_entry or
+// ladder_entry. renderer->progress counts every 4096 work-items as a tile, and adds them to its
+// previous counts. If the observer stops the trace early, tiles_done stays below tiles, and some
+// results are undefined.
 bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList *list,
                    const RenderObserver *observer, Error *error);
 
-// Renders the whole picture of a frame without a tile, with one sample at the center of each pixel.
-// The frame's camera must be made for frame->samples samples. Stores the pixels row by row, as
-// SampleData with sample_entry and as three floats with ladder_entry. Stops as sampler_trace does.
+// Renders the whole picture, with one sample at the center of each pixel. The frame's tile members
+// must be 0. The frame's camera must be made for frame->samples samples. Stores the pixels row by
+// row, as SampleData with sample_entry and as three floats with ladder_entry. Stops as
+// sampler_trace does.
 bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, void *pixels,
                           const RenderObserver *observer, Error *error);
 

@@ -95,7 +95,7 @@ static double scalar_at(const Explainer *explainer, const void *values, size_t p
                               : (double)((const float *)values)[place];
 }
 
-// The place of the kernel's values for one ray or light.
+// The position in the buffers of the kernel's values for one ray or light.
 typedef struct {
     const Explainer *explainer;
     size_t value, word; // indices of the first ones in host_values and host_words

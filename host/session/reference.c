@@ -71,7 +71,7 @@ static bool add_pass(Reference *reference, Renderer *renderer, double weight, Er
 {
     CameraData camera = reference->camera;
     const uint32_t half = reference->passes_done % 2;
-    const double place = reference->passes_done / 2; // the index of the pass in its half
+    const double place = reference->passes_done / 2; // the index of the pass in its picture
     camera_shift(&camera, part(starts[half][0] + place * ACROSS) - 0.5,
                  part(starts[half][1] + place * DOWN) - 0.5);
     const RenderObserver observer = {tile_done, reference};
