@@ -6,6 +6,6 @@
 
 // The file's first bytes, not its name, determine the format. libpng reads PNG, and pfm.c reads
 // PFM. In builds with OpenImageIO, clrt-foreign reads the other formats that clrt writes, except
-// GIF. A crash of clrt-foreign does no harm. On failure, returns false with a message that names
-// the file. The caller frees the image.
+// GIF. If clrt-foreign crashes, only the read fails. On failure, returns false with a message that
+// names the file. The caller frees the image.
 bool image_read(StoredImage *image, const char *path, Error *error);

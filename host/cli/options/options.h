@@ -129,10 +129,9 @@ typedef struct {
     int part_count;
     const char *other_path;  // the second picture of ACTION_COMPARE; the output of ACTION_CONVERT
     const char *output_path; // "-": standard output; NULL without -o
-    const char
-        *format; // of the output; "pfm" if only a hash is requested; NULL without output and hash
-    AovSet aovs; // channels other than the colors
-    ClrtPicture picture; // without crop, camera and truncation, which need the scene
+    const char *format;      // of the output; "pfm" with a hash alone; NULL without output and hash
+    AovSet aovs;             // channels other than the colors
+    ClrtPicture picture;     // without crop, camera and truncation, which need the scene
     ClrtSettings renderer;
     SceneLoadOptions load;
     Crop crop;

@@ -14,7 +14,7 @@
 typedef struct {
     Framebuffer framebuffer; // until the layer is complete, only the tracing thread uses it
     unsigned char *bytes;    // 8-bit colors for the window, three bytes per pixel, top row first
-    uint64_t pass;           // version of the bytes, from Canvas::passes; 0: empty
+    uint64_t pass;           // a new number for each picture or encoding; 0: empty
     RenderSettings settings; // size and tiles of this pass
     uint64_t tiles_done;
     bool is_hidden; // not displayed before it is complete
@@ -25,7 +25,7 @@ typedef struct {
 
 typedef struct {
     Layer layers[CANVAS_LAYERS];
-    uint64_t passes; // number of versions of all layers so far
+    uint64_t passes; // the last of the numbers in Layer::pass
     Encoding encoding;
     pthread_mutex_t mutex;
 } Canvas;
