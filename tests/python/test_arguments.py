@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 try:
     import cffi  # pylint: disable=unused-import
@@ -129,10 +130,14 @@ class Errors(unittest.TestCase):
             ("origins: .*abc", lambda: renderer.trace(scene, "abc", [(0, 0, 1)])),
             ("directions: .*inhomogeneous", lambda: renderer.trace(scene, (0, 0, 5), [(0, 1), (2,)])),
             ("near: .*broadcast", lambda: renderer.trace(scene, *ray, near=[1, 2])),
+            ("origins: .*complex", lambda: renderer.trace(scene, [(0, 0, 5j)], (0, 0, 1))),
+            ("starts is not an integer", lambda: renderer.trace(scene, *ray, starts=np.nan)),
             ("eye: .*'0'|eye: .*abc", lambda: clrt.Camera("abc")))
         for words, action in cases:
             with self.subTest(words), self.assertRaisesRegex(clrt.ArgumentError, words):
-                action()
+                with warnings.catch_warnings():
+                    warnings.simplefilter("error")
+                    action()
 
     def test_scenes_without_cameras_say_so(self):
         with self.assertRaisesRegex(clrt.ArgumentError, "the scene has no camera"):

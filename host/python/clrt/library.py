@@ -157,8 +157,11 @@ def numbers(values, dtype, what, shape=None):
     """The values as an array. Copies only if necessary. Raises if uint32 cannot hold a value."""
     try:
         values = np.asarray(values)
+        if np.iscomplexobj(values):
+            raise TypeError("the numbers are complex")
         values = values if shape is None else np.broadcast_to(values, shape)
-        made = values.astype(dtype, copy=False)
+        with np.errstate(invalid="ignore"):
+            made = values.astype(dtype, copy=False)
     except (OverflowError, TypeError, ValueError) as fault:
         raise ArgumentError(f"{what}: {fault}") from None
     if dtype == np.uint32 and (made != values).any():
