@@ -66,7 +66,7 @@ static inline Mask pop_branches(Branches *branches, Mask lanes, UInt *levels, Br
     return popped;
 }
 
-// The rays that leave the surfaces of a packet.
+// The next rays of a packet, which leave the surfaces that its rays hit.
 typedef struct {
     Branch next;   // followed first
     Branch other;  // the reflected ray, which waits

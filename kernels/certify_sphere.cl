@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Decides whether a ray cone hits a sphere, and at which depths.
 //
-// sphere.cl computes with sums of two floats. Let f lead from the sphere's center to the ray's
+// sphere.cl represents each number by the sum of two floats. Let f lead from the sphere's center to the ray's
 // origin, let h be the center's distance from the ray's line, and let u be the unit roundoff. The
 // error of the discriminant radius^2 - h^2 is below 64 u^2 (h + radius) (|f| + radius + |center|).
 // The error of the foot of the perpendicular adds less than 64 u^3 |f|^2. Moving the ray aside by

@@ -199,7 +199,7 @@ static inline Candidate camera_candidate(const RayCone *ray, const ProjectedTria
     return candidate;
 }
 
-// Returns the triangle as a candidate that blocks a shadow ray. It does not block the ray if both
+// Returns whether the triangle may block a shadow ray. The triangle does not block the ray if both
 // ends of the ray are on one side of the triangle's plane.
 static inline Candidate shadow_candidate(const RayCone *ray, const ProjectedTriangle *projected,
                                          int side, int light_side)

@@ -26,8 +26,8 @@
 // axis.
 #define CHECK_PARALLEL 0x1p-10f
 
-// The cubes of a material's checker. On each axis, cube i contains the places from i to i + 1. The
-// place of a coordinate is rate * coordinate + shift.
+// The cubes of a material's checker. On each axis, a coordinate has the place rate * coordinate +
+// shift, and cube i contains the places from i to i + 1.
 typedef struct {
     Real rate; // 0 if the material has no checker
     Real3 shift;

@@ -315,9 +315,9 @@ static inline ItemRange range_of(uint number, uint small, uint end)
 // samples, and then requests for LARGE_SAMPLES.
 //
 // If the frame has a tile, `requests` and `small` are not used, and each index stands for a pixel's
-// center. A work-item renders the centers of a block. The results are SampleData in the order of
-// the tile's pixels. Without CLRT_SIGNATURES, they are colors as in render_tile. Indices beyond the
-// tile are padding.
+// center. A work-item renders the centers of a block. The results are in the order of the
+// tile's pixels: SampleData with CLRT_SIGNATURES, otherwise colors as in render_tile. Indices
+// beyond the tile are padding.
 kernel void trace_samples(TRACER_ARGUMENTS, global const uint *requests, uint first, uint end,
                           global float *results, global uint *tallies, uint small)
 {

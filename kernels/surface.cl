@@ -282,7 +282,7 @@ static inline Leaving leaving_from(const Tracer *tracer, const Surface *surface,
 {
     Leaving leaving;
     Corners corners = {surface->a, surface->b, surface->c};
-    if (CLRT_GPU) // keeping b and c between the surface's rays would take 18 registers
+    if (CLRT_GPU) // keeping b and c between the surface's rays would take 18 more registers
         corners = fetch_corners(tracer, known ? surface->index : (UInt)(0));
     const Real3 ab = difference(corners.b, corners.a), ac = difference(corners.c, corners.a);
     leaving.corners = corners;
@@ -301,8 +301,9 @@ static inline Mask passes(const Leaving *leaving, Real3 point, Real3 direction)
     return crosses && (leaving->to_front ? !from_front : from_front);
 }
 
-// A ray that almost lies in its triangle's plane can miss the triangle from every start. Such a ray
-// is lifted by 2^-8, 2^-4 or 1 times the face's normal, until it passes through the triangle.
+// If a ray is almost parallel to the plane of the triangle that it leaves, its line can miss this
+// triangle from every start of point_inside. Such a ray is lifted by 2^-8, 2^-4 or 1 times the
+// face's normal, until its line passes through the triangle.
 static inline Real3 lifted_direction(const Leaving *leaving, Real3 point, Real3 direction,
                                      Real3 face, Mask misses)
 {

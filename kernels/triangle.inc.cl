@@ -146,7 +146,8 @@ typedef struct {
 // contains the triangles' flags. One-sided triangles do not stop rays on their inner side. For rays
 // that leave a surface, surface_ray_distance decides about all triangles ahead up to `reach`, and
 // about triangles within rounding of the start. For rays from the eye, it decides only about
-// triangles within rounding of the eye. If all hits count, it decides about none.
+// triangles within rounding of the eye. With CLRT_ALL_HITS, it decides about no
+// triangle.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {

@@ -80,8 +80,9 @@ static Part part_of(const Bvh *bvh, uint32_t number)
     return (Part){node->box, number, is_leaf ? node->first : 0, node->count};
 }
 
-// A binary node can become up to n children of one wide node, for n from 1 to WIDE. areas[n] is
-// then the smallest sum of the areas of the wide nodes at and below the binary node.
+// The costs of a binary node's subtree. areas[n] is the least cost if the subtree may use up to n
+// children of the wide node above it. The cost is the sum of the areas of all wide nodes that are
+// made of the subtree.
 typedef struct {
     float areas[WIDE + 1];
 } Collapse;

@@ -55,8 +55,8 @@ static void lock_path(char path[PRIVATE_SIZE], const char *folder)
     snprintf(path, PRIVATE_SIZE, "%s" LOCK_NAME, folder);
 }
 
-// Returns whether the lock's file still has its name. The file's link count would not show a
-// removal, because network file systems rename open files instead of removing them.
+// Returns whether no other process has removed the lock file. The file's link count would not show
+// a removal, because network file systems rename open files instead of removing them.
 static bool has_lock(const char *folder)
 {
     char path[PRIVATE_SIZE];

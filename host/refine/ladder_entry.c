@@ -65,8 +65,8 @@ static inline float bend_along(const float *color, ptrdiff_t step)
     return fabsf(2 * *color - color[-step] - color[step]);
 }
 
-// Measures the bends of up to AREA_WIDTH + 2 * RADIUS pixels of a row. `next` must apply to all of
-// these pixels.
+// Measures the bends of up to AREA_WIDTH + 2 * RADIUS pixels of a row. All of them have neighbors
+// at the distances `next`.
 static void measure_pixels(const float *colors, Neighbors next, uint32_t count, float *bends)
 {
     float most[3 * (AREA_WIDTH + 2 * RADIUS)];

@@ -25,7 +25,8 @@ static size_t scalar_size(const Explainer *explainer)
     return explainer->is_fp64 ? sizeof(double) : sizeof(float);
 }
 
-// The next two functions return the size in bytes of the head and of `records` records.
+// value_bytes and word_bytes return the sizes of the two arrays in bytes. Each array has a head and
+// `records` records.
 static size_t value_bytes(const Explainer *explainer, size_t records)
 {
     return (HEAD_VALUES + records * level_values(explainer)) * scalar_size(explainer);

@@ -88,7 +88,7 @@ static bool compile(RayScene *scene, const Session *session, NodeLayout layout, 
     return true;
 }
 
-// Stores each triangle's mesh and its number in the mesh.
+// Stores each triangle's mesh, and its number there before triangles were dropped.
 static void name_triangles(TrianglePlace *places, const Scene *scene)
 {
     for (uint32_t mesh = 0; mesh < scene->objects.count; mesh++) {

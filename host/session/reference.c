@@ -9,8 +9,8 @@
 // The reference has the accuracy of fp64, but most passes are drawn in fp32, which is 6 to 9 times
 // faster. Some passes are drawn in both precisions. The mean difference between the precisions is
 // added to the mean of all fp32 passes. The sum's expected value is the picture in fp64 (Giles,
-// Multilevel Monte Carlo Path Simulation, 2008). This difference is nearly always zero, so few
-// passes in fp64 suffice.
+// Multilevel Monte Carlo Path Simulation, 2008). Few passes in fp64 suffice, because nearly all
+// samples have the same color in both precisions.
 #include "session/reference.h"
 
 #include "render/tile_pass.h"

@@ -27,8 +27,8 @@ typedef struct {
     } attributes[ATTRIBUTES_MOST];
 } DrawingLayout;
 
-// A program and its buffers. Buffer 0 has the attributes, and buffer 1 has the corners of
-// triangles.
+// A program and its buffers. Buffer 0 has the attributes, and buffer 1 has the indices of the
+// triangles' corners.
 typedef struct {
     GLuint program, array, buffers[2];
 } Drawing;
