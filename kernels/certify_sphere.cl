@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Decides whether a ray cone hits a sphere, and at which depths.
 //
-// sphere.cl represents each number by the sum of two floats. Let f lead from the sphere's center to the ray's
-// origin, let h be the center's distance from the ray's line, and let u be the unit roundoff. The
-// error of the discriminant radius^2 - h^2 is below 64 u^2 (h + radius) (|f| + radius + |center|).
-// The error of the foot of the perpendicular adds less than 64 u^3 |f|^2. Moving the ray aside by
-// distance_doubt changes the discriminant by more than both errors, so bounds for the moved ray
-// cover them. The move also changes |f|^2 - radius^2 by more than the error of sphere_power. All
-// other terms of t have a relative error below 8u (B15).
+// sphere.cl represents each number by the sum of two floats. Let f lead from the sphere's center to
+// the ray's origin, let h be the center's distance from the ray's line, and let u be the unit
+// roundoff. The error of the discriminant radius^2 - h^2 is below 64 u^2 (h + radius) (|f| + radius
+// + |center|). The error of the foot of the perpendicular adds less than 64 u^3 |f|^2. Moving the
+// ray aside by distance_doubt changes the discriminant by more than both errors, so bounds for the
+// moved ray cover them. The move also changes |f|^2 - radius^2 by more than the error of
+// sphere_power. All other terms of t have a relative error below 8u (B15).
 #ifndef CLRT_CERTIFY_SPHERE_CL
 #define CLRT_CERTIFY_SPHERE_CL
 #include "certify_triangle.cl"
