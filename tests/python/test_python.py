@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -258,6 +259,20 @@ class Rays(unittest.TestCase):
         self.assertEqual(hits.distance.tolist(), [2, 4, 1])
         on_face = clrt.Renderer().trace_all(cube(), [(0.1, 0.2, 1)], (0, 0, -1))
         self.assertEqual(on_face.distance.tolist(), [0, 2])
+
+    def test_a_ray_with_many_crossings_takes_no_memory_for_other_rays(self):
+        scene, count, layers = clrt.Scene(), 200_000, 5000
+        z = np.repeat(np.arange(layers), 3)
+        corners = np.tile([(0, 0), (1, 0), (0, 1)], (layers, 1))
+        scene.mesh(np.column_stack([corners, z]), np.arange(3 * layers).reshape(-1, 3))
+        origins = np.column_stack([np.arange(count), np.zeros((count, 2))]) + (0.25, 0.25, layers)
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        near = np.where(np.arange(count) == count - 1, 0.5, 0)
+        hits = clrt.Renderer().trace_all(scene, origins[::-1], (0, 0, -1), near=near)
+        grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before  # in KiB
+        self.assertEqual(hits.ray.tolist(), [count - 1] * layers)
+        self.assertEqual(hits.distance.tolist(), list(range(1, layers + 1)))
+        self.assertLess(grown, 2 << 20)
 
     def test_rays_may_start_on_faces(self):
         renderer, scene = clrt.Renderer(), cube()

@@ -150,6 +150,19 @@ def rays(origins, directions, *, near=None, far=None, starts=None, **settings):
                   directions=directions, direction_stride=directions.strides[0], **settings)
 
 
+def rays_from(given, first, count):
+    """A ClrtRays for `count` of the given rays. Its arrays live as long as the given ClrtRays."""
+    made = ffi.new("ClrtRays *", given[0])
+    made.count = count
+    sizes = {"origins": given.origin_stride, "directions": given.direction_stride, "nears": 8,
+             "fars": 8, "starts": 4}
+    for name, size in sizes.items():
+        if array := getattr(given, name):
+            start = ffi.cast("char *", array) + first * size
+            setattr(made, name, ffi.cast(ffi.typeof(array), start))
+    return made
+
+
 def hit_arrays(results, count, room=1):
     """A ClrtHits for `count` rays with `room` hits each, and a dict of its arrays."""
     arrays = {name: np.empty(count * room, _ARRAYS[name][1])

@@ -8,12 +8,14 @@ from typing import Any, Callable, Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import RESULTS, Hits, Picture, channel_array, channel_kinds, hit_arrays, rays, rows
+from .arrays import (RESULTS, Hits, Picture, channel_array, channel_kinds, hit_arrays, rays,
+                     rays_from, rows)
 from .library import (call, choices, ffi, instance, lib, number, parts, progress_of, result_of,
                       struct, use_device, value_of)
 from .scene import Camera, Scene
 
 Progress = bool | Callable[[int, int], bool | None] | None
+_ENTRIES = 1 << 23  # trace_all reserves memory for at most this many crossings at once.
 
 
 class Renderer:
@@ -91,17 +93,23 @@ class Renderer:
         """Finds all faces and spheres that rays cross. Orders Hits by ray, then by distance.
 
         A ray that enters or leaves a closed mesh through an edge or vertex crosses an odd number of
-        faces there, usually one. A ray crosses a sphere where it enters and where it leaves.
+        faces there, usually one. A ray crosses a sphere where it enters and where it leaves. If
+        rays cross very many faces, the counts that `progress` gets may start again.
         """
         given, results = rays(origins, directions, **limits), choices(RESULTS, results, "a result")
         counts = np.zeros(given.count, np.uint32)
         self._run("trace_all", scene, given, struct("ClrtHits", counts=counts), None)
-        room = max(int(counts.max(initial=0)), 1)
-        target, arrays = hit_arrays({*results, "primitive"}, given.count, room)
-        self._run("trace_all", scene, given, target, progress)
-        found = (np.arange(room) < counts[:, None]).ravel()
+        step, groups = max(_ENTRIES // max(int(counts.max(initial=0)), 1), 1), []
+        for first in range(0, max(given.count, 1), step):
+            part = counts[first:first + step]
+            room = max(int(part.max(initial=0)), 1)
+            target, arrays = hit_arrays({*results, "primitive"}, len(part), room)
+            self._run("trace_all", scene, rays_from(given, first, len(part)), target, progress)
+            found = (np.arange(room) < part[:, None]).ravel()
+            groups.append({name: array[found] for name, array in arrays.items()})
         return Hits(ray=np.repeat(np.arange(given.count), counts),
-                    **{name: array[found] for name, array in arrays.items()})
+                    **{name: np.concatenate([group[name] for group in groups])
+                       for name in groups[0]})
 
     def occluded(self, scene: Scene, origins: ArrayLike, directions: ArrayLike, *,
                  progress: Progress = None, **limits: Any) -> np.ndarray:
