@@ -91,8 +91,9 @@ static const char *scene_family_reason(const Session *session)
     if (session->is_quick)
         return "packets are not compiled yet, and compiling takes longer than they would save";
     if (kernel_suits_packets(&session->device))
-        return "it suits CPUs";
-    return session->device.is_cpu ? "it suits this OpenCL implementation" : "it suits GPUs";
+        return "this form suits CPUs";
+    return session->device.is_cpu ? "this form suits this OpenCL implementation"
+                                  : "this form suits GPUs";
 }
 
 static const char *scene_program_reason(ClrtSpecialize wanted, bool is_special)

@@ -50,15 +50,15 @@ const Option option_table[] = {
      "axis that points up in a lone mesh (default: auto); auto chooses by format and shape"},
     {"normals", "flat|smooth", 0, ODD(set_normals), GROUP_PICTURE, CLASS_NONE,
      FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN | FOR_CONVERT,
-     "normals of a lone mesh: flat ignores the file's; smooth (default), or smooth=DEGREES, "
-     "computes missing ones; edges with angles above DEGREES stay sharp (default: 33 or 70, by "
-     "shape)"},
+     "normals of a lone mesh (default: smooth); flat ignores the file's normals, smooth computes "
+     "missing ones; with smooth=DEGREES, edges with larger angles stay sharp (default: 33 or 70, "
+     "by shape)"},
     {"studio", "hard|soft", 0, WORD(load.studio), GROUP_PICTURE, CLASS_NONE,
      FOR_SCENE | FOR_CONVERT,
      "shadows of a lone mesh (default: hard); soft ones take several times as long"},
     {"bad-geometry", "drop|fail", 0, WORD(bad_geometry), GROUP_PICTURE, CLASS_NONE,
      FOR_DRAWING | FOR_CONVERT | FOR_PIXEL | FOR_EXPLAIN,
-     "drop triangles with equal corners (default), or fail if any triangle has no area"},
+     "drop triangles with equal corners, or fail at one without area; drop is the default"},
 
     {"aa", "[=N]", 0, FIELD(COUNT, picture.samples), SAMPLES_MAX, "2", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_PICTURE | FOR_PIXEL | FOR_EXPLAIN,
@@ -66,11 +66,12 @@ const Option option_table[] = {
      "and files of lone meshes 3 x 3; the window takes N x N when the camera rests, unless N is 1"},
     {"aa-adaptive", "[=T]", 0, FIELD(PART, picture.contrast), 0, "0.02", NULL, GROUP_QUALITY,
      CLASS_STATISTICAL, FOR_DRAWING | FOR_GENERAL | FOR_WARM,
-     "add samples at thin parts, and where neighbors differ by more than a threshold that grows "
-     "with T (default: 0.02)"},
+     "add samples at thin parts and where neighbors differ (default: T = 0.02); the threshold of "
+     "the difference is proportional to T"},
     {"max-level", "N|auto", 0, ODD(set_max_level), GROUP_QUALITY, CLASS_BOUNDED,
      FOR_PICTURE | FOR_PIXEL,
-     "rays of level N see the background (default: the scene's max_level, or 3 if it has none); "
+     "rays of level N see the background (default: the scene's max_level); the default of "
+     "max_level is 3; "
      "without glass, the error is at most R^N, where R is the highest reflectivity; auto: the "
      "smallest N whose error is below half a step of the file's values, but at most 16 with glass, "
      "and always 16 with glass in float files"},
@@ -99,7 +100,7 @@ const Option option_table[] = {
      "need another size"},
     {"tune specialize", "auto|always|never", 0, WORD(renderer.specialize), GROUP_SPEED, CLASS_EXACT,
      FOR_PICTURE | FOR_EXPLAIN | FOR_WARM,
-     "compile kernels for the scene if this saves time (auto, the default), always or never"},
+     "compile kernels for the scene if it saves time (auto), always or never; auto is the default"},
     {"tune bvh", "auto|sah|midpoint|none", 0, WORD(renderer.tree), GROUP_SPEED, CLASS_EXACT,
      FOR_SCENE | FOR_WARM,
      "build the tree by surface areas, by midpoints or not at all; without a tree, rays test every "
