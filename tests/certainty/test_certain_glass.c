@@ -8,6 +8,7 @@
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"
+#include "unit/parsed.h"
 #include "unit/random.h"
 
 #include <math.h>
@@ -154,4 +155,19 @@ TEST(certified_light_through_glass_agrees_with_fp64)
     const Sum sum = check_scenes(&kind);
     assert_true(6 * sum.certified >= sum.pixels);
     assert_true(20 * sum.open <= sum.pixels);
+}
+
+// Rounding decides whether light along the side of a block crosses the glass. The middle column of
+// the floor has such light. The camera is below the block.
+TEST(light_along_a_side_of_glass_is_open)
+{
+    FREED_BY(scene_free)
+    Scene scene =
+        parsed("size 33 9\nmax_level 1\nup 0 1 0\ncamera 0 0 0.2  0 0 0  orthographic 0.3\n"
+               "sun 0 0 1 0.8\nmaterial 1\nmesh plateau.ply\ndefine green glass color 0.5 1 0.5\n"
+               "material green\nmesh ../tests/image/block.ply translate 1 0 2\n");
+    const CertifiedView view = {.view = 1, .width = 33, .height = 9, .samples = 1};
+    FREED_BY(certified_free) Certified certified = certified_make(&scene, &view);
+    for (uint32_t i = 0; i < 33 * 9; i++)
+        assert_true((certified.map.marks[i].certainty == CERTAINTY_OPEN) == (i % 33 == 16));
 }
