@@ -288,30 +288,52 @@ static inline bool take_group(Ungrouped *rays, uint smallest, RayGroup *group)
 }
 
 // If origins or directions differ by more than this, beams are slower than single rays. For random
-// rays in 5, 82 and 1300 thousand triangles, single rays save about 45, 35 and 40 % of the time.
-#define LARGEST_SPREAD 0.5f
+// rays in 5, 82 and 1300 thousand triangles, single rays save about 45, 35 and 40 % of the time. In
+// pictures, limits of 0.5 and 1 save more in some scenes, but take up to 6 and 3 % longer in
+// others.
+#define LARGEST_SPREAD (CLRT_RAYS ? 0.5f : 1.5f)
+
+// Glass of fewer triangles scatters less. With 96 to 320 triangles and a limit of 0.5, single rays
+// take 6 to 23 % longer.
+#define FEWEST_SCATTERING 1000
 
 static inline Real3 first_real3(Real3 v, Mask among)
 {
     return real3_of(first_real(v.x, among), first_real(v.y, among), first_real(v.z, among));
 }
 
-// Returns whether the rays are probably traced faster as a beam than ray by ray. Both ways find the
-// same hits. Only arrays of rays (rays.cl) can contain random rays, so other programs skip the
-// test. The library scales the directions of its rays until the largest component is in [1, 2).
-static inline bool are_coherent(const Ray *rays, uint count)
+// Returns whether rays may differ so much that single rays are faster: random rays of arrays
+// (rays.cl), and rays that glass scatters.
+static inline bool may_scatter(const Tracer *tracer)
 {
-    bool coherent = true;
-    if (!CLRT_RAYS)
+    if (CLRT_RAYS)
         return true;
-    const Real3 origin = first_real3(rays->origin, rays->active);
-    const Real3 direction = first_real3(rays->direction, rays->active);
-    for (uint i = 0; i < count; i++) {
+    if (CLRT_LANES != 8)
+        return false;
+    return CLRT_GLASS && tracer->frame->triangle_count >= FEWEST_SCATTERING;
+}
+
+// Returns whether the rays of the lanes selected by `wanted` are probably traced faster as a beam
+// than ray by ray. Both ways find the same hits. At least one lane must be selected. In pictures,
+// only reflected and refracted rays are compared. Their directions have a length of about 1. The
+// library scales the directions of its rays until the largest component is in [1, 2).
+static inline bool are_coherent(const Ray *rays, const uint *wanted, uint count)
+{
+    uint first = 0;
+    while (wanted[first] == 0)
+        first++;
+    if (!CLRT_RAYS && rays[first].kind != RAY_REFLECTED)
+        return true;
+    const Mask lanes = lanes_of(wanted[first]);
+    const Real3 origin = first_real3(rays[first].origin, lanes);
+    const Real3 direction = first_real3(rays[first].direction, lanes);
+    for (uint i = first; i < count; i++) {
         const Real apart = max(largest_component(difference(rays[i].origin, origin)),
                                largest_component(difference(rays[i].direction, direction)));
-        coherent &= !any_lane(rays[i].active && apart > LARGEST_SPREAD);
+        if ((lane_bits(apart > LARGEST_SPREAD) & wanted[i]) != 0)
+            return false;
     }
-    return coherent;
+    return true;
 }
 
 // Finds the hits of the lanes selected by `wanted`, ray by ray. Each tree of the scene is searched.
@@ -333,9 +355,11 @@ static NOT_INLINE void search_beams(const Tracer *tracer, const Ray *rays, const
                                     uint count, Hit *hits)
 {
     const bool has_tree = CLRT_BVH && (tracer->frame->uses_bvh || has_sphere_tree(tracer));
-    if (has_tree && (!CLRT_PACKET || !are_coherent(rays, count))) {
+    const bool alone = !CLRT_PACKET || (may_scatter(tracer) && !are_coherent(rays, wanted, count));
+    if (has_tree && alone) {
         for (uint i = 0; i < count; i++)
-            search_lanes(tracer, &rays[i], wanted[i], &hits[i]);
+            if (wanted[i] != 0)
+                search_lanes(tracer, &rays[i], wanted[i], &hits[i]);
         return;
     }
     if (are_one_beam(rays, wanted, count)) {

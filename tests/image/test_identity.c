@@ -67,6 +67,35 @@ TEST(every_tree_draws_the_same_glass)
     rendered_expect_same(&usual, others, 2);
 }
 
+// Writes a floor, and 25 balls of glass, each of 42 triangles.
+static void write_heap(char path[TEMPORARY_PATH])
+{
+    uint64_t state = 31;
+    FILE *stream = temporary_open(path);
+    fprintf(stream, "max_level 8\nbackground 0.6 0.7 0.9\ncamera 0.3 -0.2 6  0 0 0  30\n"
+                    "light 3 -4 9 0.9\nmaterial 1\nmesh " CLRT_SOURCE_FOLDER
+                    "/scenes/plateau.ply scale 3 translate 0 0 -3\n"
+                    "define pane glass ior 1.5\nmaterial pane\n");
+    for (int i = 0; i < 25; i++) {
+        const double x = random_between(&state, -1, 1), y = random_between(&state, -1, 1);
+        fprintf(stream,
+                "mesh " CLRT_SOURCE_FOLDER "/tests/image/ball.ply scale 0.3 translate %g %g %g\n",
+                x, y, random_between(&state, -1, 1));
+    }
+    temporary_close(stream);
+}
+
+// With this many triangles of glass, packets of 8 lanes search for most rays one by one.
+TEST(every_form_draws_the_same_heap_of_glass)
+{
+    char scene[TEMPORARY_PATH];
+    write_heap(scene);
+    PictureRequest request = picture_request(scene, 1);
+    request.width = request.height = 97;
+    rendered_expect_same_in_every_form(&request);
+    unlink(scene);
+}
+
 // Writes a floor from -1 to 1, and a mesh of scraps: triangles within 1e-4 of the center and 2e-7
 // of the floor.
 #define SCRAPS 100
