@@ -39,21 +39,23 @@ static inline Real mean_of(ULong sum, ulong count)
     return to_real((sum + count / 2) / count) * 0x1p-32f;
 }
 
-// Positions in the picture, in pixels or in samples.
+// Positions in the picture, in pixels or in half sub-pixels.
 typedef struct {
     UInt x, y;
     Mask active;
 } Places;
 
-// Computes the colors of samples, in steps of 2^-32. On CPUs, functions with Paths are not inlined.
-// Otherwise, PoCL would keep the private memory of all work-items of a group on the stack at once.
+// Computes the colors of samples at positions in half sub-pixels. The colors are in steps of 2^-32.
+// On CPUs, functions with Paths are not inlined. Otherwise, PoCL would keep the private memory of
+// all work-items of a group on the stack at once.
 static NOT_INLINE void sample_colors(const Tracer *tracer, const Places samples[PACKETS],
                                      Real3 colors[PACKETS])
 {
     Paths paths;
     for (uint i = 0; i < PACKETS; i++)
-        paths_start(&paths, i,
-                    camera_ray(tracer->frame, samples[i].x, samples[i].y, samples[i].active));
+        paths_start(
+            &paths, i,
+            camera_ray_toward(tracer->frame, samples[i].x, samples[i].y, samples[i].active));
     trace(tracer, &paths, colors);
 }
 
@@ -82,8 +84,8 @@ static inline void pixel_colors(const Tracer *tracer, const Places pixels[PACKET
         sums[i] = (ColorSum){0, 0, 0};
     for (uint sample = 0; sample < count; sample++) {
         for (uint i = 0; i < PACKETS; i++)
-            samples[i] = (Places){pixels[i].x * side + sample % side,
-                                  pixels[i].y * side + sample / side, pixels[i].active};
+            samples[i] = (Places){2 * (pixels[i].x * side + sample % side) + 1,
+                                  2 * (pixels[i].y * side + sample / side) + 1, pixels[i].active};
         sample_colors(tracer, samples, colors);
         for (uint i = 0; i < PACKETS && count > 1; i++)
             add_colors(&sums[i], colors[i]);

@@ -102,17 +102,6 @@ static inline Places places_listed(global const uint *words, uint start, uint en
     return (Places){2 * gather(words, word) + 1, 2 * gather(words, word + 1) + 1, number < end};
 }
 
-// Computes the colors of samples at places in half sub-pixels.
-static NOT_INLINE void colors_at(const Tracer *tracer, const Places places[PACKETS],
-                                 Real3 colors[PACKETS])
-{
-    Paths paths;
-    for (uint i = 0; i < PACKETS; i++)
-        paths_start(&paths, i,
-                    camera_ray_toward(tracer->frame, places[i].x, places[i].y, places[i].active));
-    trace(tracer, &paths, colors);
-}
-
 static inline ULong square_of(Real steps)
 {
     const ULong value = to_long(rint(steps * (1.0f / (1u << (32 - SQUARED_BITS)))));
@@ -265,7 +254,7 @@ static inline void trace_item(const Tracer *tracer, const Item *item)
         Real3 colors[PACKETS];
         for (uint i = 0; i < PACKETS; i++)
             places[i] = packet_places(tracer->frame, item, begin + i * CLRT_LANES);
-        colors_at(tracer, places, colors);
+        sample_colors(tracer, places, colors);
         for (uint i = 0; i < PACKETS; i++)
             store_packet(tracer->frame, item, begin + i * CLRT_LANES, colors[i],
                          take_signature(tracer->tally, i), &sum);

@@ -39,14 +39,15 @@ typedef struct RayBatch {
     HitData found[HITS_MAX]; // results.hits.room hits per entry
 } RayBatch;
 
-// Returns the length of a row if the rays form a grid, otherwise 0. In a grid, the points at t = 1
-// advance in one direction and jump back at the end of each row.
-size_t ray_batch_width(const ClrtRays *rays);
+// A ray from the caller's arrays.
+typedef struct {
+    Vec3 origin, direction;
+    double near, far;
+    uint32_t own; // the primitive on which the ray starts; CLRT_NOTHING for none
+} GivenRay;
 
-// Fills `order` for a part. In a grid with rows of `width` rays, consecutive entries form blocks of
-// 64 rays. Rows that fill no block come last. If `width` is 0, the numbers ascend. The order
-// changes no bit of the hits.
-void ray_batch_order(RayBatch *batch, size_t width);
+// Returns the ray with this index. Arrays that the caller omits have their default values.
+GivenRay given_ray(const ClrtRays *rays, size_t index);
 
 // Fills `data` and `scales` for a cast in the scene. Only RAYS_CERTAIN needs doubts. Calls for
 // camera rays take 1 to 3 % less time without them. Fails if a primitive in `starts` does not

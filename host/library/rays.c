@@ -2,7 +2,7 @@
 // Implements clrt_trace, clrt_trace_all, clrt_contains and clrt_occluded. A batch of rays is traced
 // part by part, so batches of any size require little memory.
 #include "base/thread_pool.h"
-#include "library/ray_batch.h"
+#include "library/ray_order.h"
 
 // A part has at least LEAST_RAYS rays, and about THREAD_RAYS for each thread. With fewer rays per
 // thread, the threads of a part would mostly wait for each other. With more rays per thread, their
@@ -63,13 +63,13 @@ static bool trace_parts(ClrtRenderer *renderer, size_t most, ClrtError *error)
 {
     RayBatch *batch = renderer->batch;
     const ClrtRays *rays = &batch->rays;
-    const size_t width = ray_batch_width(rays);
+    const size_t width = ray_order_width(rays);
     const uint64_t parts = (rays->count + most - 1) / most;
     for (uint64_t done = 0; done < parts; done++) {
         const size_t left = rays->count - done * most;
         batch->first = done * most;
         batch->count = left < most ? left : most;
-        ray_batch_order(batch, width);
+        ray_order_fill(batch, width);
         if (!trace_part(renderer, error))
             return false;
         if (rays->progress != NULL && !rays->progress(rays->user, done + 1, parts) &&

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Of `parts` parts, each has every `parts`-th tile of a row. The first of these tiles is in another
-// column in each row. A part's tiles are therefore spread over the picture, and all parts take
-// about equally long.
+// If there are n parts, each part has every n-th tile of a row. The first of these tiles is in
+// another column in each row. A part's tiles are therefore spread over the picture, and all parts
+// take about equally long.
 //
 // Invariants: every tile belongs to exactly one part. A pixel's bits depend on its position in the
 // whole picture, and not on its tile or part. Tiles at the right and bottom edges are clipped.

@@ -84,6 +84,22 @@ void rendered_expect_same_in_every_form(const PictureRequest *usual)
     rendered_expect_same(usual, others, FORMS_FP32);
 }
 
+void rendered_expect_same_with_every_tree(PictureRequest usual)
+{
+    PictureRequest others[FORMS_FP32][3];
+    usual = rendered_in_form(usual, &form_all[0]);
+    usual.samples = 1;
+    for (size_t i = 0; i < FORMS_FP32; i++) {
+        PictureRequest *form = others[i];
+        form[0] = form[1] = form[2] = rendered_in_form(usual, &form_all[i]);
+        form[1].builder = BVH_MIDPOINT;
+        form[1].tile_width = 13;
+        form[1].tile_height = 7;
+        form[2].uses_bvh = false;
+    }
+    rendered_expect_same(&usual, others[0], FORMS_FP32 * 3);
+}
+
 double rendered_error(const Framebuffer *one, const Framebuffer *other)
 {
     const size_t values = (size_t)one->width * one->height * 3;

@@ -34,6 +34,10 @@ void rendered_expect_same(const PictureRequest *expected, const PictureRequest *
 // unless all have the same bits.
 void rendered_expect_same_in_every_form(const PictureRequest *usual);
 
+// Draws a picture with one sample per pixel in every fp32 form: with the usual tree, with another
+// tree and other tiles, and without a tree. Fails the test unless all have the same bits.
+void rendered_expect_same_with_every_tree(PictureRequest usual);
+
 // Returns the root mean square difference of the values of two pictures of the same size.
 double rendered_error(const Framebuffer *one, const Framebuffer *other);
 

@@ -35,8 +35,8 @@ static bool read_two_integers(const char *text, char separator, int64_t low, int
                               int64_t pair[2])
 {
     const char *middle = integer_parse(text, text + strlen(text), &pair[0]);
-    return middle != NULL && tolower(*middle) == separator && pair[0] >= low && pair[0] <= high &&
-           read_integer(middle + 1, low, high, &pair[1]);
+    return middle != NULL && tolower((unsigned char)*middle) == separator && pair[0] >= low &&
+           pair[0] <= high && read_integer(middle + 1, low, high, &pair[1]);
 }
 
 static bool read_number(const char *text, double low, double high, double *number)
