@@ -29,7 +29,7 @@ static Pass next_pass(const Worker *worker)
 }
 
 // Returns the kind of the next job. If the kind is JOB_PASS and the pass is PASS_NONE, there is
-// nothing to do.
+// nothing to do. If the first load has failed, there is no model for the jobs after JOB_LOAD.
 static JobKind next_kind(const Worker *worker, const Pass *pass)
 {
     const WorkerRequest *request = &worker->request, *done = &worker->status.done;
@@ -37,6 +37,8 @@ static JobKind next_kind(const Worker *worker, const Pass *pass)
         return JOB_STOP;
     if (request->loads != done->loads)
         return JOB_LOAD;
+    if (worker->traced == NULL)
+        return JOB_PASS;
     if (request->uses_bvh != done->uses_bvh || request->renewals != done->renewals)
         return JOB_TAKE;
     if (request->explains != done->explains)

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Tests that the worker thread stops a slow picture and soon serves other requests. The picture is
-// slow because its rays test all triangles of a large mesh, without a tree.
+// Tests that the worker thread stops a slow picture and soon serves other requests, and that it
+// reports a scene that it cannot read. The picture is slow because its rays test all triangles of a
+// large mesh, without a tree.
 #include "view/worker.h"
 
 #include "base/clock.h"
 #include "unit/cmocka_all.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #define ACROSS 250 // squares along a side of the mesh; each square has two triangles
@@ -91,6 +93,26 @@ TEST(a_long_picture_of_a_moving_camera_is_stopped)
     assert_true(worker_stop(worker, 60));
     canvas_close(&canvas);
     cache_close_private(&cache);
+}
+
+TEST(a_first_scene_that_cannot_be_read_is_reported)
+{
+    Canvas canvas;
+    Error error = {0};
+    canvas_open(&canvas, ENCODE_RAW);
+    const WorkerSetup setup = {.canvas = &canvas, .wake = ignore_news};
+    const WorkerRequest request = {
+        .path = "/tmp/clrt-missing.ply", .loads = 1, .explains = 1, .uses_bvh = true};
+    Worker *worker = worker_start(&setup, &request, &error);
+    assert_non_null(worker);
+    WorkerStatus status = {0};
+    while (status.done.loads == 0)
+        status = await_status(worker, status.number);
+    assert_int_equal(status.fault, FAULT_SCENE);
+    assert_non_null(strstr(status.failure.text, "cannot be opened"));
+    sleep_until(clock_seconds() + 0.1); // time for a job without a model
+    assert_true(worker_stop(worker, 60));
+    canvas_close(&canvas);
 }
 
 SET_UP(make_mesh)
