@@ -142,5 +142,5 @@ bool drawing_continues(void *context, const RenderProgress *progress)
     drawing->tiles = progress->tiles;
     drawing->is_stopped =
         !continues && (progress->tiles_done < progress->tiles || goal_is_given(wanted));
-    return continues;
+    return !drawing->is_stopped;
 }

@@ -352,3 +352,21 @@ TEST(every_pass_can_be_stopped)
         assert_int_equal(calls, 2);
     }
 }
+
+static bool stop_last_call(void *user, uint64_t tiles_done, uint64_t tiles)
+{
+    (void)user;
+    return tiles_done < tiles;
+}
+
+TEST(after_the_last_tile_nothing_is_left_to_stop)
+{
+    static float expected[3 * PIXELS];
+    ClrtPicture picture = request();
+    picture.reference_samples = 2;
+    assert_true(clrt_reference(renderer, scene, &picture, expected, NULL));
+    picture.progress = stop_last_call;
+    assert_true(clrt_reference(renderer, scene, &picture, rgb, NULL));
+    assert_memory_equal(rgb, expected, sizeof rgb);
+    assert_true(render(picture, NULL));
+}
