@@ -5,9 +5,10 @@
 //
 // LLVM installs its own handlers while it compiles a kernel. LLVM's SIGABRT handler does not call
 // clrt's handler. If two threads crash at once, LLVM's other handlers do not restore clrt's
-// handlers. The executable therefore overrides the C library's sigaction and ignores requests to
-// replace clrt's handlers. Only SIGFPE may get another handler: PoCL uses it to skip divisions by
-// zero.
+// handlers. LLVM's handlers of SIGINT, SIGTERM and SIGHUP let these signals interrupt writes. The
+// executable therefore overrides the C library's sigaction and ignores requests to replace clrt's
+// handlers. Only SIGFPE may get another handler: PoCL uses it to skip divisions by zero. The C
+// library's signal() does not call the overridden function.
 #include "cli/crash.h"
 
 #include "cli/options/options.h"
@@ -109,7 +110,8 @@ static void handle_exit(void)
 #if !CLRT_TIDY_EXIT // sanitizers define sigaction themselves
 static bool is_kept(int number)
 {
-    return number == SIGSEGV || number == SIGBUS || number == SIGILL || number == SIGABRT;
+    return number == SIGSEGV || number == SIGBUS || number == SIGILL || number == SIGABRT ||
+           number == SIGINT || number == SIGTERM || number == SIGHUP;
 }
 
 // The C library's sigaction under its internal name.

@@ -96,7 +96,8 @@ static void *run(void *context)
     CommandLine *line = context;
     Error error = {0};
     line->code = run_arguments(line->count, line->arguments, &error);
-    if (line->code <= EXIT_FAULTS && (fflush(stdout) != 0 || ferror(stdout))) {
+    const bool is_written = fflush(stdout) == 0 && !ferror(stdout);
+    if (line->code <= EXIT_FAULTS && !is_written) {
         error_set(&error, "standard output cannot be written");
         line->code = EXIT_OUTPUT;
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Handles SIGINT, SIGTERM and SIGHUP, and makes stacks large enough for compilers. The handler of
-// each signal runs only once. After the first tile has begun, the handler only sets a flag, so the
-// first signal never interrupts the writing of traced tiles. The second signal ends the process.
-// Before the first tile, even the first signal ends the process, because compilation cannot be
-// interrupted.
+// Handles SIGINT, SIGTERM and SIGHUP, and makes stacks large enough for compilers. After the first
+// tile has begun, the handler only sets a flag, so the first signal never interrupts the writing of
+// traced tiles. The second signal ends the process. Before the first tile, even the first signal
+// ends the process, because compilation cannot be interrupted.
 #include "cli/process.h"
 
 #include <pthread.h>
@@ -26,22 +25,23 @@ static void end_process(int number)
     _exit(128 + number);
 }
 
+// Runs only once for each signal.
 static void stop(int number)
 {
+    signal(number, SIG_DFL);
     if (!waits_for_tiles)
         end_process(number);
     stopped_by = number;
 }
 
 // Installs the handler. A signal that is already ignored, as in a background job, stays ignored.
+// signal() sets SA_RESTART, so that a signal does not interrupt a write to a full pipe.
 static void take_signal(int number)
 {
     struct sigaction before;
-    struct sigaction action = {.sa_handler = stop, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
     sigaction(number, NULL, &before);
     if (before.sa_handler != SIG_IGN)
-        sigaction(number, &action, NULL);
+        signal(number, stop);
 }
 
 void stop_watch(void)

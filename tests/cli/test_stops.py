@@ -3,6 +3,8 @@
 # Stops clrt by signals at any moment, while it compiles kernels or draws tiles. Drivers cannot stop
 # compiling. clrt must print one message and exit with 128 + the signal's number. It must write no
 # picture, or a picture that it reports as incomplete. Usage: test_stops.py CLRT FORMATS
+import array
+import fcntl
 import json
 import os
 import pathlib
@@ -10,6 +12,7 @@ import random
 import signal
 import subprocess
 import sys
+import termios
 import time
 
 from pictures import read_header
@@ -115,8 +118,10 @@ class Stops(Work):
             self.expect_stopped(process, signal.SIGINT)
 
     def test_a_signal_between_pictures_reports_how_many_are_drawn(self):
-        words = [SCENE, "-s", "8x8", "--turntable", "100000"]
-        process = self.start_picture(*words, cold=False)
+        words = [SCENE, "-s", "8x8", "--turntable", "100000", "--hash"]
+        hashes = open(self.work / "hashes", "w+")
+        self.addCleanup(hashes.close)
+        process = self.start_picture(*words, cold=False, stdout=hashes)
         out = self.work / "out"
         while len(os.listdir(out)) < 3:
             self.assertIsNone(process.poll())
@@ -124,6 +129,22 @@ class Stops(Work):
         talk = process.communicate(timeout=30)[1]
         self.assertEqual(process.returncode, 128 + signal.SIGINT)
         self.assertRegex(talk, r"^clrt: stopped: (\d+ of 100000 pictures are drawn|a\.\d+\.\w+ is complete)\n$")
+        hashes.seek(0)
+        # The last picture has no hash if the signal arrived while it was drawn.
+        self.assertIn(len(os.listdir(out)) - len(hashes.readlines()), (0, 1))
+
+    def test_a_signal_does_not_interrupt_a_write_to_a_full_pipe(self):
+        words = [SCENE, "-s", "300x300", "--format", "pfm", "-o", "-"]
+        process = self.start(*words, stdout=subprocess.PIPE, text=False)
+        pipe = process.stdout.fileno()
+        room = fcntl.fcntl(pipe, fcntl.F_GETPIPE_SZ)
+        waiting = array.array("i", [0])
+        self.wait_for(lambda: fcntl.ioctl(pipe, termios.FIONREAD, waiting) == 0 and waiting[0] == room)
+        process.send_signal(signal.SIGTERM)
+        time.sleep(0.2)  # otherwise, a read would let the write return before the signal arrives
+        picture, talk = process.communicate(timeout=30)
+        self.assertEqual((process.returncode, talk), (0, b""))
+        self.assertEqual(len(picture), len("PF\n300 300\n-1.0\n") + 12 * 300 * 300)
 
 
 if __name__ == "__main__":
