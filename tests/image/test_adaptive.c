@@ -46,7 +46,8 @@ typedef struct {
     uint32_t side, times;
 } Saving;
 
-// The reference is a grid that shares no samples with the compared pictures.
+// The reference is a grid that shares no samples with the compared pictures. Its own error changes
+// the quotients of errors by at most 0.14 and keeps the largest one, 0.85 to 0.87.
 static void expect_error_of_uniform(const char *scene, const Framebuffer *reference,
                                     const Saving *saving)
 {
@@ -69,7 +70,7 @@ TEST(contrasts_of_10_and_3_percent_save_most_samples)
     static const Saving savings[] = {{0.1f, 4, 8}, {0.03f, 8, 25}};
     for (size_t scene = 0; scene < SCENE_COUNT; scene++) {
         PictureRequest many = square(scenes[scene], SIDE);
-        many.samples = 32;
+        many.samples = 16;
         FREED_BY(framebuffer_free) Framebuffer reference = rendered(&many);
         expect_error_of_uniform(scenes[scene], &reference, &savings[0]);
         expect_error_of_uniform(scenes[scene], &reference, &savings[1]);

@@ -230,9 +230,9 @@ static void add_slivers(World *world, int count, double thickness)
 
 TEST(too_many_slivers_request_no_more_samples_than_there_are)
 {
-    FREED_BY(close_world) World world = world_of(20000);
+    FREED_BY(close_world) World world = world_of(4000);
     world.object.two_sided = true;
-    add_slivers(&world, 20000, 0.001);
+    add_slivers(&world, 4000, 0.001);
     search(&world, 2);
     assert_true(100 * count_touched(&world) > 99 * SIDE * SIDE);
     assert_true(world.parts.probes.count <= (size_t)THIN_SAMPLES * SIDE * SIDE);

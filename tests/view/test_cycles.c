@@ -12,8 +12,8 @@
 #include <malloc.h>
 #include <string.h>
 
-#define CYCLES     60 // enough to detect growth
-#define WARMING_UP 20 // growth in these cycles does not count
+#define CYCLES     40 // enough to detect growth
+#define WARMING_UP 14 // growth in these cycles does not count
 
 // The allowed growth of memory per cycle is three times the memory that PoCL keeps for each kernel.
 // A leaked picture would take at least six times the allowed growth.
