@@ -62,12 +62,13 @@ static bool trace_aims(StagedMesh *staged, MeshCensus *census, const RayCaster *
     for (int from = 0; ok && from < 2; from++) {
         const size_t rays = make_rays[from](aims, batch.rays, batch.targets);
         for (size_t first = 0; ok && first < rays; first += CAST_RAYS) {
-            const RayCast cast = {.query = RAYS_NEAREST,
-                                  .scene = &staged->form.buffers,
-                                  .rays = batch.rays + first,
-                                  .count = rays - first < CAST_RAYS ? rays - first : CAST_RAYS,
-                                  .room = 1,
-                                  .hits = batch.hits + first};
+            const RayCast cast = {
+                .query = RAYS_NEAREST,
+                .scene = &staged->form.buffers,
+                .rays = batch.rays + first,
+                .count = (cl_uint)(rays - first < CAST_RAYS ? rays - first : CAST_RAYS),
+                .room = 1,
+                .hits = batch.hits + first};
             ok = ray_caster_cast(caster, &cast, error);
         }
         if (ok)

@@ -11,12 +11,13 @@
 // Converts distances: the caller's t = (start + the device's t) * unit.
 typedef struct {
     double start, unit;
+    double off; // distance from the start to the primitive in `starts`; INFINITY: none exists
 } RayScale;
 
 // The caller's arrays for results.
 typedef struct {
     RayQuery query; // RAYS_NEAREST or RAYS_ALL
-    ClrtHits hits;  // room is 1 for RAYS_NEAREST
+    ClrtHits hits;  // for RAYS_NEAREST, room is 1, and counts is NULL
     uint8_t *flags; // the results of clrt_occluded or clrt_contains; may be NULL
 } RayResults;
 
@@ -25,13 +26,12 @@ typedef struct {
 typedef struct RayBatch {
     ClrtRays rays;
     RayResults results;
-    ThreadPool *pool;      // converts rays and hits; may be NULL
-    const RayScene *scene; // of the present cast
+    RayCast cast;          // of the part
+    const RayScene *scene; // of the cast
+    ThreadPool *pool;      // converts rays and hits
     double unit;           // length of a normalized unit in scene units
     double cube;           // half the side of the cube to which far origins advance
-    bool finds_doubts;     // computes RayData::doubt
-    size_t first, count;   // the first ray and the number of rays of the part
-    atomic_bool is_faulty; // a ray's `starts` is invalid
+    size_t first;          // the part's first ray
     uint32_t order[PART_RAYS];
     RayData data[PART_RAYS];
     RayScale scales[PART_RAYS];
@@ -49,10 +49,9 @@ typedef struct {
 // Returns the ray with this index. Arrays that the caller omits have their default values.
 GivenRay given_ray(const ClrtRays *rays, size_t index);
 
-// Fills `data` and `scales` for a cast in the scene. Only RAYS_CERTAIN needs doubts. Calls for
-// camera rays take 1 to 3 % less time without them. Fails if a primitive in `starts` does not
-// exist, or if it is a triangle whose plane is too far from the ray's origin.
-bool ray_batch_convert(RayBatch *batch, const RayScene *scene, bool finds_doubts, ClrtError *error);
+// Fills `data` and `scales` for the cast. Fails if a primitive in `starts` does not exist, or if it
+// is a triangle whose plane is too far from the ray's origin.
+bool ray_batch_convert(RayBatch *batch, ClrtError *error);
 
-// Stores the results from `found` and `counts` in the caller's arrays.
+// Stores the results of the cast, in `found` and `counts`, in the caller's arrays.
 void ray_batch_store(RayBatch *batch);

@@ -19,18 +19,16 @@ static const KernelEntry entries[RAY_QUERIES] = {
                   .dimensions = 1},
     [RAYS_CERTAIN] = {"certify_rays", certify_rays_source, NULL, ARGUMENTS, .dimensions = 1}};
 
-// Makes the buffer unless it exists. An earlier call may have failed after it made some of the
-// buffers.
-static bool make_buffer(cl_mem *buffer, const Device *device, size_t size, Error *error)
-{
-    return *buffer != NULL || device_buffer(device, size, buffer, error);
-}
-
+// Makes the buffers that do not exist. An earlier call may have failed after it made some of them.
 static bool make_buffers(RayCaster *caster, const Device *device, Error *error)
 {
-    return make_buffer(&caster->rays, device, CAST_RAYS * sizeof(RayData), error) &&
-           make_buffer(&caster->hits, device, HITS_MAX * sizeof(HitData), error) &&
-           make_buffer(&caster->counts, device, CAST_RAYS * sizeof(uint32_t), error);
+    static const size_t sizes[] = {CAST_RAYS * sizeof(RayData), HITS_MAX * sizeof(HitData),
+                                   CAST_RAYS * sizeof(uint32_t)};
+    cl_mem *const buffers[] = {&caster->rays, &caster->hits, &caster->counts};
+    bool ok = true;
+    for (int i = 0; ok && i < 3; i++)
+        ok = *buffers[i] != NULL || device_buffer(device, sizes[i], buffers[i], error);
+    return ok;
 }
 
 bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, bool has_spheres,
@@ -74,18 +72,16 @@ void ray_caster_free_scenes(RayCaster *caster)
 
 static bool compile(RayScene *scene, const Session *session, NodeLayout layout, Error *error)
 {
-    const bool has_tree =
-        session->settings.wanted.tree != CLRT_TREE_NONE && session_wants_tree(session, layout);
     scene->frame = normalization_of_primitives(session->scene.scene);
     const FlatSource source = {.scene = session->scene.scene,
                                .normalization = &scene->frame,
                                .layout = layout,
                                .is_two_sided = !scene->one_sided,
-                               .has_tree = has_tree};
-    if (!session_compile(session, &source, &scene->form, error))
-        return false;
+                               .has_tree = session->settings.wanted.tree != CLRT_TREE_NONE &&
+                                           session_wants_tree(session, layout)};
+    const bool ok = session_compile(session, &source, &scene->form, error);
     bvh_free(&scene->form.stages.bvh); // frees memory early
-    return true;
+    return ok;
 }
 
 // Stores each triangle's mesh, and its number there before triangles were dropped.
@@ -101,17 +97,16 @@ static void name_triangles(TrianglePlace *places, const Scene *scene)
 static bool find_places(RayScene *scene, const Scene *source, Error *error)
 {
     const FlatScene *flat = &scene->form.flat;
-    TrianglePlace *places = memory_raw(flat->triangle_count, sizeof *places, error);
-    scene->places = places;
-    if (places == NULL)
+    scene->places = memory_raw(flat->triangle_count, sizeof *scene->places, error);
+    if (scene->places == NULL)
         return false;
-    name_triangles(places, source);
-    for (uint32_t i = 0; flat->layout == NODES_PAIR && i < flat->triangle_count; i++)
-        places[flat->triangles[i].id - flat->sphere_count].index = i;
-    for (uint32_t i = 0; i < flat->block_count * WIDE; i++) {
-        const uint32_t word = flat->blocks[i / WIDE].id[i % WIDE];
-        if (word != NOTHING)
-            places[(word & ~TRIANGLE_MARKS) - flat->sphere_count].index = i;
+    name_triangles(scene->places, source);
+    const bool is_pair = flat->layout == NODES_PAIR;
+    const uint32_t slots = is_pair ? flat->triangle_count : flat->block_count * WIDE;
+    for (uint32_t i = 0; i < slots; i++) {
+        const uint32_t id = is_pair ? flat->triangles[i].id : flat->blocks[i / WIDE].id[i % WIDE];
+        if (id != NOTHING)
+            scene->places[(id & ~TRIANGLE_MARKS) - flat->sphere_count].index = i;
     }
     return true;
 }
@@ -119,18 +114,17 @@ static bool find_places(RayScene *scene, const Scene *source, Error *error)
 const RayScene *ray_caster_scene(RayCaster *caster, Session *session, RayQuery query,
                                  bool one_sided, Error *error)
 {
-    if (!ray_caster_open(caster, session, query, session->scene.scene->spheres.count > 0, error))
+    const Scene *source = session->scene.scene;
+    if (!ray_caster_open(caster, session, query, source->spheres.count > 0, error))
         return NULL;
-    RayScene *scene = &caster->scenes[caster->kernels[query]->choice.nodes];
-    if (scene->is_loaded && scene->one_sided == one_sided)
+    const NodeLayout layout = caster->kernels[query]->choice.nodes;
+    RayScene *scene = &caster->scenes[layout];
+    if (scene->form.buffers.device != NULL && scene->one_sided == one_sided)
         return scene;
     free_scene(scene);
     scene->one_sided = one_sided;
-    scene->is_loaded =
-        compile(scene, session, caster->kernels[query]->choice.nodes, error) &&
-        find_places(scene, session->scene.scene, error) &&
-        scene_buffers_make(&scene->form.buffers, &session->device, &scene->form.flat, error);
-    if (scene->is_loaded)
+    if (compile(scene, session, layout, error) && find_places(scene, source, error) &&
+        scene_buffers_make(&scene->form.buffers, &session->device, &scene->form.flat, error))
         return scene;
     free_scene(scene);
     return NULL;
@@ -139,16 +133,13 @@ const RayScene *ray_caster_scene(RayCaster *caster, Session *session, RayQuery q
 static bool launch(const RayCaster *caster, const RayCast *cast, Error *error)
 {
     const Kernel *kernel = caster->kernels[cast->query];
-    const bool has_blocks = kernel->choice.nodes == NODES_WIDE;
-    const size_t item_rays = has_blocks ? BLOCK_SIDE * BLOCK_SIDE : 1;
-    const cl_uint count = (cl_uint)cast->count;
-    const cl_uint kinds = (cast->on_surfaces ? RAY_ON_SURFACE : 0) | (cast->any ? RAY_ANY_HIT : 0);
-    const KernelRun run = {
-        .queue = kernel->device->queue,
-        .frame = &cast->scene->frame,
-        .scene = cast->scene->arrays,
-        .arguments = {&caster->rays, &count, &kinds, &cast->room, &caster->hits, &caster->counts},
-        .items = {(count + item_rays - 1) / item_rays, 1}};
+    const size_t rays = kernel->choice.nodes == NODES_WIDE ? BLOCK_SIDE * BLOCK_SIDE : 1;
+    const KernelRun run = {.queue = kernel->device->queue,
+                           .frame = &cast->scene->frame,
+                           .scene = cast->scene->arrays,
+                           .arguments = {&caster->rays, &cast->count, &cast->kinds, &cast->room,
+                                         &caster->hits, &caster->counts},
+                           .items = {(cast->count + rays - 1) / rays, 1}};
     return kernel_run(kernel, &run, error);
 }
 
@@ -156,7 +147,7 @@ static bool launch(const RayCaster *caster, const RayCast *cast, Error *error)
 bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, Error *error)
 {
     const Device *device = caster->kernels[cast->query]->device;
-    const size_t hits = cast->count * cast->room * sizeof *cast->hits;
+    const size_t hits = (size_t)cast->count * cast->room * sizeof *cast->hits;
     const bool ok =
         cl_succeeded(clEnqueueWriteBuffer(device->queue, caster->rays, CL_FALSE, 0,
                                           cast->count * sizeof *cast->rays, cast->rays, 0, NULL,

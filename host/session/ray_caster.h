@@ -24,7 +24,7 @@ typedef struct {
     SceneForm form;        // form.stages has the traced triangles in the order of their ids
     Normalization frame;   // of the primitives alone, so that rays do not depend on cameras
     TrianglePlace *places; // by triangle, in the order of ids; owned
-    bool is_loaded, one_sided;
+    bool one_sided;
 } RayScene;
 
 // An empty caster, without kernels, buffers and scenes, is {0}.
@@ -54,9 +54,8 @@ typedef struct {
     RayQuery query;
     const SceneBuffers *scene; // in the node layout of the query's kernel
     const RayData *rays;
-    size_t count;     // in [1, CAST_RAYS]
-    bool on_surfaces; // only for RAYS_NEAREST: some rays start on primitives
-    bool any;         // only for RAYS_NEAREST: any hit suffices
+    cl_uint count;    // in [1, CAST_RAYS]
+    cl_uint kinds;    // only for RAYS_NEAREST: RAY_ON_SURFACE, RAY_ANY_HIT
     cl_uint room;     // hits stored for each ray: 1, or for RAYS_ALL at most HITS_MAX / count
     HitData *hits;    // may be NULL for RAYS_CERTAIN
     uint32_t *counts; // may be NULL for RAYS_NEAREST
