@@ -173,12 +173,26 @@ static ExitCode check_files(Picture *picture, Error *error)
                                                                                  : EXIT_SCENE;
 }
 
+// Fails if a picture that is drawn in parts has too many tiles. EXR files number its tiles by 31
+// bits, and the framebuffer of the only part of N = 1 has all tiles, one below another.
+static bool check_tiles(const RenderSettings *settings, Error *error)
+{
+    RenderSettings whole = *settings;
+    whole.part = whole.parts = 0;
+    const uint64_t rows = tile_count(&whole) * tile_largest(&whole).height;
+    return settings->parts == 0 || rows <= INT32_MAX ||
+           error_set(error,
+                     "the picture has too many tiles of %u x %u for --part: give larger ones",
+                     settings->tile_width, settings->tile_height);
+}
+
 // Fails if the picture, or the reference, is too large for the format of its file.
 static bool check_sizes(const Options *options, const RenderSettings *settings, Error *error)
 {
     const uint32_t width = settings->width, height = settings->height;
     const char *reference = options->reference_path;
-    return image_check_size(options->format, width, height, error) &&
+    return check_tiles(settings, error) &&
+           image_check_size(options->format, width, height, error) &&
            (reference == NULL ||
             image_check_size(image_format_of_path(reference), width, height, error));
 }

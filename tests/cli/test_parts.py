@@ -260,6 +260,8 @@ class Parts(SharedWork):
             (["-o", "a.exr", "--no-metadata"], "--part and --no-metadata exclude each other"),
         ):
             self.refuses(2, sentence, *SMALL, "--part", "1/2", *words)
+        self.refuses(5, "the picture has too many tiles of 1 x 2 for --part: give larger ones", SCENE, "-s",
+                     "65536x65536", "--tune", "tile=1x2", "--part", "1/1", "-o", "a.exr")
         self.refuses(2, "clrt merge needs a file for the whole picture: give -o FILE", "merge", "a.exr")
         self.refuses(2, "a name is missing", "merge", "-o", "a.exr")
 
