@@ -96,8 +96,8 @@ static bool make_temporary(OutputFile *file, Error *error)
     const int start = file->replaces ? snprintf(name, size, "%.*s.", (int)length, file->path)
                                      : snprintf(name, size, "%s/", folder);
     file->lock = make_file(name + start, name);
-    return file->lock >= 0 ||
-           error_set(error, "%s: cannot be written: %s", file->path, strerror(errno));
+    return file->lock >= 0 || error_set(error, "%s: cannot be written: %s",
+                                        file->replaces ? file->path : name, strerror(errno));
 }
 
 static bool is_temporary(const char *name)

@@ -15,7 +15,8 @@ typedef struct {
     bool replaces;    // the temporary file is renamed, not copied
 } OutputFile;
 
-// Creates an empty temporary file. The error message names `path`.
+// Creates an empty temporary file. The error message names `path` or, if the temporary file is in
+// another folder, the temporary file.
 bool output_file_begin(OutputFile *file, const char *path, Error *error);
 
 // If `ok`, renames or copies the temporary file to its final name. Otherwise, removes it and

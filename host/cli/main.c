@@ -7,6 +7,7 @@
 #include "cli/process.h"
 #include "cli/progress.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,9 +107,19 @@ static void *run(void *context)
     return NULL;
 }
 
+// Opens each closed standard stream so that reading or writing it fails. Otherwise, the next file
+// that clrt opens would become the stream.
+static void hold_closed_streams(void)
+{
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
+        if (fcntl(stream, F_GETFD) < 0)
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 int main(int count, char **arguments)
 {
     CommandLine line = {.count = count, .arguments = arguments};
+    hold_closed_streams();
     // If these signals are ignored, a write to a closed pipe or beyond the limit on file sizes
     // returns an error, which clrt reports.
     signal(SIGPIPE, SIG_IGN);

@@ -81,6 +81,16 @@ class Streams(Talk):
         self.assertEqual(len(done.stdout), len(b"PF\n16 12\n-1.0\n") + 16 * 12 * 12)
         self.assertIn(b"traced in", done.stderr)
 
+    def test_a_closed_stream_is_not_another_file(self):
+        for words, stream, status in ((["-", "--hash"], "<&-", 3), ([*SMALL, "-o", "-"], ">&-", 5),
+                                      ([*SMALL, "--hash"], ">&-", 5), ([*SMALL, "-o", "a.png"], "2>&-", 0)):
+            done = self.run_clrt(*words, before=["sh", "-c", f'exec "$@" {stream}', "sh"])
+            self.assertEqual((done.returncode, done.stdout), (status, ""), words)
+            self.assertEqual("standard" in done.stderr, status > 0, done.stderr)
+
+    def test_a_temporary_file_that_cannot_be_created_is_named(self):
+        self.refuses(5, "/nonexistent/clrt-", *SMALL, "-o", "-", TMPDIR="/nonexistent")
+
     def test_quiet_says_nothing_but_errors(self):
         words = ["open.ply", "-s", "8x8", "-o", "a.pfm"]
         self.assertEqual(self.run_clrt(*words, "-q").stderr, "")
