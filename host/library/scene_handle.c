@@ -42,7 +42,7 @@ bool check_given(ClrtError *error, const char *what, const void *pointer)
 bool check_number(ClrtError *error, const char *what, double number, double low, double high)
 {
     return (number >= low && number <= high) ||
-           check_fail(error, CLRT_ARGUMENT, "%s is %g, not between %g and %g", what, number, low,
+           check_fail(error, CLRT_ARGUMENT, "%s is %.10g, not between %g and %g", what, number, low,
                       high);
 }
 

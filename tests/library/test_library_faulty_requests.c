@@ -98,7 +98,7 @@ TEST(pictures_out_of_range_are_refused_and_the_next_is_drawn)
     const ClrtPicture good = {.size = sizeof good, .width = WIDTH, .height = HEIGHT};
     ClrtPicture bad[] = {good, good, good, good, good, good};
     static const char *const words[] = {
-        "width is 4.29497e+09",  "height is 131073",
+        "width is 4294967295",   "height is 131073",
         "samples is 65",         "max_level is 1001",
         "view 3 does not exist", "error is 0.00015, and below 0.00016 needs"};
     bad[0].width = UINT32_MAX;
