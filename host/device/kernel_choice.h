@@ -3,7 +3,7 @@
 // compiler (kernels/config.h). All choices with the same precision render the same picture.
 #pragma once
 
-#include "accel/flat.h"
+#include "accel/traits.h"
 #include "device/device.h"
 #include "library/clrt.h"
 

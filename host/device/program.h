@@ -2,7 +2,7 @@
 // Builds a program for a device from the kernels' source, SceneTraits and a KernelChoice.
 #pragma once
 
-#include "accel/flat.h"
+#include "accel/traits.h"
 #include "device/cache.h"
 #include "device/device.h"
 #include "device/kernel_choice.h"

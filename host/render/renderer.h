@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// FlatScene -> SceneBuffers on a device. A Renderer combines these buffers with a kernel and a
-// picture's settings.
+// A kernel, a scene on a device and a picture's settings -> the kernel's parameters and tallies.
 #pragma once
 
 #include "device/kernel.h"
+#include "render/scene_buffers.h"
 #include "render/tile.h"
 
 typedef struct {
@@ -27,22 +27,6 @@ static inline bool render_observer_continues(const RenderObserver *observer,
     return observer == NULL || observer->tile_done == NULL ||
            observer->tile_done(observer->context, progress);
 }
-
-// A scene on a device.
-typedef struct {
-    const Device *device;       // borrowed; NULL if the scene is not uploaded
-    cl_mem arrays[FLAT_ARRAYS]; // in the order of the kernels' arguments
-    FrameData frame;            // members that depend on the scene alone
-    SceneTraits traits;         // without statistics
-    float reflectivity;         // largest reflectivity of materials in use
-    size_t size;                // bytes
-    double seconds;             // time of the upload
-} SceneBuffers;
-
-// Uploads the scene, or shares its memory with the device. `flat` must outlive the buffers.
-bool scene_buffers_make(SceneBuffers *buffers, const Device *device, const FlatScene *flat,
-                        Error *error);
-void scene_buffers_free(SceneBuffers *buffers);
 
 // Draws pictures of one size. All members are borrowed, so a renderer needs no cleanup.
 typedef struct {

@@ -3,4 +3,4 @@
 // and `clrt check` examines triangles.
 #pragma once
 
-#include "accel/flat.h"
+#include "accel/scene_compile.h"
