@@ -208,14 +208,14 @@ static bool make_all(FlatScene *flat, const FlatSource *source, Error *error)
         flatten_light(&flat->lights[i], &scene->lights.data[i], normalization);
     for (uint32_t i = 0; i < flat->sphere_count; i++)
         flatten_sphere(&flat->spheres[i], &scene->spheres.data[i], normalization);
-    flat->bounds = flat_bounds(flat, source);
+    flat->bounds = flat_nodes_bounds(flat, source);
     flat->sphere_root = NOTHING;
     if (source->layout == NODES_PAIR && flat_has_sphere_tree(flat, source) &&
         !sphere_tree_make(flat, error))
         return false;
     return flat_looks_make(flat, source, error) &&
-           (source->layout == NODES_WIDE ? flat_wide_make(flat, source, error)
-                                         : flat_pair_make(flat, source, error));
+           (source->layout == NODES_WIDE ? flat_nodes_make_wide(flat, source, error)
+                                         : flat_nodes_make_pairs(flat, source, error));
 }
 
 bool flat_make(FlatScene *flat, const FlatSource *source, Error *error)

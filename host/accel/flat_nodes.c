@@ -23,7 +23,7 @@ static void include_point(Box *box, const float point[3], float margin)
     }
 }
 
-Box flat_bounds(const FlatScene *flat, const FlatSource *source)
+Box flat_nodes_bounds(const FlatScene *flat, const FlatSource *source)
 {
     Box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     const bool has_tree = source->bvh->node_count > 0;
@@ -91,7 +91,7 @@ static void place_triangles(FlatScene *flat, const FlatSource *source)
     }
 }
 
-bool flat_pair_make(FlatScene *flat, const FlatSource *source, Error *error)
+bool flat_nodes_make_pairs(FlatScene *flat, const FlatSource *source, Error *error)
 {
     flat->node_count = pair_count(source->bvh);
     flat->pairs = memory_raw(flat->node_count, sizeof *flat->pairs, error);
@@ -171,7 +171,7 @@ static bool make_all(FlatScene *flat, const FlatSource *source, WideTree *trees,
     return true;
 }
 
-bool flat_wide_make(FlatScene *flat, const FlatSource *source, Error *error)
+bool flat_nodes_make_wide(FlatScene *flat, const FlatSource *source, Error *error)
 {
     WideTree trees[2] = {0};
     const bool ok = make_all(flat, source, trees, error);

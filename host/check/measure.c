@@ -111,7 +111,7 @@ static bool count_mesh_leaks(MeshCensus *census, RayCaster *caster, const MeshOb
                                .has_tree = session->settings.wanted.tree != CLRT_TREE_NONE};
     bool ok = scene_init(&staged.scene, error) &&
               array_push(&staged.scene.objects, object, error) &&
-              session_compile(session, &source, form, error) &&
+              session_scene_compile(session, &source, form, error) &&
               make_aims(&staged, &given->mesh, census->facts.inside_out, error) &&
               scene_buffers_make(&form->buffers, &session->device, &form->flat, error) &&
               trace_aims(&staged, census, caster, error);

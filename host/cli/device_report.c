@@ -40,8 +40,8 @@ ExitCode device_report_write(const Options *options, Error *error)
 {
     Cache cache;
     DeviceList list;
-    cache_open_private(&cache);
+    cache_private_open(&cache);
     const ExitCode code = device_list(&list, error) ? write(&list, options, error) : EXIT_DEVICE;
-    cache_close_private(&cache);
+    cache_private_close(&cache);
     return code;
 }

@@ -90,7 +90,7 @@ static const char *scene_family_reason(const Session *session)
         return "--tune kernel requests it";
     if (session->is_quick)
         return "packets are not compiled yet, and compiling takes longer than they would save";
-    if (kernel_suits_packets(&session->device))
+    if (kernel_choice_suits_packets(&session->device))
         return "this form suits CPUs";
     return session->device.is_cpu ? "this form suits this OpenCL implementation"
                                   : "this form suits GPUs";
@@ -198,10 +198,10 @@ ExitCode explain_scene(const Options *options, Session *session, Scene *scene, E
         code = stage_prepare(session, options, NULL, &unused, error);
     if (code != EXIT_DONE)
         return code;
-    if (!session_prepare(session, &request, &prepared, error))
+    if (!session_prepare_picture(session, &request, &prepared, error))
         return EXIT_DEVICE;
     json_t *report =
-        report_json(options, session, session_own_form(session, error), prepared.is_special);
+        report_json(options, session, session_scene_own_form(session, error), prepared.is_special);
     if (options->json_path != NULL)
         return json_file_write(report, options->json_path, error) ? EXIT_DONE : EXIT_OUTPUT;
     write_text(report, prepared.upload_size);

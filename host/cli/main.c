@@ -33,14 +33,14 @@ static ExitCode perform_traced(const Options *options, TracingCommand *command, 
 {
     Session session = {0};
     Scene scene = {0};
-    cache_open_private(&session.cache);
+    cache_private_open(&session.cache);
     if (progress_on_terminal() && !options->quiet)
         session.cache.announce = progress_show_compiling;
     limit_threads(options->renderer.threads);
     const ExitCode code = command(options, &session, &scene, error);
     (CLRT_TIDY_EXIT ? session_close : session_save)(&session);
     scene_free(&scene);
-    cache_close_private(&session.cache);
+    cache_private_close(&session.cache);
     return code;
 }
 

@@ -42,8 +42,8 @@ static bool draw_once(Picture *picture, Error *error)
     double moment = clock_seconds();
     TileWatch watch = {picture, progress_begin(picture->options->quiet), error};
     const RenderObserver observer = {tile_done, &watch};
-    const bool ok = session_draw(picture->session, &picture->request, &observer,
-                                 &picture->framebuffer, &picture->drawn, error);
+    const bool ok = session_draw_picture(picture->session, &picture->request, &observer,
+                                         &picture->framebuffer, &picture->drawn, error);
     picture->stopped_by = progress_end(&watch.progress);
     const double seconds = stage_lap(&moment);
     if (picture->options->verbose && ok)
@@ -58,6 +58,24 @@ static bool draw(Picture *picture, Error *error)
     for (uint32_t i = 0; ok && picture->stopped_by == 0 && i < picture->options->repeat; i++)
         ok = draw_once(picture, error);
     picture->complete = ok && picture->drawn.is_complete;
+    return ok;
+}
+
+// With --aov certainty, computes the certainty of each pixel of a finished picture. If only fp64 is
+// exact enough for a pixel, the pixel gets the color that fp64 yields. Does nothing to a picture
+// that was stopped.
+static bool certify(Picture *picture, Error *error)
+{
+    double moment = clock_seconds();
+    if (!aov_needs(picture->options->aovs, AOV_NEEDS_CERTAINTY) || picture->stopped_by != 0)
+        return true;
+    Progress progress = progress_begin(picture->options->quiet);
+    const RenderObserver observer = {progress_tile_done, &progress};
+    const bool ok = session_certify_picture(picture->session, &picture->request, &observer,
+                                            &picture->framebuffer, &picture->drawn, error);
+    picture->stopped_by = progress_end(&progress);
+    picture->complete = picture->complete && picture->stopped_by == 0;
+    picture->certainty_seconds = stage_lap(&moment);
     return ok;
 }
 
@@ -78,7 +96,7 @@ static bool draw_layers(Picture *picture, Error *error)
     const Options *options = picture->options;
     const Framebuffer *frame = &picture->framebuffer;
     aov_name_layers(options->aovs, &picture->layers);
-    reference_name_layer(options, &picture->layers);
+    picture_error_name_layer(options, &picture->layers);
     return layers_make(&picture->layers, frame->width, frame->height, error) &&
            (options->aovs == 0 || picture->stopped_by != 0 || trace_layers(picture, error));
 }
@@ -211,13 +229,13 @@ static ExitCode prepare(Picture *picture, Error *error)
     if (!check_sizes(options, &picture->request.settings, error))
         return EXIT_OUTPUT;
     const double pictures = options->repeat * (double)frames_count(&options->frames);
-    const SessionWork work = session_work(&picture->request, pictures);
+    const SessionWork work = session_picture_work(&picture->request, pictures);
     const ExitCode prepared =
         stage_prepare(picture->session, options, &work, &picture->stages, error);
     if (prepared != EXIT_DONE)
         return prepared;
-    picture->form = session_own_form(picture->session, error);
-    if (!session_prepare(picture->session, &picture->request, &picture->drawn, error))
+    picture->form = session_scene_own_form(picture->session, error);
+    if (!session_prepare_picture(picture->session, &picture->request, &picture->drawn, error))
         return EXIT_DEVICE;
     if (options->verbose)
         report_write_setup(picture, stderr);
@@ -240,8 +258,8 @@ static void set_view(Picture *picture, uint32_t number)
     const uint32_t steps = options->frames.turntable;
     picture->view = steps > 0 ? options->picture.view : number;
     picture->turned = steps > 0 ? 360.0 * (number - 1) / steps : 0;
-    picture->request.viewpoint = turn_viewpoint(&scene->viewpoints.data[picture->view - 1],
-                                                scene->has_course_views, picture->turned);
+    picture->request.viewpoint = camera_turn(&scene->viewpoints.data[picture->view - 1],
+                                             scene->has_course_views, picture->turned);
 }
 
 // Creates a black picture. With --resume, copies the finished tiles of an earlier run into the
@@ -265,7 +283,7 @@ static ExitCode finish(Picture *picture, Error *error)
         error_set(error, "stopped: %s is not written", picture->path);
         return (ExitCode)(128 + picture->stopped_by);
     }
-    if (!write_picture(picture, error) || !reference_write(picture, error) ||
+    if (!write_picture(picture, error) || !picture_error_write_reference(picture, error) ||
         !write_statistics(picture, error))
         return EXIT_OUTPUT;
     resume_close(&picture->resume, picture->complete);
@@ -290,8 +308,8 @@ static ExitCode make_frame(Picture *picture, uint32_t number, Error *error)
     stop_wait_for_tiles();
     if (!draw(picture, error))
         return picture->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
-    if (!picture_certify(picture, error) || !draw_layers(picture, error) ||
-        !reference_measure(picture, error))
+    if (!certify(picture, error) || !draw_layers(picture, error) ||
+        !picture_error_measure(picture, error))
         return EXIT_DEVICE;
     return finish(picture, error);
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Certifies a finished picture, and measures its error against a reference.
 #include "cli/picture_error.h"
 
 #include "base/clock.h"
@@ -55,14 +54,14 @@ static bool measure(Picture *picture, const ReferencePicture *reference, Error *
     return true;
 }
 
-void reference_name_layer(const Options *options, Layers *layers)
+void picture_error_name_layer(const Options *options, Layers *layers)
 {
     const bool is_named = aov_needs(options->aovs, AOV_NEEDS_REFERENCE);
     if (options->reference && !is_named && image_format_takes_layers(options->format))
         layers->list[layers->count++] = (LayerType){.name = ERROR_CHANNEL};
 }
 
-bool reference_measure(Picture *picture, Error *error)
+bool picture_error_measure(Picture *picture, Error *error)
 {
     double moment = clock_seconds();
     ReferencePicture reference;
@@ -81,7 +80,7 @@ bool reference_measure(Picture *picture, Error *error)
     return ok;
 }
 
-bool reference_write(const Picture *picture, Error *error)
+bool picture_error_write_reference(const Picture *picture, Error *error)
 {
     const char *path = picture->options->reference_path;
     if (path == NULL || picture->reference.picture.pixels == NULL)
@@ -90,19 +89,4 @@ bool reference_write(const Picture *picture, Error *error)
                                     .encoding = picture->options->encoding,
                                     .exposure = picture->options->exposure};
     return image_write(&picture->reference.picture, path, &settings, error);
-}
-
-bool picture_certify(Picture *picture, Error *error)
-{
-    double moment = clock_seconds();
-    if (!aov_needs(picture->options->aovs, AOV_NEEDS_CERTAINTY) || picture->stopped_by != 0)
-        return true;
-    Progress progress = progress_begin(picture->options->quiet);
-    const RenderObserver observer = {progress_tile_done, &progress};
-    const bool ok = session_certify(picture->session, &picture->request, &observer,
-                                    &picture->framebuffer, &picture->drawn, error);
-    picture->stopped_by = progress_end(&progress);
-    picture->complete = picture->complete && picture->stopped_by == 0;
-    picture->certainty_seconds = stage_lap(&moment);
-    return ok;
 }

@@ -171,7 +171,7 @@ static json_t *report_json(const Picture *picture)
               JSON(FIELD("uploaded", picture->drawn.upload_size), FIELD("peak_memory", peak))),
         FIELD("scene", scene_json(picture)),
         FIELD("bvh", tree_json(&picture->form->stages.bvh,
-                               session_builder(&picture->session->settings.wanted))),
+                               session_scene_builder(&picture->session->settings.wanted))),
         FIELD("settings", settings_json(picture)), FIELD("cached", picture->drawn.was_compiled),
         FIELD("tiles", tiles_json(picture)),
         FIELD("samples", samples_json(&picture->drawn, picture->options->picture.contrast)),
@@ -287,7 +287,7 @@ static void add_tree(json_t *json, const Picture *picture)
     json_object_set_new(
         json, "bvh",
         json_string(tree_name(&picture->form->stages.bvh,
-                              session_builder(&picture->session->settings.wanted))));
+                              session_scene_builder(&picture->session->settings.wanted))));
     json_object_set_new(json, "nodes",
                         json_string(kernel_nodes_name(picture->session->choice.nodes)));
 }

@@ -122,7 +122,7 @@ bool stage_load(Session *session, Scene *scene, const Options *options, StageSec
     seconds->parse = stage_lap(&moment) - seconds->load;
     if (!check_geometry(options, scene, error) || !check_missing(options, scene, error))
         return false;
-    if (!session_take(session, scene, &cause))
+    if (!session_scene_take(session, scene, &cause))
         return error_set(error, "%s: %s", scene_name(options), cause.text);
     note_coarse(options, &session->scene);
     seconds->build = stage_lap(&moment);
@@ -166,7 +166,7 @@ bool stage_request(SessionPicture *request, const Options *options, const Scene 
 const SceneForm *stage_build(Session *session, const Options *options, Error *error)
 {
     show_loading(options, true);
-    const SceneForm *form = session_own_form(session, error);
+    const SceneForm *form = session_scene_own_form(session, error);
     show_loading(options, false);
     return form;
 }

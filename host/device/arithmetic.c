@@ -143,19 +143,20 @@ static bool launch(const Device *device, cl_program program, Results found[CASES
     cl_int status;
     cl_kernel kernel = clCreateKernel(program, "repeat_arithmetic", &status);
     bool ok = cl_succeeded(status, "create the kernel of the arithmetic test", error) &&
-              upload_array(device, &array, &operands, error) &&
-              device_buffer(device, sizeof(Results) * CASES, &results, error);
+              buffer_upload(device, &array, &operands, error) &&
+              buffer_make(device, sizeof(Results) * CASES, &results, error);
     if (ok) {
         clSetKernelArg(kernel, 0, sizeof operands, &operands);
         clSetKernelArg(kernel, 1, sizeof results, &results);
         status =
             clEnqueueNDRangeKernel(device->queue, kernel, 1, NULL, &items, &group, 0, NULL, NULL);
         ok = cl_succeeded(status, "run the arithmetic test", error) &&
-             device_read(device, results, found, sizeof(Results) * CASES, error);
+             buffer_read(device, results, found, sizeof(Results) * CASES, error);
     }
-    device_release(&operands);
-    device_release(&results);
-    device_release_kernel(&kernel);
+    buffer_release(&operands);
+    buffer_release(&results);
+    if (kernel != NULL)
+        clReleaseKernel(kernel);
     return ok;
 }
 

@@ -4,7 +4,7 @@
 
 #include "device/device.h"
 
-bool upload_array(const Device *device, const FlatArray *array, cl_mem *buffer, Error *error)
+bool buffer_upload(const Device *device, const FlatArray *array, cl_mem *buffer, Error *error)
 {
     static const _Alignas(64) char nothing[64];
     const size_t size = array->bytes;
@@ -20,30 +20,23 @@ bool upload_array(const Device *device, const FlatArray *array, cl_mem *buffer, 
     return cl_succeeded(status, "upload the scene", error);
 }
 
-bool device_buffer(const Device *device, size_t size, cl_mem *buffer, Error *error)
+bool buffer_make(const Device *device, size_t size, cl_mem *buffer, Error *error)
 {
     cl_int status;
     *buffer = clCreateBuffer(device->context, CL_MEM_READ_WRITE, size, NULL, &status);
     return cl_succeeded(status, "allocate a buffer", error);
 }
 
-bool device_read(const Device *device, cl_mem buffer, void *target, size_t size, Error *error)
+bool buffer_read(const Device *device, cl_mem buffer, void *target, size_t size, Error *error)
 {
     return cl_succeeded(
         clEnqueueReadBuffer(device->queue, buffer, CL_TRUE, 0, size, target, 0, NULL, NULL),
         "read results back", error);
 }
 
-void device_release(cl_mem *buffer)
+void buffer_release(cl_mem *buffer)
 {
     if (*buffer != NULL)
         clReleaseMemObject(*buffer);
     *buffer = NULL;
-}
-
-void device_release_kernel(cl_kernel *kernel)
-{
-    if (*kernel != NULL)
-        clReleaseKernel(*kernel);
-    *kernel = NULL;
 }

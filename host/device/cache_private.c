@@ -129,7 +129,7 @@ static bool make_private(Cache *cache, const char *base)
         cache->private_lock = open_lock(cache->private_folder, O_CREAT);
         if (cache->private_lock >= 0 && has_lock(cache->private_folder))
             return true;
-        cache_close_private(cache);
+        cache_private_close(cache);
     }
     cache->private_folder[0] = '\0';
     return false;
@@ -143,7 +143,7 @@ static bool open_private(Cache *cache, const char *base)
     return access(base, W_OK | X_OK) == 0 && has_room(base) && make_private(cache, base);
 }
 
-void cache_open_private(Cache *cache)
+void cache_private_open(Cache *cache)
 {
     // By default, PoCL compiles a kernel twice: for the size of its first work-groups, and for all
     // sizes when its binary is stored. This setting omits the first compilation. Pictures take no
@@ -158,7 +158,7 @@ void cache_open_private(Cache *cache)
     setenv("POCL_CACHE_DIR", ok ? cache->private_folder : "/dev/null/clrt", 1);
 }
 
-void cache_close_private(Cache *cache)
+void cache_private_close(Cache *cache)
 {
     if (cache->private_folder[0] == '\0')
         return;

@@ -9,7 +9,7 @@
 // Without a private folder, PoCL lists no device. Also removes private folders of processes that
 // were killed. A program calls this function once, before its first OpenCL call. The library does
 // not call it, because the library must not change the environment.
-void cache_open_private(Cache *cache);
+void cache_private_open(Cache *cache);
 
 // Removes the private folder. No OpenCL object may be in use.
-void cache_close_private(Cache *cache);
+void cache_private_close(Cache *cache);

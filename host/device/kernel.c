@@ -104,7 +104,7 @@ static bool run_empty(const Kernel *kernel, Error *error)
     const char *kinds = kernel->entry->arguments;
     cl_mem buffer, scene[FLAT_ARRAYS];
     KernelRun run = {kernel->device->queue, &frame, scene, .items = {1, 1}};
-    if (!device_buffer(kernel->device, 64, &buffer, error))
+    if (!buffer_make(kernel->device, 64, &buffer, error))
         return false;
     for (int i = 0; i < FLAT_ARRAYS; i++)
         scene[i] = buffer;
@@ -115,7 +115,7 @@ static bool run_empty(const Kernel *kernel, Error *error)
     const bool ok = cl_succeeded(status, "fill a buffer", error) &&
                     kernel_run(kernel, &run, error) &&
                     cl_succeeded(clFinish(run.queue), "finish the first run", error);
-    device_release(&buffer);
+    buffer_release(&buffer);
     return ok;
 }
 
@@ -183,6 +183,13 @@ static bool make(KernelSet *set, Kernel *kernel, const KernelSpec *spec, Error *
     return ok;
 }
 
+static void free_kernel(Kernel *kernel)
+{
+    if (kernel != NULL && kernel->handle != NULL)
+        clReleaseKernel(kernel->handle);
+    free(kernel);
+}
+
 const Kernel *kernel_set_get(KernelSet *set, const KernelSpec *spec, Error *error)
 {
     for (size_t i = 0; i < set->kernels.count; i++)
@@ -192,9 +199,7 @@ const Kernel *kernel_set_get(KernelSet *set, const KernelSpec *spec, Error *erro
     if (kernel != NULL && make(set, kernel, spec, error) &&
         array_push(&set->kernels, kernel, error))
         return kernel;
-    if (kernel != NULL)
-        device_release_kernel(&kernel->handle);
-    free(kernel);
+    free_kernel(kernel);
     return NULL;
 }
 
@@ -223,10 +228,8 @@ bool kernel_set_is_saved(const KernelSet *set)
 
 void kernel_set_clear(KernelSet *set)
 {
-    for (size_t i = 0; i < set->kernels.count; i++) {
-        device_release_kernel(&set->kernels.data[i]->handle);
-        free(set->kernels.data[i]);
-    }
+    for (size_t i = 0; i < set->kernels.count; i++)
+        free_kernel(set->kernels.data[i]);
     for (size_t i = 0; i < set->programs.count; i++) {
         program_free(set->programs.data[i]);
         free(set->programs.data[i]);

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTIONS_SIZE])
+void kernel_choice_write_options(const KernelChoice *choice, char options[KERNEL_OPTIONS_SIZE])
 {
     const bool wide = choice->nodes == NODES_WIDE, packet = choice->family == FAMILY_PACKET;
     assert((!packet || wide) && (choice->precision == CLRT_FP32 || !wide));
@@ -19,7 +19,7 @@ void kernel_write_options(const KernelChoice *choice, char options[KERNEL_OPTION
                  choice->lanes);
 }
 
-bool kernel_is_valid(const ClrtSettings *wanted)
+bool kernel_choice_is_valid(const ClrtSettings *wanted)
 {
     const uint32_t lanes = wanted->lanes;
     const bool has_lanes = lanes == 4 || lanes == 8 || lanes == 16;
@@ -32,7 +32,7 @@ bool kernel_is_valid(const ClrtSettings *wanted)
 // runs. docs/devices.md has the measurements.
 static const char *const slow_with_packets[] = {"Intel(R) OpenCL", "rusticl"};
 
-bool kernel_suits_packets(const Device *device)
+bool kernel_choice_suits_packets(const Device *device)
 {
     for (size_t i = 0; i < sizeof slow_with_packets / sizeof *slow_with_packets; i++)
         if (strcmp(device->facts.platform, slow_with_packets[i]) == 0)
@@ -40,11 +40,11 @@ bool kernel_suits_packets(const Device *device)
     return device->is_cpu;
 }
 
-KernelChoice kernel_choose(const ClrtSettings *wanted, const Device *device)
+KernelChoice kernel_choice_make(const ClrtSettings *wanted, const Device *device)
 {
     ClrtKernel kernel = wanted->kernel;
     if (kernel == CLRT_KERNEL_AUTO && wanted->precision == CLRT_FP32 &&
-        kernel_suits_packets(device))
+        kernel_choice_suits_packets(device))
         kernel = CLRT_KERNEL_PACKET;
     return (KernelChoice){.family = kernel == CLRT_KERNEL_PACKET ? FAMILY_PACKET : FAMILY_RAY,
                           .nodes = kernel <= CLRT_KERNEL_PAIR ? NODES_PAIR : NODES_WIDE,
@@ -52,7 +52,7 @@ KernelChoice kernel_choose(const ClrtSettings *wanted, const Device *device)
                           .precision = wanted->precision};
 }
 
-bool kernel_check_device(const KernelChoice *choice, const Device *device, Error *error)
+bool kernel_choice_check_device(const KernelChoice *choice, const Device *device, Error *error)
 {
     return choice->precision == CLRT_FP32 || device->facts.fp64 ||
            error_set(error, "%s has no double arithmetic, which --precision fp64 needs",

@@ -53,7 +53,7 @@ static bool write_options(char options[OPTIONS_SIZE], const ProgramSource *sourc
     char switches[TRAITS_OPTIONS_SIZE];
     char choices[KERNEL_OPTIONS_SIZE];
     traits_write_options(&source->traits, switches);
-    kernel_write_options(&source->choice, choices);
+    kernel_choice_write_options(&source->choice, choices);
     const bool is_correct = source->device->facts.correctly_rounded;
     const int length = snprintf(options, OPTIONS_SIZE, "-cl-std=CL1.2 %s %s %s %s %s %s %s",
                                 switches, choices, is_for_gpu(source) ? "-DCLRT_GPU=1" : "",

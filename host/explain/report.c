@@ -270,7 +270,7 @@ static json_t *report_json(const ExplainReport *report, Explainer *explainer, FI
         return NULL;
     }
     explainer_mix(explainer, color);
-    encode_channels(color, 3, report->encoding, 1, bytes);
+    framebuffer_encode(color, 3, report->encoding, 1, bytes);
     return REPORT(1, FIELD("scene", report->scene_path),
                   FIELD("pixel", json_two(report->pixel[0], report->pixel[1])),
                   FIELD("size", json_two(settings->width, settings->height)),

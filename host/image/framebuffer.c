@@ -50,8 +50,8 @@ static double srgb_curve(double linear)
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
 }
 
-void encode_channels(const float *values, size_t count, Encoding encoding, double gain,
-                     unsigned char *bytes)
+void framebuffer_encode(const float *values, size_t count, Encoding encoding, double gain,
+                        unsigned char *bytes)
 {
     const float factor = (float)gain;
     for (size_t i = 0; i < count; i++) {

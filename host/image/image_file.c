@@ -102,8 +102,8 @@ static unsigned char *encode_bytes(const Framebuffer *framebuffer, const ImageSe
     const size_t count = (size_t)framebuffer->width * framebuffer->height;
     unsigned char *bytes = memory_raw(count, 3, error);
     if (bytes != NULL)
-        encode_channels(framebuffer->pixels[0], 3 * count, settings->encoding,
-                        exp2(settings->exposure), bytes);
+        framebuffer_encode(framebuffer->pixels[0], 3 * count, settings->encoding,
+                           exp2(settings->exposure), bytes);
     return bytes;
 }
 

@@ -70,9 +70,9 @@ static void write_rows(png_structp png, const PngSource *picture)
 {
     const size_t width = picture->framebuffer->width;
     for (size_t row = 0; row < picture->framebuffer->height; row++) {
-        encode_channels(picture->framebuffer->pixels[row * width], 3 * width,
-                        picture->settings->encoding, exp2(picture->settings->exposure),
-                        picture->row);
+        framebuffer_encode(picture->framebuffer->pixels[row * width], 3 * width,
+                           picture->settings->encoding, exp2(picture->settings->exposure),
+                           picture->row);
         png_write_row(png, picture->row);
     }
 }

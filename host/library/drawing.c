@@ -112,8 +112,8 @@ void drawing_end(Drawing *drawing)
     renderer_handle_end(drawing->renderer);
 }
 
-// Fails if the caller's camera is too far from the scene. session_take has checked the scene's own
-// cameras.
+// Fails if the caller's camera is too far from the scene. session_scene_take has checked the
+// scene's own cameras.
 static bool check_distance(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};

@@ -15,16 +15,16 @@ static bool draw_colors(Drawing *drawing, ClrtError *error)
 {
     Error cause = {0};
     const RenderObserver observer = {drawing_continues, drawing};
-    if (session_own_form(&drawing->renderer->session, &cause) == NULL)
+    if (session_scene_own_form(&drawing->renderer->session, &cause) == NULL)
         return check_fail_for(error, CLRT_SCENE, &cause);
     Session *session = &drawing->renderer->session;
     SessionPicture *request = &drawing->request;
     return (session_choose_level(session, request, &cause) &&
-            session_draw(session, request, &observer, &drawing->framebuffer, &drawing->drawn,
-                         &cause) &&
+            session_draw_picture(session, request, &observer, &drawing->framebuffer,
+                                 &drawing->drawn, &cause) &&
             (drawing->is_stopped ||
-             session_certify(session, request, &observer, &drawing->framebuffer, &drawing->drawn,
-                             &cause))) ||
+             session_certify_picture(session, request, &observer, &drawing->framebuffer,
+                                     &drawing->drawn, &cause))) ||
            check_fail_for(error, CLRT_DEVICE, &cause);
 }
 

@@ -40,7 +40,7 @@ static bool take_settings(ClrtSettings *wanted, const ClrtSettings *given, ClrtE
         return false;
     if (!check_settings(wanted, error))
         return false;
-    return kernel_is_valid(wanted) ||
+    return kernel_choice_is_valid(wanted) ||
            check_fail(error, CLRT_ARGUMENT,
                       "precision, kernel and lanes contradict each other: the wide and packet "
                       "kernels have 4, 8 or 16 lanes and no fp64");
@@ -97,7 +97,7 @@ bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtEr
         return true;
     renderer->state = 0;
     ray_caster_free_scenes(&renderer->caster);
-    if (!session_take(session, &scene->scene, &cause))
+    if (!session_scene_take(session, &scene->scene, &cause))
         return check_fail_for(error, CLRT_SCENE, &cause);
     renderer->state = scene->state;
     return true;

@@ -175,9 +175,9 @@ static void close_buffers(Sampling *sampling)
     for (int i = 0; i < 2; i++)
         if (sampling->launches[i].done != NULL)
             clReleaseEvent(sampling->launches[i].done);
-    device_release(&sampling->requests);
-    device_release(&sampling->results);
-    device_release(&sampling->tallies);
+    buffer_release(&sampling->requests);
+    buffer_release(&sampling->results);
+    buffer_release(&sampling->tallies);
     free(sampling->host_tallies);
 }
 

@@ -34,7 +34,7 @@ bool scene_buffers_make(SceneBuffers *buffers, const Device *device, const FlatS
                               .reflectivity = traits_reflectivity(flat)};
     flat_arrays(flat, arrays);
     for (int i = 0; ok && i < FLAT_ARRAYS; i++) {
-        ok = upload_array(device, &arrays[i], &buffers->arrays[i], error);
+        ok = buffer_upload(device, &arrays[i], &buffers->arrays[i], error);
         buffers->size += arrays[i].bytes;
     }
     buffers->seconds = clock_seconds() - start;
@@ -46,6 +46,6 @@ bool scene_buffers_make(SceneBuffers *buffers, const Device *device, const FlatS
 void scene_buffers_free(SceneBuffers *buffers)
 {
     for (int place = 0; place < FLAT_ARRAYS; place++)
-        device_release(&buffers->arrays[place]);
+        buffer_release(&buffers->arrays[place]);
     *buffers = (SceneBuffers){0};
 }

@@ -77,7 +77,7 @@ static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer
         const size_t size = pass->sizes[i] > 0 ? count * pass->sizes[i] : 64;
         ok = (is_read_in_place(pass, renderer, i) ||
               host_memory_make(&slot->values[i], pool, size, error)) &&
-             device_buffer(device, size, &slot->outputs[i], error);
+             buffer_make(device, size, &slot->outputs[i], error);
     }
     return ok;
 }
@@ -92,7 +92,7 @@ static void close_slot(Slot *slot)
     if (slot->done != NULL)
         clReleaseEvent(slot->done);
     for (int i = 0; i < 2; i++) {
-        device_release(&slot->outputs[i]);
+        buffer_release(&slot->outputs[i]);
         host_memory_free(&slot->values[i]);
     }
     *slot = (Slot){0};
@@ -263,8 +263,8 @@ static bool check_size(const Renderer *renderer, const Framebuffer *framebuffer,
                      height, framebuffer->width, framebuffer->height);
 }
 
-bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
-                   Framebuffer *framebuffer, Error *error)
+bool tile_pass_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
+                    Framebuffer *framebuffer, Error *error)
 {
     if (!check_size(renderer, framebuffer, error))
         return false;

@@ -30,5 +30,5 @@ extern const KernelEntry draw_entry;
 // Draws the tiles of the camera's picture from settings.ready_tiles on into `framebuffer`. Fails if
 // the framebuffer's size differs from tile_frame_size. If the observer stops the picture early, the
 // call returns true, and renderer->progress has fewer tiles_done than tiles.
-bool renderer_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
-                   Framebuffer *framebuffer, Error *error);
+bool tile_pass_draw(Renderer *renderer, const CameraData *camera, const RenderObserver *observer,
+                    Framebuffer *framebuffer, Error *error);

@@ -54,7 +54,7 @@ void camera_shift(CameraData *camera, double right, double down)
 }
 
 // Uses clrt's own sine and cosine, so the eye has the same bits on every machine.
-Viewpoint turn_viewpoint(const Viewpoint *viewpoint, bool is_course, double degrees)
+Viewpoint camera_turn(const Viewpoint *viewpoint, bool is_course, double degrees)
 {
     Viewpoint turned = *viewpoint;
     const Vec3 pivot = is_course ? vec3(0, 0, 0) : viewpoint->look_at;

@@ -24,4 +24,4 @@ void camera_shift(CameraData *camera, double right, double down);
 // Returns the viewpoint with its eye rotated about an axis parallel to viewpoint->up. The axis
 // passes through viewpoint->look_at or, if `is_course`, through the origin. `is_course` is for the
 // six default views (docs/scenes.md). A turn by 0 degrees changes no bit.
-Viewpoint turn_viewpoint(const Viewpoint *viewpoint, bool is_course, double degrees);
+Viewpoint camera_turn(const Viewpoint *viewpoint, bool is_course, double degrees);

@@ -139,7 +139,7 @@ static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
     file_free(stream);
 }
 
-bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error)
+bool mesh_load_foreign(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error)
 {
     // clrt-foreign sets itself a shorter time limit, so it normally ends before it is killed.
     static const ForeignReader assimp = {
@@ -160,8 +160,8 @@ bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *opt
     return ok;
 }
 
-bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLoadOptions *options,
-                  Error *error)
+bool mesh_load_ply(Scene *scene, const File *file, const char *path, const MeshLoadOptions *options,
+                   Error *error)
 {
     MeshObject object = options->object;
     object.input = (uint32_t)scene->inputs.count;

@@ -38,13 +38,14 @@ typedef struct {
 
 // Adds an object with the mesh of `file`, the contents of the PLY file at `path`. Adds `path` to
 // the inputs.
-bool ply_mesh_add(Scene *scene, const File *file, const char *path, const MeshLoadOptions *options,
-                  Error *error);
+bool mesh_load_ply(Scene *scene, const File *file, const char *path, const MeshLoadOptions *options,
+                   Error *error);
 
 // Adds an object for each part of the file at `path`, and the file's materials if
 // options->takes_own_materials. The inputs receive the paths of all files that clrt-foreign has
 // read. On failure, returns false with a message that names the file.
-bool foreign_mesh_add(Scene *scene, const char *path, const MeshLoadOptions *options, Error *error);
+bool mesh_load_foreign(Scene *scene, const char *path, const MeshLoadOptions *options,
+                       Error *error);
 
 // Drops or computes the normals of the scene's objects from index `first` on. Does not change
 // meshes that ply_parse_tolerantly has read, because clrt check reports the vertices of the file.

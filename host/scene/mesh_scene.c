@@ -333,8 +333,8 @@ bool mesh_scene_fill(Scene *scene, const File *ply, const char *path,
 {
     const MeshLoadOptions mesh = mesh_options_of(options);
     const double start = clock_seconds();
-    bool ok = (ply != NULL ? ply_mesh_add(scene, ply, path, &mesh, error)
-                           : foreign_mesh_add(scene, path, &mesh, error)) &&
+    bool ok = (ply != NULL ? mesh_load_ply(scene, ply, path, &mesh, error)
+                           : mesh_load_foreign(scene, path, &mesh, error)) &&
               mesh_load_normals(scene, 0, &mesh, error);
     scene->mesh_seconds = clock_seconds() - start;
     const bool is_auto = options->up == UP_AUTO;

@@ -96,12 +96,12 @@ static bool read_sphere(Parser *parser)
 
 static bool read_material(Parser *parser)
 {
-    return materials_select(parser->scene, &parser->tokens, &parser->material);
+    return material_statement_read(parser->scene, &parser->tokens, &parser->material);
 }
 
 static bool read_define(Parser *parser)
 {
-    return materials_define(parser->scene, &parser->tokens);
+    return define_statement_read(parser->scene, &parser->tokens);
 }
 
 static bool read_mesh_file(Parser *parser, bool is_plain_ply)

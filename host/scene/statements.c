@@ -38,7 +38,7 @@ static bool read_name(const Scene *scene, Tokens *tokens, MaterialName *entry)
     return true;
 }
 
-bool materials_define(Scene *scene, Tokens *tokens)
+bool define_statement_read(Scene *scene, Tokens *tokens)
 {
     MaterialName entry = {.material = (uint32_t)scene->materials.count};
     Material material;
@@ -84,7 +84,7 @@ static bool find_material(const Scene *scene, const Tokens *tokens, Token token,
 
 const MaterialChoice material_own = {.colored = COURSE_MATTE, .is_own = true};
 
-bool materials_select(const Scene *scene, Tokens *tokens, MaterialChoice *choice)
+bool material_statement_read(const Scene *scene, Tokens *tokens, MaterialChoice *choice)
 {
     Token token = tokens_next(tokens);
     *choice = (MaterialChoice){0};
@@ -249,7 +249,7 @@ static bool add_ply(Scene *scene, const char *path, const MeshLoadOptions *optio
     File file;
     if (!file_read(&file, path, cause))
         return false;
-    const bool ok = ply_mesh_add(scene, &file, path, options, error);
+    const bool ok = mesh_load_ply(scene, &file, path, options, error);
     file_free(&file);
     return ok;
 }
@@ -267,7 +267,7 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
     memcpy(relative, path.text, path.length);
     char *full = file_path_beside(tokens->name, relative, error);
     const bool ok = full != NULL && (!options->is_plain_ply && foreign_format_is(full)
-                                         ? foreign_mesh_add(scene, full, options, &cause)
+                                         ? mesh_load_foreign(scene, full, options, &cause)
                                          : add_ply(scene, full, options, &cause, error));
     if (cause.text[0] != '\0')
         error_set(error, "%s:%u:%u: %s", tokens->name, path.line, path.column, cause.text);

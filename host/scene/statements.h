@@ -8,7 +8,7 @@
 #include "scene/tokens.h"
 
 // Reads the rest of a `define` statement and adds the material to the scene.
-bool materials_define(Scene *scene, Tokens *tokens);
+bool define_statement_read(Scene *scene, Tokens *tokens);
 
 typedef struct {
     uint32_t plain;   // the material of spheres, and of meshes that get no other material
@@ -22,7 +22,7 @@ extern const MaterialChoice material_own;
 // Reads the arguments of `material`: the number of a predefined material, a defined name, or the
 // word `own`. After `own`, a material may follow for spheres, and for meshes whose files define no
 // material. Numbers outside 0 to 3 select material 0, the silhouette.
-bool materials_select(const Scene *scene, Tokens *tokens, MaterialChoice *choice);
+bool material_statement_read(const Scene *scene, Tokens *tokens, MaterialChoice *choice);
 
 // Reads the rest of a `mesh` or `ply_file` statement and adds the file's objects. Paths are
 // relative to the scene file's folder.

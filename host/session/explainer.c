@@ -39,8 +39,8 @@ static size_t word_bytes(const Explainer *explainer, size_t records)
 
 static void free_room(Explainer *explainer)
 {
-    device_release(&explainer->values);
-    device_release(&explainer->words);
+    buffer_release(&explainer->values);
+    buffer_release(&explainer->words);
     free(explainer->host_values);
     free(explainer->host_words);
     explainer->host_values = NULL;
@@ -57,8 +57,8 @@ static bool make_room(Explainer *explainer, uint32_t room, Error *error)
     explainer->host_values = memory_raw(values, 1, error);
     explainer->host_words = memory_raw(words, 1, error);
     return explainer->host_values != NULL && explainer->host_words != NULL &&
-           device_buffer(device, values, &explainer->values, error) &&
-           device_buffer(device, words, &explainer->words, error);
+           buffer_make(device, values, &explainer->values, error) &&
+           buffer_make(device, words, &explainer->words, error);
 }
 
 static const KernelEntry explain_entry = {"explain_sample", explain_source,  NULL,
@@ -207,7 +207,7 @@ static bool trace_records(Explainer *explainer, const cl_uint place[2], Error *e
                                          &explainer->words},
                            .items = {1, 1}};
     return kernel_run(renderer->kernel, &run, error) &&
-           device_read(device, explainer->words, explainer->host_words, word_bytes(explainer, 0),
+           buffer_read(device, explainer->words, explainer->host_words, word_bytes(explainer, 0),
                        error);
 }
 
@@ -224,9 +224,9 @@ static bool read_records(Explainer *explainer, const cl_uint place[2], Error *er
         if (!make_room(explainer, count, error) || !trace_records(explainer, place, error))
             return false;
     }
-    return device_read(device, explainer->values, explainer->host_values,
+    return buffer_read(device, explainer->values, explainer->host_values,
                        value_bytes(explainer, count), error) &&
-           device_read(device, explainer->words, explainer->host_words,
+           buffer_read(device, explainer->words, explainer->host_words,
                        word_bytes(explainer, count), error);
 }
 

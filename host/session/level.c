@@ -45,7 +45,7 @@ static bool measure(Renderer *renderer, const CameraData *camera, double *trunca
     renderer->progress = (RenderProgress){0};
     const bool ok = framebuffer_make(&colors, width, height, error) &&
                     (is_ladder ? sampler_draw_centers(renderer, &frame, colors.pixels, NULL, error)
-                               : renderer_draw(renderer, camera, NULL, &colors, error));
+                               : tile_pass_draw(renderer, camera, NULL, &colors, error));
     framebuffer_free(&colors);
     *truncated = renderer_truncation(renderer, (uint64_t)width * height);
     return ok;
@@ -63,7 +63,7 @@ bool session_choose_level(Session *session, SessionPicture *request, Error *erro
     if (!session_renderer(session, &use, &request->settings, &renderer, error))
         return false;
     renderer.settings = coarse.settings = coarse_settings(&request->settings);
-    const CameraData camera = session_camera(session, &coarse, is_ladder ? LADDER_GRID : 1);
+    const CameraData camera = session_picture_camera(session, &coarse, is_ladder ? LADDER_GRID : 1);
     uint32_t *level = &renderer.settings.max_level;
     double truncated = INFINITY;
     for (*level = LEVEL_LEAST; *level < GLASS_LEVELS; ++*level) {

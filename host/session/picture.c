@@ -48,7 +48,7 @@ static double samples_per_pixel(const SessionPicture *request)
     return (double)request->settings.samples * request->settings.samples;
 }
 
-SessionWork session_work(const SessionPicture *request, double pictures)
+SessionWork session_picture_work(const SessionPicture *request, double pictures)
 {
     const double pixels = (double)request->settings.width * request->settings.height;
     return (SessionWork){.entry = picture_entry(&request->wanted),
@@ -57,7 +57,8 @@ SessionWork session_work(const SessionPicture *request, double pictures)
                          .counts = request->wanted.statistics};
 }
 
-CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples)
+CameraData session_picture_camera(const Session *session, const SessionPicture *request,
+                                  uint32_t samples)
 {
     const RenderSettings *settings = &request->settings;
     return camera_make(&request->viewpoint, &session->scene.normalization,
@@ -89,8 +90,8 @@ static bool open_renderer(Session *session, const SessionPicture *request, Rende
     return true;
 }
 
-bool session_prepare(Session *session, const SessionPicture *request, PictureResult *result,
-                     Error *error)
+bool session_prepare_picture(Session *session, const SessionPicture *request, PictureResult *result,
+                             Error *error)
 {
     Renderer renderer;
     return open_renderer(session, request, &renderer, result, error);
@@ -145,7 +146,8 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
 {
     Adaptive adaptive;
     PictureResult *result = drawing->result;
-    const CameraData camera = session_camera(drawing->session, drawing->request, REFINE_GRID);
+    const CameraData camera =
+        session_picture_camera(drawing->session, drawing->request, REFINE_GRID);
     const RefineSetup setup = refine_setup(drawing, &drawing->renderer, &camera);
     bool ok = adaptive_open(&adaptive, &setup, error);
     measure_truncation(drawing, adaptive.samples);
@@ -207,7 +209,8 @@ static bool draw_for_goal(PictureDrawing *drawing, Error *error)
     GoalOutcome outcome = {0};
     PictureResult *result = drawing->result;
     drawing->start = clock_seconds();
-    const CameraData camera = session_camera(drawing->session, drawing->request, LADDER_GRID);
+    const CameraData camera =
+        session_picture_camera(drawing->session, drawing->request, LADDER_GRID);
     const RefineSetup setup = refine_setup(drawing, &drawing->renderer, &camera);
     if (!open_ladder(drawing, &setup, &ladder, error))
         return false;
@@ -246,8 +249,9 @@ static bool draw_evenly(PictureDrawing *drawing, Error *error)
     const RenderSettings *settings = &drawing->request->settings;
     PictureResult *result = drawing->result;
     Renderer *renderer = &drawing->renderer;
-    const CameraData camera = session_camera(drawing->session, drawing->request, settings->samples);
-    if (!renderer_draw(renderer, &camera, drawing->observer, drawing->framebuffer, error))
+    const CameraData camera =
+        session_picture_camera(drawing->session, drawing->request, settings->samples);
+    if (!tile_pass_draw(renderer, &camera, drawing->observer, drawing->framebuffer, error))
         return false;
     result->pixels = 0;
     for (uint64_t number = settings->ready_tiles; number < renderer->progress.tiles_done;
@@ -262,8 +266,8 @@ static bool draw_evenly(PictureDrawing *drawing, Error *error)
     return true;
 }
 
-bool session_draw(Session *session, SessionPicture *request, const RenderObserver *observer,
-                  Framebuffer *framebuffer, PictureResult *result, Error *error)
+bool session_draw_picture(Session *session, SessionPicture *request, const RenderObserver *observer,
+                          Framebuffer *framebuffer, PictureResult *result, Error *error)
 {
     PictureDrawing drawing = {.session = session,
                               .request = request,
@@ -272,7 +276,7 @@ bool session_draw(Session *session, SessionPicture *request, const RenderObserve
                               .result = result};
     if (!open_renderer(session, request, &drawing.renderer, result, error))
         return false;
-    drawing.form = session_own_form(session, error);
+    drawing.form = session_scene_own_form(session, error);
     const bool ok = goal_is_given(&request->wanted) ? draw_refined(&drawing, error)
                                                     : draw_evenly(&drawing, error);
     result->progress = drawing.renderer.progress;
@@ -280,14 +284,14 @@ bool session_draw(Session *session, SessionPicture *request, const RenderObserve
     return ok;
 }
 
-bool session_certify(Session *session, const SessionPicture *request,
-                     const RenderObserver *observer, Framebuffer *framebuffer,
-                     PictureResult *result, Error *error)
+bool session_certify_picture(Session *session, const SessionPicture *request,
+                             const RenderObserver *observer, Framebuffer *framebuffer,
+                             PictureResult *result, Error *error)
 {
     Renderer renderer;
     const KernelChoice exact = session_exact_choice();
     const RendererUse use = {.entry = &certify_entry, .choice = &exact, .is_general = true};
-    const CameraData camera = session_camera(session, request, request->settings.samples);
+    const CameraData camera = session_picture_camera(session, request, request->settings.samples);
     const CertifiedPicture picture = {framebuffer, &result->certainty};
     if (!aov_needs(request->channels, AOV_NEEDS_CERTAINTY))
         return true;
@@ -307,8 +311,8 @@ bool session_draw_channels(Session *session, const SessionPicture *request,
     const SessionScene *scene = &session->scene;
     AovPass pass = {.set = request->channels,
                     .layers = layers,
-                    .camera = session_camera(session, request, request->settings.samples),
-                    .center = session_camera(session, request, 1),
+                    .camera = session_picture_camera(session, request, request->settings.samples),
+                    .center = session_picture_camera(session, request, 1),
                     .samples = result->pixel_samples,
                     .normalization = &scene->normalization,
                     .light_count = (uint32_t)scene->scene->lights.count,

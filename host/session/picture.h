@@ -23,21 +23,21 @@ typedef struct {
     uint32_t reference_level;   // the reference's max_level
     double truncated;           // bound on the error that RenderSettings::max_level causes
     bool includes_truncated;    // `truncated` is a part of the error goal
-    // With glass, the error by which session_choose_level and session_draw choose
+    // With glass, the error by which session_choose_level and session_draw_picture choose
     // RenderSettings::max_level; 0 if the level is given.
     double level_bound;
     AovSet channels; // to draw by session_draw_channels
 } SessionPicture;
 
 typedef struct {
-    // The following members are set by session_prepare and session_draw.
+    // The following members are set by session_prepare_picture and session_draw_picture.
     bool is_special;   // the kernels are specialized for the scene
     bool was_compiled; // an earlier process compiled the kernels
     size_t upload_size;
     double upload_seconds, build_seconds;
     uint32_t group[2]; // size of the work-groups
-    double truncated;  // SessionPicture::truncated; with glass, measured by session_draw
-    // The following members are set by session_draw.
+    double truncated;  // SessionPicture::truncated; with glass, measured by session_draw_picture
+    // The following members are set by session_draw_picture.
     RenderProgress progress;
     bool is_complete;
     bool goal_missed;
@@ -48,7 +48,7 @@ typedef struct {
     uint64_t pixels;  // drawn by this call
     uint64_t samples; // in these pixels
     uint32_t *pixel_samples; // by pixel; NULL unless the request has both a goal and channels
-    // The following member is set by session_certify.
+    // The following member is set by session_certify_picture.
     CertaintyMap certainty; // empty unless a channel needs it
 } PictureResult;
 
@@ -59,31 +59,32 @@ void picture_result_free(PictureResult *result);
 const KernelEntry *picture_entry(const ClrtPicture *wanted);
 
 // Returns the camera for `samples` sub-pixels along each side of a pixel.
-CameraData session_camera(const Session *session, const SessionPicture *request, uint32_t samples);
+CameraData session_picture_camera(const Session *session, const SessionPicture *request,
+                                  uint32_t samples);
 
 // Returns the work of drawing the requested picture `pictures` times.
-SessionWork session_work(const SessionPicture *request, double pictures);
+SessionWork session_picture_work(const SessionPicture *request, double pictures);
 
-// Uploads the scene and compiles the kernels for session_draw.
-bool session_prepare(Session *session, const SessionPicture *request, PictureResult *result,
-                     Error *error);
+// Uploads the scene and compiles the kernels for session_draw_picture.
+bool session_prepare_picture(Session *session, const SessionPicture *request, PictureResult *result,
+                             Error *error);
 
 // Draws the picture into *framebuffer, which must have the size from tile_frame_size. If the
 // observer stops the picture, the call returns true, and result->is_complete is false. With an
 // error goal and a request->level_bound above 0, the call may increase request->settings.max_level.
-bool session_draw(Session *session, SessionPicture *request, const RenderObserver *observer,
-                  Framebuffer *framebuffer, PictureResult *result, Error *error);
+bool session_draw_picture(Session *session, SessionPicture *request, const RenderObserver *observer,
+                          Framebuffer *framebuffer, PictureResult *result, Error *error);
 
 // If a requested channel needs the certainty of each pixel, computes it into *result. Pixels that
 // are certain in fp64, but not in float, get the colors of fp64. Stops when the observer returns
 // false. Fails on devices without double arithmetic, denormal numbers or correctly rounded
 // division.
-bool session_certify(Session *session, const SessionPicture *request,
-                     const RenderObserver *observer, Framebuffer *framebuffer,
-                     PictureResult *result, Error *error);
+bool session_certify_picture(Session *session, const SessionPicture *request,
+                             const RenderObserver *observer, Framebuffer *framebuffer,
+                             PictureResult *result, Error *error);
 
-// Computes request->channels into *layers. *result must be the result of session_draw and
-// session_certify. Stops when the observer returns false. *layers must have the names of
+// Computes request->channels into *layers. *result must be the result of session_draw_picture and
+// session_certify_picture. Stops when the observer returns false. *layers must have the names of
 // request->channels (aov_name_layers) and the picture's size.
 bool session_draw_channels(Session *session, const SessionPicture *request,
                            const RenderObserver *observer, Layers *layers,

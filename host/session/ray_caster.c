@@ -27,7 +27,7 @@ static bool make_buffers(RayCaster *caster, const Device *device, Error *error)
     cl_mem *const buffers[] = {&caster->rays, &caster->hits, &caster->counts};
     bool ok = true;
     for (int i = 0; ok && i < 3; i++)
-        ok = *buffers[i] != NULL || device_buffer(device, sizes[i], buffers[i], error);
+        ok = *buffers[i] != NULL || buffer_make(device, sizes[i], buffers[i], error);
     return ok;
 }
 
@@ -51,9 +51,9 @@ bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, bool h
 void ray_caster_close(RayCaster *caster)
 {
     ray_caster_free_scenes(caster);
-    device_release(&caster->rays);
-    device_release(&caster->hits);
-    device_release(&caster->counts);
+    buffer_release(&caster->rays);
+    buffer_release(&caster->hits);
+    buffer_release(&caster->counts);
     *caster = (RayCaster){0};
 }
 
@@ -78,8 +78,8 @@ static bool compile(RayScene *scene, const Session *session, NodeLayout layout, 
                                .layout = layout,
                                .is_two_sided = !scene->one_sided,
                                .has_tree = session->settings.wanted.tree != CLRT_TREE_NONE &&
-                                           session_wants_tree(session, layout)};
-    const bool ok = session_compile(session, &source, &scene->form, error);
+                                           session_scene_wants_tree(session, layout)};
+    const bool ok = session_scene_compile(session, &source, &scene->form, error);
     bvh_free(&scene->form.stages.bvh); // frees memory early
     return ok;
 }
@@ -155,8 +155,8 @@ bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, Error *error)
                      "write rays", error) &&
         launch(caster, cast, error) &&
         (cast->query == RAYS_CERTAIN || hits == 0 ||
-         device_read(device, caster->hits, cast->hits, hits, error)) &&
-        (cast->query == RAYS_NEAREST || device_read(device, caster->counts, cast->counts,
+         buffer_read(device, caster->hits, cast->hits, hits, error)) &&
+        (cast->query == RAYS_NEAREST || buffer_read(device, caster->counts, cast->counts,
                                                     cast->count * sizeof *cast->counts, error));
     if (!ok)
         clFinish(device->queue); // the device may still read rays

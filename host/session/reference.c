@@ -48,9 +48,9 @@ static bool open_renderer(Renderer *renderer, Session *session, const RenderSett
                           ClrtPrecision precision, Error *error)
 {
     const KernelChoice choice =
-        kernel_choose(&(ClrtSettings){.precision = precision}, &session->device);
+        kernel_choice_make(&(ClrtSettings){.precision = precision}, &session->device);
     const RendererUse use = {.entry = &draw_entry, .choice = &choice};
-    return kernel_check_device(&choice, &session->device, error) &&
+    return kernel_choice_check_device(&choice, &session->device, error) &&
            session_renderer(session, &use, settings, renderer, error);
 }
 
@@ -75,7 +75,7 @@ static bool add_pass(Reference *reference, Renderer *renderer, double weight, Er
     camera_shift(&camera, part(starts[half][0] + place * ACROSS) - 0.5,
                  part(starts[half][1] + place * DOWN) - 0.5);
     const RenderObserver observer = {tile_done, reference};
-    if (!renderer_draw(renderer, &camera, &observer, &reference->pass, error))
+    if (!tile_pass_draw(renderer, &camera, &observer, &reference->pass, error))
         return false;
     reference->draws_done++;
     const size_t pixels = (size_t)reference->pass.width * reference->pass.height;
@@ -128,7 +128,7 @@ static bool open_reference(Reference *reference, Session *session, const Session
     settings.samples = 1;
     settings.max_level = request->reference_level;
     settings.ready_tiles = 0;
-    reference->camera = session_camera(session, request, 1);
+    reference->camera = session_picture_camera(session, request, 1);
     const size_t pixels = (size_t)settings.width * settings.height;
     for (int half = 0; half < 2; half++) {
         reference->halves[half] = memory_zeroed(pixels, sizeof *reference->halves[half], error);

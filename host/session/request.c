@@ -192,7 +192,7 @@ bool request_resolve(const ClrtPicture *wanted, const Scene *scene, const Viewpo
                          .tile_height = wanted->tile_height > 0 ? wanted->tile_height : TILE};
     const size_t view = wanted->view > 0 ? wanted->view - 1 : 0;
     picture->viewpoint =
-        turn_viewpoint(camera != NULL ? camera : &scene->viewpoints.data[view],
-                       camera == NULL && scene->has_course_views, wanted->turn_degrees);
+        camera_turn(camera != NULL ? camera : &scene->viewpoints.data[view],
+                    camera == NULL && scene->has_course_views, wanted->turn_degrees);
     return crop_settings(&picture->settings, wanted);
 }

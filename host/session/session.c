@@ -18,12 +18,13 @@ static bool open_device(Session *session, Error *error)
     const double start = clock_seconds();
     session->is_open = device_open(&session->device, settings->wanted.device, error);
     session->device_seconds = clock_seconds() - start;
-    session->choice = kernel_choose(&settings->wanted, &session->device);
+    session->choice = kernel_choice_make(&settings->wanted, &session->device);
     session->kernels.source = (ProgramSource){.device = &session->device,
                                               .cache = &session->cache,
                                               .kernel_folder = settings->kernel_folder,
                                               .extra_options = settings->extra_options};
-    return session->is_open && kernel_check_device(&session->choice, &session->device, error);
+    return session->is_open &&
+           kernel_choice_check_device(&session->choice, &session->device, error);
 }
 
 static void *run_thread(void *context)
@@ -160,8 +161,8 @@ bool session_renderer(Session *session, const RendererUse *use, const RenderSett
                       Renderer *renderer, Error *error)
 {
     const bool is_own = use->choice == NULL;
-    SceneForm *form = is_own ? session_own_form(session, error)
-                             : session_form(session, use->choice->nodes, true, error);
+    SceneForm *form = is_own ? session_scene_own_form(session, error)
+                             : session_scene_form(session, use->choice->nodes, true, error);
     if (form == NULL || (form->buffers.device == NULL &&
                          !scene_buffers_make(&form->buffers, &session->device, &form->flat, error)))
         return false;

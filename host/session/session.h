@@ -51,7 +51,7 @@ typedef struct {
 } Session;
 
 // Starts a thread that opens the device. Until session_await returns, the caller may call only
-// session_take, session_save and session_close.
+// session_scene_take, session_save and session_close.
 void session_begin(Session *session);
 
 // The work of a run, by which the session chooses kernels.
@@ -75,31 +75,31 @@ void session_save(Session *session);
 // Saves new kernels and releases everything except the cache.
 void session_close(Session *session);
 
-// Sets the scene, which must exist until the next session_take or session_close. Fails if the
+// Sets the scene, which must exist until the next session_scene_take or session_close. Fails if the
 // scene's coordinates differ too much in size.
-bool session_take(Session *session, const Scene *scene, Error *error);
+bool session_scene_take(Session *session, const Scene *scene, Error *error);
 
 // Releases the forms of a scene, and empties *scene.
 void session_scene_free(SessionScene *scene);
 
 // Returns whether the scene needs a tree in this layout. The result is false only if wanted.tree is
 // CLRT_TREE_AUTO and the scene is traced faster without a tree.
-bool session_wants_tree(const Session *session, NodeLayout layout);
+bool session_scene_wants_tree(const Session *session, NodeLayout layout);
 
 // Compiles a scene into *form with the session's tree builder and threads (scene_compile). *form
 // must be {0}, and gets no buffers. If the call succeeds, the caller must free the form.
-bool session_compile(const Session *session, const FlatSource *source, SceneForm *form,
-                     Error *error);
+bool session_scene_compile(const Session *session, const FlatSource *source, SceneForm *form,
+                           Error *error);
 void scene_form_free(SceneForm *form);
 
 // Returns the session's scene in this layout, or NULL on failure. The first call compiles the
-// scene. The form has no tree if `has_tree` is false or session_wants_tree returns false.
-SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Error *error);
+// scene. The form has no tree if `has_tree` is false or session_scene_wants_tree returns false.
+SceneForm *session_scene_form(Session *session, NodeLayout layout, bool has_tree, Error *error);
 
-BvhBuilder session_builder(const ClrtSettings *settings);
+BvhBuilder session_scene_builder(const ClrtSettings *settings);
 
 // Returns the session's scene in the layout of session->choice, or NULL on failure.
-SceneForm *session_own_form(Session *session, Error *error);
+SceneForm *session_scene_own_form(Session *session, Error *error);
 
 typedef struct {
     const KernelEntry *entry;
@@ -112,8 +112,8 @@ typedef struct {
 const Kernel *session_kernel(Session *session, const RendererUse *use, const SceneTraits *traits,
                              Error *error);
 
-// Makes a renderer for the session's scene. The renderer is valid until the next session_take or
-// session_close.
+// Makes a renderer for the session's scene. The renderer is valid until the next session_scene_take
+// or session_close.
 bool session_renderer(Session *session, const RendererUse *use, const RenderSettings *settings,
                       Renderer *renderer, Error *error);
 

@@ -4,7 +4,7 @@
 #include "session/costs.h"
 #include "session/session.h"
 
-bool session_take(Session *session, const Scene *scene, Error *error)
+bool session_scene_take(Session *session, const Scene *scene, Error *error)
 {
     session_scene_free(&session->scene);
     session->scene.scene = scene;
@@ -20,7 +20,7 @@ void session_scene_free(SessionScene *scene)
     *scene = (SessionScene){0};
 }
 
-bool session_wants_tree(const Session *session, NodeLayout layout)
+bool session_scene_wants_tree(const Session *session, NodeLayout layout)
 {
     const Scene *scene = session->scene.scene;
     return session->settings.wanted.tree != CLRT_TREE_AUTO || layout != NODES_WIDE ||
@@ -35,11 +35,11 @@ void scene_form_free(SceneForm *form)
     compile_stages_free(&form->stages);
 }
 
-bool session_compile(const Session *session, const FlatSource *source, SceneForm *form,
-                     Error *error)
+bool session_scene_compile(const Session *session, const FlatSource *source, SceneForm *form,
+                           Error *error)
 {
     FlatSource complete = *source;
-    complete.builder = session_builder(&session->settings.wanted);
+    complete.builder = session_scene_builder(&session->settings.wanted);
     complete.pool = thread_pool_open(session->settings.wanted.threads);
     const bool ok = scene_compile(&form->flat, &form->stages, &complete, error);
     thread_pool_close(complete.pool);
@@ -59,7 +59,7 @@ static bool make_form(Session *session, SceneForm *form, NodeLayout layout, bool
                                .normalization = &scene->normalization,
                                .layout = layout,
                                .has_tree = has_tree};
-    if (!session_compile(session, &source, form, error))
+    if (!session_scene_compile(session, &source, form, error))
         return false;
     Bvh counts = form->stages.bvh;
     counts.nodes = NULL;
@@ -69,21 +69,21 @@ static bool make_form(Session *session, SceneForm *form, NodeLayout layout, bool
     return true;
 }
 
-SceneForm *session_form(Session *session, NodeLayout layout, bool has_tree, Error *error)
+SceneForm *session_scene_form(Session *session, NodeLayout layout, bool has_tree, Error *error)
 {
-    const bool uses_tree = has_tree && session_wants_tree(session, layout);
+    const bool uses_tree = has_tree && session_scene_wants_tree(session, layout);
     SceneForm *form = &session->scene.forms[layout][uses_tree];
     const bool is_made = form->flat.lights != NULL;
     return is_made || make_form(session, form, layout, uses_tree, error) ? form : NULL;
 }
 
-SceneForm *session_own_form(Session *session, Error *error)
+SceneForm *session_scene_own_form(Session *session, Error *error)
 {
-    return session_form(session, session->choice.nodes,
-                        session->settings.wanted.tree != CLRT_TREE_NONE, error);
+    return session_scene_form(session, session->choice.nodes,
+                              session->settings.wanted.tree != CLRT_TREE_NONE, error);
 }
 
-BvhBuilder session_builder(const ClrtSettings *settings)
+BvhBuilder session_scene_builder(const ClrtSettings *settings)
 {
     return settings->tree == CLRT_TREE_MIDPOINT ? BVH_MIDPOINT : BVH_SAH;
 }

@@ -150,8 +150,8 @@ void jobs_trace(Worker *worker, const Job *job)
     const double start = clock_seconds();
     Tracing tracing = {worker, job, layer, start};
     const RenderObserver observer = {tile_done, &tracing};
-    if (layer != NULL && session_draw(&worker->session, &picture, &observer, &layer->framebuffer,
-                                      &worker->drawn, &error)) {
+    if (layer != NULL && session_draw_picture(&worker->session, &picture, &observer,
+                                              &layer->framebuffer, &worker->drawn, &error)) {
         finish_pass(worker, job, layer, clock_seconds() - start);
         return;
     }
@@ -193,7 +193,7 @@ static void report_fault(Worker *worker, WorkerFault fault, const Error *error)
 static bool prepare(Worker *worker, Error *error)
 {
     report_busy(worker, "compiling the kernels");
-    return session_prepare(&worker->session, &(SessionPicture){0}, &worker->drawn, error);
+    return session_prepare_picture(&worker->session, &(SessionPicture){0}, &worker->drawn, error);
 }
 
 // Passes the model to the session, which then traces it. If the request's uses_bvh is false, rays
@@ -265,7 +265,7 @@ void jobs_load(Worker *worker, const Job *job)
         ok = session_open(&worker->session, &failure);
     }
     if (ok) {
-        const BvhSettings tree = {session_builder(&worker->setup.session.wanted),
+        const BvhSettings tree = {session_scene_builder(&worker->setup.session.wanted),
                                   flat_leaves(worker->session.choice.nodes)};
         ok = model_build_tree(model, &tree, threads, is_first ? &failure : &scene_failure);
     }

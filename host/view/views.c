@@ -76,7 +76,7 @@ static void clear(const Frame *frame)
     float color[3];
     unsigned char bytes[3];
     vec3_store(color, scene->background);
-    encode_channels(color, 3, frame->encoding, gain, bytes);
+    framebuffer_encode(color, 3, frame->encoding, gain, bytes);
     glClearColor((float)bytes[0] / 255, (float)bytes[1] / 255, (float)bytes[2] / 255, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }

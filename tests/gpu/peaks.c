@@ -41,8 +41,8 @@ static void open_bench(Bench *bench, const char *path, const char *device)
         clBuildProgram(bench->program, 1, &bench->device.id, "-cl-std=CL1.2", NULL, NULL);
     require(cl_succeeded(status, "build the kernels", &error), "kernels", &error);
     bench->items = (size_t)bench->device.facts.compute_units * 4096;
-    require(device_buffer(&bench->device, BYTES, &bench->values, &error) &&
-                device_buffer(&bench->device, bench->items * sizeof(float), &bench->sums, &error),
+    require(buffer_make(&bench->device, BYTES, &bench->values, &error) &&
+                buffer_make(&bench->device, bench->items * sizeof(float), &bench->sums, &error),
             "memory", &error);
     const cl_float zero = 0;
     status = clEnqueueFillBuffer(bench->device.queue, bench->values, &zero, sizeof zero, 0, BYTES,
@@ -87,8 +87,8 @@ int main(int count, char **words)
     const double computing = shortest(&bench, "multiply_and_add", LOOPS);
     printf("{\"bytes_per_second\": %.4g, \"operations_per_second\": %.4g}\n", BYTES / reading,
            16.0 * LOOPS * (double)bench.items / computing);
-    device_release(&bench.values);
-    device_release(&bench.sums);
+    buffer_release(&bench.values);
+    buffer_release(&bench.sums);
     clReleaseProgram(bench.program);
     device_close(&bench.device);
     return 0;

@@ -49,7 +49,7 @@ static KernelChoice usual_choice(void)
         fprintf(stderr, "%s\n", error.text);
         exit(1);
     }
-    const KernelChoice choice = kernel_choose(&nothing, &device);
+    const KernelChoice choice = kernel_choice_make(&nothing, &device);
     device_close(&device);
     return choice;
 }

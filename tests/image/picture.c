@@ -46,8 +46,8 @@ static bool load(Pipeline *pipeline, Error *error)
     if (request->view < 1 || request->view > pipeline->scene.viewpoints.count)
         return error_set(error, "%s has no view %u", request->scene_path, request->view);
     return request->has_last_tree ||
-           session_take(pipeline->session,
-                        request->scene != NULL ? request->scene : &pipeline->scene, error);
+           session_scene_take(pipeline->session,
+                              request->scene != NULL ? request->scene : &pipeline->scene, error);
 }
 
 static RenderSettings settings_of(const PictureRequest *request, const Scene *scene)
@@ -68,7 +68,7 @@ static bool draw_with_callback(Pipeline *pipeline, Framebuffer *framebuffer, Err
     const PictureRequest *request = pipeline->request;
     const RendererUse use = {.entry = &sample_entry};
     const CameraData camera =
-        session_camera(pipeline->session, &pipeline->picture, request->samples);
+        session_picture_camera(pipeline->session, &pipeline->picture, request->samples);
     return session_renderer(pipeline->session, &use, &pipeline->picture.settings, &renderer,
                             error) &&
            request->draw(request->draw_context, &renderer, &camera, framebuffer, error);
@@ -79,8 +79,8 @@ static bool draw_colors(Pipeline *pipeline, Framebuffer *framebuffer, Error *err
     const PictureRequest *request = pipeline->request;
     if (request->draw != NULL)
         return draw_with_callback(pipeline, framebuffer, error);
-    const bool ok = session_draw(pipeline->session, &pipeline->picture, NULL, framebuffer,
-                                 &pipeline->result, error);
+    const bool ok = session_draw_picture(pipeline->session, &pipeline->picture, NULL, framebuffer,
+                                         &pipeline->result, error);
     if (ok && request->sample_count != NULL && goal_is_given(&pipeline->picture.wanted))
         *request->sample_count = pipeline->result.samples;
     return ok && (!pipeline->result.goal_missed || error_set(error, "the goal is missed"));

@@ -9,14 +9,14 @@ static Cache cache;
 
 static void close_cache(void)
 {
-    cache_close_private(&cache);
+    cache_private_close(&cache);
 }
 
 const Cache *shared_cache(void)
 {
     static bool is_open;
     if (!is_open) {
-        cache_open_private(&cache);
+        cache_private_open(&cache);
         atexit(close_cache);
     }
     is_open = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernel cache of a test program. A process may call cache_open_private only once. The first
+// The kernel cache of a test program. A process may call cache_private_open only once. The first
 // call sets POCL_CACHE_DIR to a private folder, so a second call would open an empty cache there.
 #pragma once
 

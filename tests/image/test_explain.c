@@ -241,7 +241,7 @@ static void draw_into_a_smaller_framebuffer(Explainer *explainer, const Framebuf
     Renderer renderer = explainer->renderer;
     Error error = {0};
     assert_true(framebuffer_make(&small, drawn->width, drawn->height - 1, &error));
-    assert_false(renderer_draw(&renderer, &explainer->frame.camera, NULL, &small, &error));
+    assert_false(tile_pass_draw(&renderer, &explainer->frame.camera, NULL, &small, &error));
     assert_string_equal(error.text, "the picture has 32 x 24 pixels, and the framebuffer 32 x 23");
     *(bool *)context = true;
 }

@@ -47,7 +47,7 @@ static const struct {
 TEST(each_device_gets_its_fastest_form_unless_the_user_chooses)
 {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const KernelChoice choice = kernel_choose(&cases[i].wanted, &cases[i].device);
+        const KernelChoice choice = kernel_choice_make(&cases[i].wanted, &cases[i].device);
         assert_int_equal(choice.family, cases[i].family);
         assert_int_equal(choice.nodes, cases[i].nodes);
         assert_int_equal(choice.precision, cases[i].wanted.precision);
@@ -81,7 +81,7 @@ static bool gets_quick_kernels(const Case *wanted, ClrtSettings settings, uint32
     const SessionPicture request = {
         .settings = {.width = wanted->width, .height = wanted->height, .samples = wanted->samples},
         .wanted = wanted->wanted};
-    const SessionWork work = session_work(&request, 1);
+    const SessionWork work = session_picture_work(&request, 1);
     Session session = {.settings.wanted = settings,
                        .device.facts.compute_units = 1,
                        .choice = {FAMILY_PACKET, NODES_WIDE, 0, CLRT_FP32},

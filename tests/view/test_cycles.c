@@ -158,6 +158,6 @@ TEST(many_windows_leave_nothing_behind)
 
 SET_UP(open_cache)
 {
-    cache_open_private(&cache);
+    cache_private_open(&cache);
     return 0;
 }

@@ -63,7 +63,7 @@ TEST(a_long_picture_of_a_moving_camera_is_stopped)
     Cache cache;
     Canvas canvas;
     Error error = {0};
-    cache_open_private(&cache);
+    cache_private_open(&cache);
     canvas_open(&canvas, ENCODE_RAW);
     const WorkerSetup setup = {.session = {.wanted = {.threads = 2}},
                                .cache = cache,
@@ -92,7 +92,7 @@ TEST(a_long_picture_of_a_moving_camera_is_stopped)
     assert_string_equal(status.failure.text, "");
     assert_true(worker_stop(worker, 60));
     canvas_close(&canvas);
-    cache_close_private(&cache);
+    cache_private_close(&cache);
 }
 
 TEST(a_first_scene_that_cannot_be_read_is_reported)

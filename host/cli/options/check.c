@@ -227,7 +227,7 @@ static void choose_precision(Options *options)
 
 static bool check_kernel(const Options *options, Error *error)
 {
-    return kernel_is_valid(&options->renderer) ||
+    return kernel_choice_is_valid(&options->renderer) ||
            error_set(error, "%s traces rays one by one through pair nodes: leave out --tune kernel",
                      option_is_given(options, "precision") ? "--precision fp64"
                                                            : "with this --error, clrt");

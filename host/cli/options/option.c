@@ -264,7 +264,7 @@ bool set_kernel(Options *options, const char *text, Error *error)
     const ClrtSettings named = {.kernel = (ClrtKernel)form, .lanes = (uint32_t)lanes};
     options->renderer.kernel = named.kernel;
     options->renderer.lanes = named.lanes;
-    return (form >= 0 && ok && kernel_is_valid(&named)) ||
+    return (form >= 0 && ok && kernel_choice_is_valid(&named)) ||
            error_set(error,
                      "--tune kernel wants auto, pair, wide or packet, and wide or packet may have "
                      "4, 8 or 16 lanes, as in packet:8, not '%s'",

@@ -33,7 +33,7 @@ class Picture(np.ndarray):
             return None
         height, width, _ = self.shape
         lines = np.zeros((height, 1 + 3 * width), np.uint8)
-        # Rounds as encode_channels in host/image/encode.c does. fmin turns NaN into 1.
+        # Rounds as framebuffer_encode in host/image/framebuffer.c does. fmin turns NaN into 1.
         shown = np.fmax(np.fmin(self, 1), 0).astype(np.float64)
         lines[:, 1:] = (shown * 255 + 0.5).reshape(height, -1)
         header = binary.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)

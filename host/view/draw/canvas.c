@@ -79,8 +79,8 @@ Layer *canvas_begin(Canvas *canvas, const RenderSettings *settings, bool is_hidd
 
 static void encode_row(const Canvas *canvas, Layer *layer, size_t first, size_t count, double gain)
 {
-    encode_channels(layer->framebuffer.pixels[first], 3 * count, canvas->encoding, gain,
-                    layer->bytes + 3 * first);
+    framebuffer_encode(layer->framebuffer.pixels[first], 3 * count, canvas->encoding, gain,
+                       layer->bytes + 3 * first);
 }
 
 static void encode_tile(const Canvas *canvas, Layer *layer, const Tile *tile, double gain)

@@ -94,7 +94,7 @@ static Outcome view_outcome(OpenPicture *open, const Scene *scene, const RenderS
 {
     Error error = {0};
     const CameraData camera = picture_camera(scene, render);
-    require(renderer_draw(&open->renderer, &camera, NULL, picture, &error), &error);
+    require(tile_pass_draw(&open->renderer, &camera, NULL, picture, &error), &error);
     return outcome_of("T-45", picture_pixels(picture), count_escapes(picture));
 }
 

@@ -143,7 +143,7 @@ static void draw_part(Renderer *renderer, const CameraData *camera, Framebuffer 
     Error error = {0};
     tile_frame_size(settings, &width, &height);
     require(framebuffer_make(&part, width, height, &error), &error);
-    require(renderer_draw(renderer, camera, NULL, &part, &error), &error);
+    require(tile_pass_draw(renderer, camera, NULL, &part, &error), &error);
     for (uint64_t number = 0; number < tile_count(settings); number++) {
         const Tile tile = tile_at(settings, number);
         for (uint32_t row = 0; row < tile.height; row++)

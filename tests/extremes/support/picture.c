@@ -87,7 +87,7 @@ Framebuffer picture_draw(const Studio *studio, const Scene *scene, const Picture
     const CameraData camera = picture_camera(scene, render);
     picture_open(&open, studio, scene, settings);
     const bool ok = framebuffer_make(&picture, render->width, render->height, &error) &&
-                    renderer_draw(&open.renderer, &camera, NULL, &picture, &error);
+                    tile_pass_draw(&open.renderer, &camera, NULL, &picture, &error);
     picture_close(&open);
     require(ok, &error);
     return picture;
