@@ -4,8 +4,8 @@
 #include "cli/commands.h"
 #include "cli/crash.h"
 #include "cli/options/options.h"
-#include "cli/process.h"
 #include "cli/progress.h"
+#include "cli/stack.h"
 
 #include <fcntl.h>
 #include <signal.h>

@@ -5,7 +5,7 @@
 #include "cli/progress.h"
 
 #include "base/clock.h"
-#include "cli/process.h"
+#include "cli/stop.h"
 
 #include <pthread.h>
 #include <stdint.h>

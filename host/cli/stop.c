@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Handles SIGINT, SIGTERM and SIGHUP, and makes stacks large enough for compilers. After the first
-// tile has begun, the handler only sets a flag, so the first signal never interrupts the writing of
-// traced tiles. The second signal ends the process. Before the first tile, even the first signal
-// ends the process, because compilation cannot be interrupted.
-#include "cli/process.h"
+// After the first tile has begun, the handler only sets a flag, so the first signal never
+// interrupts the writing of traced tiles. The second signal ends the process. Before the first
+// tile, even the first signal ends the process, because compilation cannot be interrupted.
+#include "cli/stop.h"
 
-#include <pthread.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 static volatile sig_atomic_t stopped_by, waits_for_tiles;
@@ -60,30 +57,4 @@ void stop_wait_for_tiles(void)
 int stop_signal(void)
 {
     return stopped_by;
-}
-
-// RLIMIT_STACK limits the main thread's stack and is the default size of other threads' stacks.
-#define STACK_LEAST ((rlim_t)8 << 20)
-#define STACK_SIZE  ((size_t)16 << 20)
-
-static bool run_on_thread(void *(*work)(void *context), void *context)
-{
-    pthread_t thread;
-    pthread_attr_t attributes;
-    pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, STACK_SIZE);
-    pthread_setattr_default_np(&attributes);
-    const bool ok = pthread_create(&thread, &attributes, work, context) == 0;
-    pthread_attr_destroy(&attributes);
-    if (ok)
-        pthread_join(thread, NULL);
-    return ok;
-}
-
-void stack_run(void *(*work)(void *context), void *context)
-{
-    struct rlimit limit;
-    const bool is_small = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < STACK_LEAST;
-    if (!is_small || !run_on_thread(work, context))
-        work(context);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prepares the process for signals that stop a picture, and for small limits on stacks.
+// Handles the signals that stop a picture.
 #pragma once
 
 // SIGINT, SIGTERM and SIGHUP stop a picture. Before the first tile, there is nothing to write, so a
@@ -17,8 +17,3 @@ void stop_wait_for_tiles(void);
 
 // Returns the number of the latest signal that arrived after stop_wait_for_tiles, or 0.
 int stop_signal(void);
-
-// Calls work(context) with a stack that is large enough for compilers, regardless of `ulimit -s`.
-// Returns when `work` has returned. If the limit of `ulimit -s` is below 8 MiB, `work` runs on a
-// new thread with a larger stack, and threads of drivers get larger stacks too.
-void stack_run(void *(*work)(void *context), void *context);
