@@ -87,7 +87,7 @@ static inline bool cross_glass_surface(const Tracer *tracer, const UncertainSurf
     return true;
 }
 
-// Follows a shadow ray to its light, as follow_light (glass.cl) does.
+// Follows a shadow ray to its light, as follow_light (shadow.cl) does.
 static inline LightVisibility certify_path(const Tracer *tracer, RayCone ray, Decisions *decisions)
 {
     for (uint crossing = 0; crossing <= GLASS_CROSSINGS && is_usable(&ray); crossing++) {

@@ -20,34 +20,11 @@ typedef struct {
 } Record;
 
 #if CLRT_LANES == 1
-static inline UInt first_lane(UInt value, Mask among)
-{
-    (void)among;
-    return value;
-}
-
-static inline Real first_real(Real value, Mask among)
-{
-    (void)among;
-    return value;
-}
-
 static inline Record record_at(global const void *words, UInt place)
 {
     return (Record){(global const uint *)words + place, 0, true};
 }
 #else
-static inline UInt first_lane(UInt value, Mask among)
-{
-    const uint bits = lane_bits(among);
-    return (UInt)(((uint *)&value)[bits == 0 ? 0 : popcount((bits & -bits) - 1)]);
-}
-
-static inline Real first_real(Real value, Mask among)
-{
-    return as_real(first_lane(as_bits(value), among));
-}
-
 static inline Record record_at(global const void *words, UInt place)
 {
     global const uint *start = (global const uint *)words;

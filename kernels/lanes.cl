@@ -170,6 +170,16 @@ static inline uint OVERLOAD lane_bits(int16 mask)
 }
 #endif
 
+static inline bool any_lane(Mask mask)
+{
+    return lane_bits(mask) != 0;
+}
+
+static inline uint lane_count(Mask mask)
+{
+    return popcount(lane_bits(mask));
+}
+
 // The number of packets that a work-item traces in lock step, as a beam. With 8 or 16 lanes, a beam
 // has 64 rays. With 4 lanes, a beam has 16 rays, because pictures would take 1.7 times as long with
 // 64.
@@ -195,6 +205,19 @@ static inline UInt gather(global const uint *words, UInt place)
 static inline Real stored_real(UInt word)
 {
     return as_float(word);
+}
+
+// Returns the value of the first lane in `among`, and any lane's value if `among` is empty.
+static inline UInt first_lane(UInt value, Mask among)
+{
+    (void)among;
+    return value;
+}
+
+static inline Real first_real(Real value, Mask among)
+{
+    (void)among;
+    return value;
 }
 #else
 #define ALL_LANES ((1u << CLRT_LANES) - 1)
@@ -244,6 +267,17 @@ static inline float lane_real(const Real *lanes, uint lane)
 static inline uint lane_uint(const UInt *lanes, uint lane)
 {
     return ((const uint *)lanes)[lane];
+}
+
+static inline UInt first_lane(UInt value, Mask among)
+{
+    const uint bits = lane_bits(among);
+    return (UInt)(((uint *)&value)[bits == 0 ? 0 : popcount((bits & -bits) - 1)]);
+}
+
+static inline Real first_real(Real value, Mask among)
+{
+    return as_real(first_lane(as_bits(value), among));
 }
 #endif
 

@@ -74,6 +74,11 @@ static inline Real3 sum3(Real3 a, Real3 b)
     return real3_of(a.x + b.x, a.y + b.y, a.z + b.z);
 }
 
+static inline Real3 product3(Real3 a, Real3 b)
+{
+    return real3_of(a.x * b.x, a.y * b.y, a.z * b.z);
+}
+
 static inline Real3 scaled3(Real factor, Real3 v)
 {
     return real3_of(factor * v.x, factor * v.y, factor * v.z);
@@ -98,11 +103,6 @@ static inline UInt sign_bit(Real v)
 static inline Real clamp_to_one(Real v)
 {
     return clamp(v, (Real)(0.0f), (Real)(1.0f));
-}
-
-static inline bool any_lane(Mask mask)
-{
-    return lane_bits(mask) != 0;
 }
 
 // Returns `v` scaled to length 1, or zero if `v` is zero. First divides `v` by a power of two,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places a tile's packets, stores the colors of their pixels, and computes the color of sky.
+// Places a tile's packets, and stores the colors of their pixels.
 #include "sky.cl"
 
 // The number of columns of packets in a beam, and the beam's size in pixels.
@@ -70,10 +70,4 @@ static inline void store_colors(const FrameData *frame, uint2 corner, const Real
     for (uint lane = 0; lane < CLRT_LANES; lane++)
         if (is_in_tile(frame, corner, lane))
             store_lane(pixels + 3 * pixel_index(frame, corner, lane), color, lane);
-}
-
-// Returns the color of rays that hit nothing.
-static inline Real3 sky_color(const FrameData *frame)
-{
-    return scaled3(0x1p-32f, in_steps3(load_private3(frame->background)));
 }

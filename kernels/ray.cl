@@ -110,9 +110,4 @@ typedef struct {
         lights, materials, spheres, nodes, triangles, looks, normals, colors, &frame, tally        \
     }
 
-static inline uint lane_count(Mask mask)
-{
-    return popcount(lane_bits(mask));
-}
-
 #endif

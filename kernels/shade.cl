@@ -4,7 +4,7 @@
 // pictures", 1977).
 #ifndef CLRT_SHADE_CL
 #define CLRT_SHADE_CL
-#include "glass.cl"
+#include "shadow.cl"
 
 // Sums of light are limited to this number. They then stay finite for lights of any intensity, so
 // that 0 * sum is never a NaN.

@@ -73,3 +73,9 @@ static inline bool is_sky(const FrameData *frame, uint left, uint top)
     const RayRange range = block_range(frame, left, top);
     return (frame->camera.orthographic == 0 && leave_box(frame, &range)) || pass_box(frame, &range);
 }
+
+// Returns the color of rays that hit nothing.
+static inline Real3 sky_color(const FrameData *frame)
+{
+    return scaled3(0x1p-32f, in_steps3(load_private3(frame->background)));
+}
