@@ -48,7 +48,7 @@ TRIALS = {
     "time": (PLAIN, PLAIN + ["--time", "0.1"]),
     "precision": (PLAIN, PLAIN + ["--precision", "fp64"]),
     "tune": (PICTURE + ["--tune", "kernel=wide:8"], PICTURE + ["--tune", "kernel=wide:4"]),
-    "tune kernel": (PICTURE + ["--tune", "kernel=packet"], PICTURE + ["--tune", "kernel=wide"]),
+    "tune kernel": (PICTURE + ["--tune", "kernel=packet"], PICTURE + ["--tune", "kernel=wide:8"]),
     "tune tile": (PICTURE, PICTURE + ["--tune", "tile=16x8"]),
     "tune group": (PICTURE, PICTURE + ["--tune", "group=4x2"]),
     "tune specialize": (PICTURE, PICTURE + ["--tune", "specialize=always"]),

@@ -23,7 +23,7 @@ NAME = "a.exr" if HAS_EXR else "a.pfm"
 WIDTH, HEIGHT, TILE = 400, 300, 20
 TILES = WIDTH // TILE * HEIGHT // TILE
 LONG = [SCENE, "-s", f"{WIDTH}x{HEIGHT}", "--aa=6", "--tune", f"tile={TILE}x{TILE}", "-j", "1"]
-ONE_TILE = [SCENE, "-s", "2000x2000", "--aa=16", "--tune", "tile=2000x2000", "-j", "1"]
+ONE_TILE = [SCENE, "-s", "2000x2000", "--aa=16", "--tune", "tile=2000x2000,specialize=never", "-j", "1"]
 SMALL = [SCENE, "-s", "61x43", "--tune", "tile=16x8"]
 OTHER = "belongs to another scene, other settings or another version of clrt: remove it to begin again"
 

@@ -16,8 +16,8 @@
 #define LIMIT 30
 
 // Comparing all pixels would take minutes.
-#define STEP             2
-#define COURSE_MESH_STEP 4
+#define STEP             3
+#define COURSE_MESH_STEP 6
 
 static bool view_agrees(const Oracle *oracle, const char *path, uint32_t view, uint32_t step)
 {

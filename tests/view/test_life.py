@@ -77,9 +77,11 @@ def a_window_closed_while_it_traces_is_gone_at_once(screen, folder):
         cases.append((write_large(folder), ["--tune=bvh=none"]))
     for scene, options in cases:
         rest = seconds_to_close(screen, scene, *options, is_tracing=False)
-        # A busy machine only adds time, so the shortest of three times decides.
-        seconds = min(seconds_to_close(screen, scene, *options, is_tracing=True)
-                      for _ in range(3))
+        # A busy machine only adds time, so the shortest of at most three times decides.
+        for _ in range(3):
+            seconds = seconds_to_close(screen, scene, *options, is_tracing=True)
+            if seconds < rest + GONE_SECONDS:
+                break
         print(f"         {scene.stem} {options}: closes in {1e3 * seconds:.0f} ms while "
               f"tracing, in {1e3 * rest:.0f} ms when idle")
         assert seconds < rest + GONE_SECONDS, f"{scene.stem}: gone after {seconds:.3f} s"

@@ -102,7 +102,7 @@ def changed_kernels_trace_the_next_picture(screen, folder):
     scene = make_scene(folder)
     os.environ["CLRT_KERNEL_DIR"] = str(kernels)
     try:
-        window = opened(screen, scene)
+        window = opened(screen, scene, "--tune=kernel=pair")  # compiles fastest
         before = window.read()
         shade = kernels / "trace.cl"
         text = shade.read_text()
