@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Computes the operations on which all pictures depend. host/device/arithmetic.c compares the
-// results with the host's, bit by bit. The kernel is compiled after render.cl, which forbids
-// contraction.
+// results with results of the host, bit by bit. The kernel is compiled after render.cl, which
+// forbids contraction.
 
 // Each case has three operands. For each case, `results` receives one word per operation, in the
 // host's order.

@@ -13,7 +13,8 @@
 // Returns whether the ray may search a tree of boxes or a list of triangles. The sum of the
 // components' magnitudes must be below 2^46 for the start, and between 2^-80 and 2^80 for the
 // direction. Other rays hit no triangle, and are tested against every sphere. With an infinity or a
-// NaN, a ray could be inside every box, even a missing child's, and the search would never end.
+// NaN, a ray could be inside every box, even the box of a missing child, and the search would never
+// end.
 static inline Mask is_searchable(const Ray *ray)
 {
     const Real3 o = magnitudes(ray->origin), d = magnitudes(ray->direction);

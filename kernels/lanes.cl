@@ -129,8 +129,8 @@ typedef UInt Bits;
 #endif
 
 // Returns a word in which bit i is set if lane i is true. x86 has an instruction for this. Without
-// it, a whole picture takes a fifth longer. The fallback masks each lane with its bit and combines
-// the lanes by a tree of ORs.
+// the instruction, a whole picture takes a fifth longer. The fallback masks each lane with its bit
+// and combines the lanes by a tree of ORs.
 static inline uint OVERLOAD lane_bits(int mask)
 {
     return mask != 0;

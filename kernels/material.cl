@@ -50,7 +50,7 @@ static inline Real place_move(const Cubes *cubes)
 }
 
 // Returns whether the index of the cube at the place is odd. The subtraction can round only for
-// places in [-1, 0), and the result is right there, too.
+// places in [-1, 0). The result is right for these places, too.
 static inline Mask place_is_odd(Real place)
 {
     const Real pairs = 0.5f * place;

@@ -269,9 +269,9 @@ CLRT_SAME_SIZE(PixelSums, 32)
 // The certainty of a pixel's decisions: which surfaces its rays hit, which lights reach them, and
 // which squares of checkers they show.
 typedef enum {
-    CERTAINTY_OPEN,      // a decision may differ from real arithmetic's
-    CERTAINTY_REPAIRED,  // all fp64 decisions equal real arithmetic's
-    CERTAINTY_CERTIFIED, // all fp64 and fp32 decisions equal real arithmetic's
+    CERTAINTY_OPEN,      // a decision may differ from the decision of real arithmetic
+    CERTAINTY_REPAIRED,  // all decisions of fp64 equal the decisions of real arithmetic
+    CERTAINTY_CERTIFIED, // all decisions of fp64 and fp32 equal the decisions of real arithmetic
     CERTAINTY_KINDS
 } Certainty;
 

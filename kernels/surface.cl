@@ -26,7 +26,7 @@ typedef struct {
     Real3 point;
     Real3 normal;        // the shading normal, of length 1
     Real3 face;          // the normal of the plane or sphere, of length 1, on the ray's side
-    Real3 a, b, c;       // the triangle's corners, exact; for a sphere the point
+    Real3 a, b, c;       // the triangle's exact corners; for a sphere, all are `point`
     Real3 toward_viewer; // unit
     UInt id, material;
     UInt index;      // of a triangle; NOTHING for spheres

@@ -286,8 +286,8 @@ static inline bool visit_triangles(const Search *search, uint lane, uint child, 
     return intersect_block(&start, search, lane, hits);
 }
 
-// Tests the block of each lane that is at a block. The lane then advances, unless a new hit ends
-// its search. All lanes search the same tree.
+// Tests the next block of each lane whose next child is a block. A lane then advances, unless a new
+// hit ends its search. All lanes search the same tree.
 static inline void visit_leaves(LaneSearches *searches)
 {
     const bool any_hit = ends_at_any_hit(searches->search->ray->kind);

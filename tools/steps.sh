@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Runs the steps of tools/setup, tools/render and tools/test, which source this file. On a terminal,
-# the last line shows the step, its percentage and its time. Elsewhere at least one line appears
-# every 15 s.
+# the last line shows the step, its percentage and its time. If standard error is not a terminal, at
+# least one line appears every 15 s.
 set -o pipefail
 
 on_terminal() {

@@ -106,7 +106,7 @@ typedef struct {
 // and error are /dev/null.
 static bool start(Child *child, const char *const words[], Error *cause)
 {
-    int ends[2]; // the parent's end of the socket, and the child's
+    int ends[2]; // the parent's end of the socket, and the child's end
     File bytes = {0};
     int fault = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 ? 0 : errno;
     if (fault == 0) {

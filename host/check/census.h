@@ -48,7 +48,7 @@ typedef struct {
     size_t unused_materials;  // materials that the file defines, but nothing uses
 } Census;
 
-// Counts the faulty and unused parts of a scene. `normalization` must be the scene's.
+// Counts the faulty and unused parts of a scene. `normalization` must be the scene's normalization.
 bool census_take(Census *census, const Scene *scene, const Normalization *normalization,
                  Error *error);
 void census_free(Census *census);

@@ -4,9 +4,9 @@
 
 #include "cli/picture_data.h"
 
-// Appends the error channel to *layers. The error of a pixel is the largest difference between its
-// color components and the reference's. Does nothing if there is no reference, if the file's format
-// has no channels, or if --aov has already added the error channel.
+// Appends the error channel to *layers. The error of a pixel is the largest difference between a
+// color component of the picture and of the reference. Does nothing if there is no reference, if
+// the file's format has no channels, or if --aov has already added the error channel.
 void picture_error_name_layer(const Options *options, Layers *layers);
 
 // With --reference, draws the reference of the picture (session/reference.h), measures and prints

@@ -80,7 +80,8 @@ bool limit_is_kept(const Limits *limits, LimitKind kind, const Difference *diffe
 typedef enum {
     CAUSE_PRIMITIVE,  // the rays through the pixel's center hit different primitives
     CAUSE_SHADOW,     // different lights reach the hit point
-    CAUSE_TRUNCATION, // one picture's --max-level ends its reflections sooner than the other's
+    CAUSE_TRUNCATION, // the pictures have different --max-level, so reflections end sooner in one
+                      // of them
     CAUSE_REFLECTION, // the reflections differ for another reason
     CAUSE_COVERAGE,   // the pictures have different samples of the pixel
     CAUSE_ROUNDING,   // no other cause: rounding, if both pictures show the same scene

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Runs the operations of the kernels on a device, and compares the results with the host's. `cases`
-// holds operands for which common faults give other bits than IEEE 754. These faults are wrong
-// rounding, contracted products, flushed denormals and conversions that truncate.
+// Runs the operations of the kernels on a device, and compares the results with results of the
+// host. `cases` holds operands for which common faults give other bits than IEEE 754. These faults
+// are wrong rounding, contracted products, flushed denormals and conversions that truncate.
 //
 // If the first program of a process must be compiled, program.c appends this test's kernel to it. A
 // separate program would take PoCL another 0.5 s. If the first program is from the cache, the

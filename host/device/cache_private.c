@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Makes PoCL's private folder. The folder is named clrt-HOST-XXXXXX and contains a file that the
-// process keeps locked. A folder with an unlocked file belongs to a process that was killed. The
-// next process that makes a private folder there removes such a folder. The folder's name contains
-// the host's name, because a network file system can hide the locks of other hosts. The library
-// does not link this file, because the library never changes the environment.
+// process keeps locked. If the file is not locked, the process was killed. The next process that
+// makes a private folder in the same place then removes the folder. The folder's name contains the
+// host's name, because a network file system can hide the locks of other hosts. The library does
+// not link this file, because the library never changes the environment.
 #include "device/cache_private.h"
 
 #include <dirent.h>

@@ -143,7 +143,7 @@ static bool write_tile(const TileWriter *writer, const exr_encode_pipeline_t *en
            fwrite(encoder->compressed_buffer, encoder->compressed_bytes, 1, writer->stream) == 1;
 }
 
-// Compresses a tile, waits until all tiles before it are written, and writes it.
+// Compresses a tile, waits until all earlier tiles are written, and then writes the tile.
 static void run_tile(void *context, uint32_t number)
 {
     TileWriter *writer = context;

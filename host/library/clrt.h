@@ -394,10 +394,10 @@ typedef struct {
 } ClrtPicture;
 
 // Draws the scene into `rgb`, an array of 3 * width * height floats: R G B in [0, 1], top row
-// first. With a crop, the width and height are the crop's. If the channel certainty is requested,
-// pixels that are certain in fp64, but not in float, get the colors of fp64. The first picture of a
-// new or changed scene also builds the scene's tree, if clrt uses one. Later pictures reuse the
-// tree, even with another size or camera.
+// first. With a crop, these are the width and height of the crop. If the channel certainty is
+// requested, pixels that are certain in fp64, but not in float, get the colors of fp64. The first
+// picture of a new or changed scene also builds the scene's tree, if clrt uses one. Later pictures
+// reuse the tree, even with another size or camera.
 //
 // Returns false with CLRT_STOPPED if `progress` stops the picture before the last tile. If the
 // picture is stopped or the device fails, `rgb` contains the complete tiles, and all other pixels

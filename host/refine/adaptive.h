@@ -3,10 +3,10 @@
 // or parts are thin. The idea is from Whitted, "An improved illumination model for shaded display",
 // 1980.
 //
-// A pixel is refined if its color differs too much from a neighbor's, or if it touches a triangle
-// or sphere that samples may miss (thin_parts.h). Refined pixels have samples on scan lines
-// (scan_lines.h). If samples near the border of a refined pixel differ from the neighbor there, the
-// neighbor is refined too.
+// A pixel is refined if its color differs too much from the color of a neighbor, or if the pixel
+// touches a triangle or sphere that samples may miss (thin_parts.h). Refined pixels have samples on
+// scan lines (scan_lines.h). If samples near the border of a refined pixel differ from the neighbor
+// there, the neighbor is refined too.
 //
 // A pass selects all its places before it traces any of them, so that the samples form one large
 // list for the device.

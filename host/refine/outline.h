@@ -104,7 +104,7 @@ typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
     CameraData camera;
-    Vec3 right, down;       // a point's dot products with these are in places, at depth 1
+    Vec3 right, down;       // the dot product with a point at depth 1 is a position in places
     double width, height;   // of the picture, in places
     ProjectedPoint *points; // of the mesh's vertices
 } Projection;

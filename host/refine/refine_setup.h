@@ -10,7 +10,7 @@
 typedef struct {
     Renderer *renderer;    // with sample_entry for adaptive anti-aliasing, ladder_entry for goals
     const FlatScene *flat; // the renderer's scene
-    const CameraData *camera; // made for REFINE_GRID or LADDER_GRID samples, respectively
+    const CameraData *camera; // made for REFINE_GRID samples; for goals, LADDER_GRID
     ThreadPool *pool;         // threads for the work, NULL for none
     const Scene *scene;       // the source of flat
     const Normalization *normalization;

@@ -73,7 +73,7 @@ bool mesh_join(Mesh *mesh, const Scene *scene, Error *error)
 typedef struct {
     const Scene *scene;
     FILE *stream;
-    MaterialNames names; // of the materials in the written text, except the course's
+    MaterialNames names; // of the materials in the written text, except the four of the course
     MeshObject current;  // the properties that statements have set so far
     bool is_own;         // the files' colors replace the diffuse color of current.material
 } Writer;

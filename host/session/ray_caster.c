@@ -84,7 +84,8 @@ static bool compile(RayScene *scene, const Session *session, NodeLayout layout, 
     return ok;
 }
 
-// Stores each triangle's mesh, and its number there before triangles were dropped.
+// Stores each triangle's mesh, and the triangle's number in this mesh before triangles were
+// dropped.
 static void name_triangles(TrianglePlace *places, const Scene *scene)
 {
     for (uint32_t mesh = 0; mesh < scene->objects.count; mesh++) {

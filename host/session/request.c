@@ -136,9 +136,9 @@ static uint32_t max_level_of(const ClrtPicture *wanted, const Scene *scene)
     return limited_level(level, scene);
 }
 
-// Returns the max_level of the picture's reference, which is at least the scene's. If an error
-// bound determines the picture's max_level, the reference has enough levels for the accuracy of
-// floats.
+// Returns the max_level of the picture's reference, which is at least the max_level of the scene.
+// If an error bound determines the picture's max_level, the reference has enough levels for the
+// accuracy of floats.
 static uint32_t reference_level(const ClrtPicture *wanted, const Scene *scene)
 {
     const uint32_t level = chooses_level(wanted) ? truncation_level(scene, FLOAT_HALF_STEP)

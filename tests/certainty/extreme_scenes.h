@@ -17,5 +17,6 @@ extern const size_t extreme_scene_count;
 // order.
 Scene extreme_coincident(void);
 
-// Returns 200 random mirroring balls on a huge one. Some touch, and some are within others.
+// Returns 200 random mirroring balls on a huge ball. Some balls touch each other, and some are
+// inside other balls.
 Scene extreme_marbles(uint64_t seed);

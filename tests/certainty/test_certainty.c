@@ -102,7 +102,8 @@ typedef struct {
 } Seen;
 
 // Returns whether the plain picture and the mark have the same first hit and number of lights at
-// the hit. At silhouettes and glass, which no light colors, the numbers of lights are not compared.
+// the hit. Lights do not color silhouettes and glass, so the function does not compare their
+// numbers of lights.
 static bool is_alike(const Certified *certified, const CertaintyMark *mark, const Seen *seen)
 {
     if (seen->primitive != mark->first_id)

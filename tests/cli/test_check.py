@@ -28,14 +28,14 @@ FORMS = ["--tune kernel=pair", "--tune kernel=wide", "--tune kernel=packet", "--
 NEAR = "camera 3 -6 1 0 0 0 30\nlight 9 -9 9 1\nmesh closed.ply\n"
 SCENES = {"scene": "ply_file inside.ply\nsphere 0 0 0 1\nsphere 0 0 0 1\ndefine red matte\n",
           "mixed": "ply_file closed.ply\nmesh closed.ply scale 1e8\n",
-          # The first camera is outside the balls, the others are inside.
+          # The first camera is outside the balls. The other cameras are inside.
           "eyes": "camera 0 -9 0 0 0 0 45\ncamera 0.5 0.5 0 9 0 0 45\ncamera 3 0 0 0 0 0 45\n"
                   "sphere 0 0 0 1\nsphere 3 0 0 1\nlight 9 9 9 1\n",
           "within": "camera 0.2 0.2 0.2 1 0 0 45\nmesh closed.ply\nsides two\nlight 9 9 9 1\nmesh open.ply\n",
           # The camera is in the bounding box of the tetrahedron, but not in the tetrahedron.
           "beside": "camera 0.6 0.6 0.6 0 0 0 45\nmesh closed.ply\nlight 9 9 9 1\n",
-          # The first camera looks away from the mesh. The others look past the mesh. At a distance of 1
-          # unit, they see a width of 4 units.
+          # The first camera looks away from the mesh. The other cameras look past the mesh. At a
+          # distance of 1 unit, they see a width of 4 units.
           "behind": "size 40 20\ncamera 5 0.5 0.5 9 0.5 0.5 90\ncamera 0.5 -3 0.5 9 -3 0.5 90\n"
                     "camera 5.1 -1 0 5.1 9 0 90\nmesh closed.ply\nlight 9 9 9 1\n",
           # The camera sees a width of 2 units at any distance.

@@ -57,7 +57,8 @@ static const char *const counterparts[][2] = {
     {"help", "The header is the library's help."},
 };
 
-// Each action of command_table has its counterparts or a reason, too.
+// For each action of command_table, the functions of clrt.h that do the same, or the reason why the
+// library has none.
 static const char *const commands[] = {
     [ACTION_RENDER] = "clrt_render",
     [ACTION_VIEW] = "The library opens no window.",

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-# Provokes the faults of docs/troubleshooting.md and compares the messages with the page's.
-# Usage: test_troubleshooting.py CLRT 1|0, with 0 for a build without the window
+# Provokes the faults of docs/troubleshooting.md and compares the messages with the messages on the
+# page. Usage: test_troubleshooting.py CLRT 1|0, with 0 for a build without the window
 import re
 import sys
 import unittest

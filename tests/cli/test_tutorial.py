@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Follows docs/tutorial.md: writes its scenes, runs its commands and compares the pictures with the
-# page's. Usage: test_tutorial.py CLRT 1|0, with 0 for a build without Assimp
+# pictures on the page. Usage: test_tutorial.py CLRT 1|0, with 0 for a build without Assimp
 import pathlib
 import re
 import subprocess

@@ -8,7 +8,7 @@
 // (t,s)-sequences", 1995). Its mean is an unbiased estimate. The random numbers of pixels and
 // sequences are independent, so regular scenes do not alias. The ladder of --error scrambles
 // Sobol's sequence by another hash (kernels/samples.cl), so its errors are independent of the
-// reference's.
+// errors of the reference.
 #include "image/image_file.h"
 #include "image/rendered.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts differing pixels, separately for each of the oracle's explanations.
+// Counts pixels that differ from the oracle's picture, by the reason that the oracle gives.
 #pragma once
 
 #include "oracle/oracle.h"

@@ -13,7 +13,7 @@
 #define SOURCE_SCENE(name) CLRT_SOURCE_FOLDER "/" name
 
 // The number of pixels in 10,000 that may show another primitive, other shadows or other bounces
-// than the oracle's. Rays along an edge may hit either side.
+// than in the oracle's picture. Rays along an edge may hit either side.
 #define LIMIT 2
 
 // The values of a pixel, in the order of aov_table.
@@ -40,7 +40,7 @@ static double apart(Vec3 a, Vec3 b)
 
 typedef struct {
     uint32_t pixels;                   // all of them
-    uint32_t others, shadows, bounces; // pixels that differ from the oracle's
+    uint32_t others, shadows, bounces; // pixels that differ from the oracle's picture
     double depth, normal, position;    // largest differences on equal primitives
 } Judgment;
 

@@ -21,7 +21,7 @@ static cl_event make_gate(cl_command_queue queue)
     return clCreateUserEvent(context, NULL);
 }
 
-// These three functions override OpenCL's.
+// These three functions override functions of OpenCL.
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
                               const size_t *offset, const size_t *grid, const size_t *group,
                               cl_uint count, const cl_event *awaited, cl_event *event)

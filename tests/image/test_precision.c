@@ -18,8 +18,8 @@
 
 #define FP64 (&form_all[FORMS_FP32])
 
-// A picture's width and height are 1 / `part` of the scene's. Every step-th pixel of every step-th
-// row is compared. The oracle would take minutes for all pixels of a mesh.
+// A picture's width and height are 1 / `part` of the scene's width and height. Every step-th pixel
+// of every step-th row is compared. The oracle would take minutes for all pixels of a mesh.
 typedef struct {
     uint32_t part, step;
 } Share;
@@ -52,8 +52,8 @@ static uint32_t count_differing(const Framebuffer *picture, const Framebuffer *e
     return differing;
 }
 
-// Returns the number of pixels that differ from the oracle's. `stored` traces the numbers that the
-// device stores for the scene.
+// Returns the number of pixels that differ from the oracle's picture. `stored` traces the numbers
+// that the device stores for the scene.
 static uint32_t view_differences(const Oracle *stored, const Normalization *normalization,
                                  const PictureRequest *request, uint32_t step)
 {

@@ -159,8 +159,8 @@ static void check_turns(int i, Quad cosine, const Quad before[3], const Quad aft
                (larger(1, growth) * dn + larger(r, growth) * dv) * (1 + 0x1p-12));
 }
 
-// Checks the certificate's decision, and its bound on both directions: the exact one and the
-// kernel's.
+// Checks the certificate's decision, and its bound on both the exact direction and the kernel's
+// direction.
 static void check_cone(int i, const Quad exact[3])
 {
     const CertainRefraction *answer = &certain[i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tests the level of rays in scenes with glass. Light that max_level cuts off there changes colors,
-// so truncations and goals of error select the level by the weights of cut rays.
+// Tests the level of rays in scenes with glass. Rays that max_level cuts off change the colors of
+// glass. Limits of truncation and error goals therefore select the level by the weights of cut
+// rays.
 #include "library/renderer.h"
 
 #include <math.h>

@@ -23,7 +23,7 @@ SET_UP(find_drivers_functions)
 
 #pragma GCC visibility push(default)
 
-// libclrt calls these functions instead of the driver's.
+// libclrt calls these functions instead of the functions of the driver.
 cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t size, void *host,
                       cl_int *status)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Tests devices, the settings of renderers, and ways to load and fill scenes. Pictures must equal
-// the program's.
+// the pictures of the program.
 #include "library/faults.h"
 #include "library/filled.h"
 #include "library/renderer.h"

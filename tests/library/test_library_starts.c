@@ -18,7 +18,7 @@ enum { PAIRS = 50, RAYS = 40, VERTICES = 12 };
 
 // Heights over the plane z = 0 are slopes[triangle][0] * x + slopes[triangle][1] * y.
 typedef struct {
-    double slopes[2][2]; // of the triangle that rays start on, and of the other
+    double slopes[2][2]; // [0]: the triangle that rays start on, [1]: the other triangle
     double bearing;      // from the vertex, along the line in which the triangles cross
     double positions[VERTICES][3];
 } Pair;

@@ -88,7 +88,7 @@ SET_UP(find_drivers_function)
 
 #pragma GCC visibility push(default)
 
-// libclrt calls this function instead of the driver's.
+// libclrt calls this function instead of the function of the driver.
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
                               const size_t *offset, const size_t *items, const size_t *group,
                               cl_uint wait_count, const cl_event *waits, cl_event *event)

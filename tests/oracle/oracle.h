@@ -71,6 +71,7 @@ typedef enum {
     EXPLAINED_BY_HORIZON // neither applies, but a light grazes the surface
 } Explanation;
 
-// Returns why a float renderer may give a color that differs from the oracle's, or EXPLAINED_NOT
-// without a reason. Examines 5 x 5 samples, half a pixel apart, around the center of pixel (x, y).
+// Returns why a float renderer may give a color that differs from the color of the oracle, or
+// EXPLAINED_NOT without a reason. Examines 5 x 5 samples, half a pixel apart, around the center of
+// pixel (x, y).
 Explanation oracle_explains(const OracleView *view, uint32_t x, uint32_t y, const float color[3]);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws pictures and casts rays from Python, and compares them with the program's.
+"""Draws pictures and casts rays from Python, and compares them with the results of the program.
 
 usage: test_python.py CLRT SCENES"""
 import json

@@ -95,7 +95,8 @@ TEST(the_center_of_other_spheres_is_the_center_of_their_box)
     assert_true(center_of_spheres("sphere 0 0 0 50\ncamera 99 0 0 98.999 0 0 30").x == 0);
     // One center cannot be near two cameras that are far apart.
     assert_true(center_of_spheres(BALL GROUND "camera 1e7 0 0 0 0 0 30\n").x == 0);
-    // The scale is the box's, so spheres far from the eye stay within small numbers.
+    // The box around the spheres sets the scale, so the coordinates of spheres far from the eye
+    // stay small.
     assert_true(center_of_spheres(BALL "sphere 3e7 0 0 1\ncamera 3 -8e7 0 3 -7.9e7 0 9\n").y == 0);
 }
 

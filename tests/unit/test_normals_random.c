@@ -160,8 +160,8 @@ static Long3 flood(Oracle *oracle, size_t start)
     return sum;
 }
 
-// Compares one corner's normal with the oracle's, unless rounding decides the result. The tolerance
-// of 1e-6 covers the rounding of normals to float, and of sums that are not tiny.
+// Compares one corner's normal with the normal of the oracle, unless rounding decides the result.
+// The tolerance of 1e-6 covers the rounding of normals to float, and of sums that are not tiny.
 static void judge_corner(Oracle *oracle, const Mesh *mesh, size_t corner, size_t *judged)
 {
     Long3 face;

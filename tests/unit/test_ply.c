@@ -71,7 +71,7 @@ TEST(strips_in_binary_files_follow_the_faces_and_drop_repeated_corners)
     assert_int_equal(mesh.triangle_count, 2);
     assert_triangle(&mesh, 0, 0, 1, 3);
     assert_triangle(&mesh, 1, 0, 1, 2);
-    assert_int_equal(mesh.dropped.count, 2); // two of the strip's triangles 0 1 2, 2 1 2, 2 2 3
+    assert_int_equal(mesh.dropped.count, 2); // 2 1 2 and 2 2 3 of the strip 0 1 2 2 3
 }
 
 TEST(triangles_with_equal_corner_positions_are_dropped)

@@ -68,7 +68,8 @@ static double color_of(const ScanLines *scan)
     return (double)color[0];
 }
 
-// Divides the pixel between two lines of the shape, one band beyond its borders.
+// Divides the pixel between two lines of the shape. The lines are one band beyond the pixel's
+// borders.
 static void divide(ScanLines *scan, Shape *shape, uint32_t number)
 {
     Error error;

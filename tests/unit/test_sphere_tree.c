@@ -101,7 +101,7 @@ TEST(bounding_spheres_contain_each_sphere_once)
 static const FlatScene *wide_flat;
 static const WideTree *wide_tree;
 
-// Tests that the sphere in a slot is the scene's, and that the boxes contain it.
+// Tests that the sphere in a slot is the scene's sphere, and that the boxes contain this sphere.
 static void expect_slot(const SphereBlock *block, uint32_t slot, const Box *box)
 {
     const uint32_t id = block->id[slot];

@@ -120,7 +120,8 @@ static void repair_cell(Grid *grid, size_t cell)
     *nearest = -REPAIR_DEPTH * (float)grid->cell;
 }
 
-// Returns whether a sample has changed. The inside only grows, so repeated calls terminate.
+// Returns whether a sample has changed. A repair only moves samples from outside to inside, so
+// repeated calls terminate.
 static bool repair_all(Grid *grid, const bool critical[256])
 {
     bool changed = false;

@@ -20,9 +20,9 @@ static inline size_t grid_sample(const Grid *grid, int x, int y, int z)
     return ((size_t)z * (size_t)grid->size[1] + (size_t)y) * (size_t)grid->size[0] + (size_t)x;
 }
 
-// Returns the index after the last cell. A cell has the index of the sample at its low corner. Even
-// the samples on the high faces have cells, whose corners wrap around to other faces. All samples
-// on the grid's faces are outside, so the surface never crosses these cells.
+// Returns the index after the last cell. A cell has the index of the sample at its low corner.
+// Samples on the grid's high faces have cells too. The corners of these cells wrap around to other
+// faces. All samples on the grid's faces are outside, so the surface never crosses these cells.
 size_t grid_cell_end(const Grid *grid);
 
 // Returns a mask of the cell's corners that are inside. In a corner's number, bit 0 means +x, bit 1

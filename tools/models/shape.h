@@ -141,7 +141,7 @@ static inline double shape_seam(double a, double b, double radius)
     return sqrt(a * a + b * b) - radius;
 }
 
-// The union of two shapes, with their seam filled to this width.
+// The union of two shapes. The groove between the shapes is filled up to the width `blend`.
 static inline double shape_join(double a, double b, double blend)
 {
     const double near = shape_larger(blend - fabs(a - b), 0);

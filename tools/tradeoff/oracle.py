@@ -31,7 +31,7 @@ def squares_of(picture, reference):
 
 def add(scene, folder):
     """Adds the points of limit() to a scene as "oracle". Adds "oracle_times" to each error goal:
-    the goal's time divided by the oracle's. folder contains the pictures."""
+    the goal's time divided by the oracle's time. folder contains the pictures."""
     rows = [row for row in scene["rows"] if row["kind"] == "uniform"]
     if not rows:
         return

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares pictures with the oracle's. The lights vary in number and intensity. The cameras vary in
-// field of view and position. Some vertex normals are zero or cancel out.
+// Compares pictures with pictures of the oracle. The lights vary in number and intensity. The
+// cameras vary in field of view and position. Some vertex normals are zero or cancel out.
 #include "support/picture.h"
 #include "support/random_points.h"
 #include "support/shapes.h"

@@ -15,7 +15,7 @@ typedef struct {
 } Room;
 
 // Returns the part of a cube that is proven to be inside the stage's shape. center and half_side
-// are the cube's, in scene coordinates. Ends the test if the shape does not wind once around
+// describe the cube in scene coordinates. Ends the test if the shape does not wind once around
 // center.
 Room room_inside(const Stage *stage, Vec3 center, double half_side);
 
