@@ -15,8 +15,9 @@
 #include "crossings.cl"
 #include "order.cl"
 
-// The lanes in which another triangle certainly has a corner in front of a triangle's plane, and
-// the lanes in which it certainly has a corner behind the plane.
+// The position of another triangle relative to a triangle's plane. In the lanes of `front`, the
+// other triangle certainly has a corner in front of the plane. In the lanes of `back`, it certainly
+// has a corner behind the plane.
 typedef struct {
     Mask front, back;
 } Sides;

@@ -74,10 +74,10 @@ typedef float Scalar;
 #define OVERLOAD
 #endif
 
-// These attributes decide about inlining. With the compiler's own decisions, pictures take up to a
-// sixth longer on CPUs. On GPUs, a call that passes a path's state by pointer would move the state
-// from registers into memory. Tests also compile GPU kernels for CPUs. Inlining everything would
-// make this take six times as long.
+// These attributes control inlining. With the compiler's own decisions, pictures take up to a sixth
+// longer on CPUs. On GPUs, a call that passes a path's state by pointer would move the state from
+// registers into memory. Tests also compile GPU kernels for CPUs. Inlining everything would make
+// this take six times as long.
 #if CLRT_GPU && !CLRT_WIDE_NODES && !defined(__x86_64__) && !defined(__aarch64__)
 #undef inline // NVIDIA's compiler and PoCL define it
 #define inline inline __attribute__((always_inline))

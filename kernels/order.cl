@@ -171,8 +171,8 @@ static NOT_INLINE Mask is_ahead(const Tracer *tracer, const Ray *ray, UInt index
 // Returns whether a triangle precedes the best hit, in the given lanes. In these lanes, the best
 // hit must also be a triangle. If the nearnesses are equal, the triangles' distances t differ only
 // by rounding, and both triangles get the lesser t. The id then decides only which triangle is hit.
-// On GPUs, storing the common nearness as t instead would take 15 more registers, and a separate
-// test for equality instead of the second is_nearer would take 9 more.
+// On GPUs, storing the common nearness as t instead would take 15 more registers. A separate test
+// for equality instead of the second is_nearer would take 9 more registers.
 static NOT_INLINE Mask triangle_is_nearer(const Search *search, Hit *triangle, Hit *best,
                                           Mask lanes)
 {

@@ -25,8 +25,8 @@ typedef uint64_t ulong;
 #define NOTHING 0xffffffffu
 
 // Builders limit trees to BVH_MAX_DEPTH levels. The traversal stack of a binary tree has
-// BVH_STACK_SIZE entries: a search keeps one pending sibling per level and, on CPUs, also pushes
-// the child that it enters next.
+// BVH_STACK_SIZE entries. A search keeps one pending sibling per level. On CPUs, it also pushes the
+// child that it enters next.
 #define BVH_MAX_DEPTH  62
 #define BVH_STACK_SIZE (BVH_MAX_DEPTH + 2)
 

@@ -9,7 +9,7 @@ typedef struct {
 } Output;
 
 // Stores the colors of the lanes inside the tile. With CLRT_TALLIES, stores the tally at the first
-// lane, and zeros at the others.
+// lane, and zeros at the other lanes.
 static inline void store_packet(const FrameData *frame, uint2 corner, const Real3 *color,
                                 const Tally *tally, const Output *output)
 {

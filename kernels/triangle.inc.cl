@@ -62,9 +62,9 @@ static inline Mask OVERLOAD edges_contain(const Edges *edges)
     return (smallest >= 0.0f || largest <= 0.0f) && edges->determinant != 0.0f;
 }
 
-// Returns whether an edge function counts as positive. A ray that meets the edge from `p` to `q`
-// exactly counts as moved: by an infinitely small distance along x, and by an even smaller distance
-// along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
+// Returns whether an edge function counts as positive. If a ray meets the edge from `p` to `q`
+// exactly, the ray counts as moved by an infinitely small distance along x, and by an even smaller
+// distance along y (Edelsbrunner and Muecke, "Simulation of simplicity", 1990).
 static inline Mask OVERLOAD edge_is_positive(Real edge, Real3 p, Real3 q)
 {
     const Mask beside = p.y > q.y || (p.y == q.y && q.x > p.x);
@@ -144,10 +144,9 @@ typedef struct {
 
 // Returns the distances, and whether surface_ray_distance must decide which rays stop. `marks`
 // contains the triangles' flags. One-sided triangles do not stop rays on their inner side. For rays
-// that leave a surface, surface_ray_distance decides about all triangles ahead up to `reach`, and
-// about triangles within rounding of the start. For rays from the eye, it decides only about
-// triangles within rounding of the eye. With CLRT_ALL_HITS, it decides about no
-// triangle.
+// that leave a surface, surface_ray_distance must decide for all triangles ahead up to `reach`, and
+// for triangles within rounding of the start. For rays from the eye, it must decide only for
+// triangles within rounding of the eye. With CLRT_ALL_HITS, it is never needed.
 static inline Meeting OVERLOAD triangle_meeting(const TriangleTest *test, UInt marks, Real reach,
                                                 bool from_eye)
 {

@@ -100,7 +100,8 @@ static inline uint4 sorted_four(uint4 v)
 }
 
 // Sorts the children that are hit. These children first move to the front, so that half a network
-// can sort up to four of them. In only one of twenty nodes, more than four children are hit.
+// can sort up to four of them. Only one of twenty nodes has more than four children that the ray
+// hits.
 static inline uint8 orders_sorted(uint8 order, uint met)
 {
     typedef int Register __attribute__((vector_size(32)));

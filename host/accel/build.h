@@ -172,7 +172,7 @@ typedef struct {
 typedef struct {
     Bvh *bvh;
     uint32_t total;      // triangles in the tree
-    BuildItem *items[2]; // the triangles of nodes at even depths, and those at odd depths
+    BuildItem *items[2]; // [0]: the triangles of nodes at even depths, [1]: at odd depths
     Split (*split)(const BuildRange *range);
     BvhLeaves leaves;
 } Build;

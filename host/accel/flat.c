@@ -55,9 +55,9 @@ static double inverse_power(double value)
 }
 
 // Stores a triangle's normals, negated if the stored corners are reversed. Scales the three normals
-// by one power of two, so that the largest component is in [1, 2): squares of tiny or huge normals
-// then neither vanish nor overflow. A common factor keeps the weights of the normals in the
-// interpolation.
+// by one power of two, so that the largest component is in [1, 2). Squares of tiny or huge normals
+// then neither vanish nor overflow. The factor is common to the three normals, so interpolation
+// still weights them by their lengths.
 static void store_normals(CornerNormals *data, const Mesh *mesh, const uint32_t *triangle,
                           const CornerOrder *order)
 {

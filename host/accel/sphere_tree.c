@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The tree for NODES_PAIR is an array in depth-first order, which rays walk without a stack: the
-// entry of a bounding sphere names the entry after the spheres in it. The other entries are copies
-// of the spheres with their ids. A median split halves the spheres along the axis on which their
-// centers extend farthest. Separate links per octant of the direction, to visit near nodes first,
-// gained nothing.
+// The tree for NODES_PAIR is an array in depth-first order. The entry of a bounding sphere names
+// the entry after the spheres in it, so rays walk the array without a stack. The other entries are
+// copies of the spheres with their ids. A median split halves the spheres along the axis on which
+// their centers extend farthest. Separate links for each octant of directions would visit near
+// nodes first, but they gained nothing.
 //
 // Invariant: a bounding sphere contains the spheres below it, as stored. Skipping a bounding sphere
 // that a ray does not meet therefore changes no hit (B21 in docs/numerics.md).

@@ -87,8 +87,8 @@ typedef struct {
     float areas[WIDE + 1];
 } Collapse;
 
-// Returns the smallest sum if two binary nodes become `slots` children together. Stores how many
-// children the left node becomes.
+// Returns the smallest sum of the costs of two binary nodes that become `slots` children together.
+// Stores the number of children that the left node becomes.
 static float divided_area(const Collapse *left, const Collapse *right, uint32_t slots,
                           uint32_t *left_slots)
 {

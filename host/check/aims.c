@@ -15,10 +15,9 @@
 #define FACING_FROM_CLOSE 0.01
 
 // A ray misses its aim by at most LENGTH_ERROR times its length plus COORDINATE_ERROR times the
-// aim's largest coordinate. If division is correctly rounded, every hit that triangle.inc.cl
-// accepts is within 22 * 2^-24 Q of the ray, where Q is the triangle's largest coordinate relative
-// to the ray's start (BVH_SLACK in shared.h). Rounding directions and aims to float adds to this
-// error.
+// aim's largest coordinate. Let Q be the triangle's largest coordinate relative to the ray's start.
+// If division is correctly rounded, every hit that triangle.inc.cl accepts is within 22 * 2^-24 Q
+// of the ray (BVH_SLACK in shared.h). Rounding directions and aims to float adds to this error.
 #define LENGTH_ERROR     0x1p-19
 #define COORDINATE_ERROR 0x1p-22
 

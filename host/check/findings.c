@@ -81,7 +81,7 @@ static bool find_container(EnclosedEyes *found, const Scene *scene, const Census
 }
 
 // Finds the views whose eye is inside an object. If the views are the six default views, only the
-// first is examined, because clrt draws the others only on request.
+// first view is examined, because clrt draws the other views only on request.
 static EnclosedEyes enclosed_eyes_find(const Scene *scene, const Census *census)
 {
     EnclosedEyes first = {0};

@@ -18,8 +18,8 @@
 #define UNIT_ITEMS 8192
 #define ITEMS_MOST (1U << 20)
 
-// The intended time of a launch. Even if a launch's pixels cost three times as much as those of the
-// previous launch, the launch takes less than 0.1 s.
+// The intended time of a launch. Even if a launch's pixels cost three times as much as the pixels
+// of the previous launch, the launch takes less than 0.1 s.
 #define LAUNCH_SECONDS 0.03
 
 static uint32_t smaller(uint32_t a, uint32_t b)

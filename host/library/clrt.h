@@ -343,8 +343,8 @@ typedef struct {
     double error, error_bound; // of error and time goals: the estimated RMSE, and its upper bound
                                // with 95 % confidence
     uint64_t sample_count;     // samples taken
-    double smallest_feature; // in pixels: of randomly placed disks with this diameter, 95 % contain
-                             // a sample
+    double smallest_feature;   // in pixels: a disk of this diameter at a random place contains a
+                             // sample with a probability of 95 %
     // Numbers of pixels with the values 0, 0.5 and 1 in the channel certainty.
     uint64_t pixels_open, pixels_repaired, pixels_certified;
     double seconds; // for the colors and channels, including the time to compile their kernels

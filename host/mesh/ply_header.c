@@ -284,7 +284,7 @@ static bool has_roles(const PlyElement *element, unsigned bits)
 }
 
 // Returns whether the element has properties with the role `first` and the next two roles. If one
-// of the three properties is missing, marks the others as unused.
+// of the three properties is missing, marks the other properties as unused.
 static bool has_vector(PlyHeader *header, const PlyElement *element, PlyRole first)
 {
     const PlyRole last = first + 2;

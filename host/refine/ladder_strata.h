@@ -67,9 +67,9 @@ static inline uint32_t strata_rung(uint32_t stratum)
 // A pixel is near contrast if a nearby pixel has a bend of at least CONTRAST.
 #define CONTRAST 0.125f
 
-// Returns the octave of a value: 0 if the value is at least 1/2, otherwise 1 if it is at least 1/4,
-// and so on up to classes - 1. The value must not be negative. The function uses the value's
-// exponent, so loops have no branches.
+// Returns the octave of a value. Octave 0 has values of at least 1/2, octave 1 values from 1/4 to
+// 1/2, and so on. The last octave, classes - 1, has all smaller values. The value must not be
+// negative. The function uses the value's exponent, so loops have no branches.
 static inline uint32_t strata_octave(float value, uint32_t classes)
 {
     int32_t bits, number, last = (int32_t)classes - 1;

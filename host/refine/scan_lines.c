@@ -191,8 +191,7 @@ static inline double larger(double one, double other)
     return one > other ? one : other;
 }
 
-// Returns the change in slope of the mean color at the middle one of three lines, mean[-1] to
-// mean[1].
+// Returns the change in slope of the mean color at the second of three lines, mean[-1] to mean[1].
 static double bend_at(const LineMean *mean)
 {
     double bend = 0;

@@ -8,7 +8,8 @@
 // All shaders except glass accept Blinn-Phong's properties, but only Blinn-Phong uses them.
 typedef enum { USED_BY_ALL_BUT_GLASS, USED_BY_BLINN_PHONG, USED_BY_GLASS } PropertyUse;
 
-// A property of materials: `count` floats. The first is in [least, most], and all others in [0, 1].
+// A property of materials: `count` floats. The first number is in [least, most], and all other
+// numbers are in [0, 1].
 typedef struct {
     const char *name;
     size_t offset; // of the floats in Material

@@ -3,10 +3,10 @@
 // far away, too large or too small for float.
 #include "scene/normalize.h"
 
-// The scene counts as coarse for a camera if its bounding box is this many times as large as the
-// camera's reach, which is its distance from the objects that it shows (reach_of). With the box's
-// center as the origin, rounding could then move the eye by up to 2^-12 of the reach. In pictures
-// of 1000 rows, this is about a third of a pixel.
+// The camera's reach is its distance from the objects that it shows (reach_of). The scene counts as
+// coarse for the camera if the scene's bounding box is this many times as large as the reach. With
+// the box's center as the origin, rounding could then move the eye by up to 2^-12 of the reach. In
+// pictures of 1000 rows, this is about a third of a pixel.
 #define COARSE          0x1p13
 #define LARGEST_RATIO   0x1p40
 #define LARGEST_RATE    0x1p60 // so that products with coordinates stay finite
@@ -76,9 +76,9 @@ static double distance_to_triangles(const Scene *scene, Vec3 point)
     return nearest;
 }
 
-// Returns the camera's reach, to which the sizes of visible details are proportional: the distance
-// to the look-at point or, if no surface is that near, to the nearest surface. For an orthographic
-// camera, returns the picture's height.
+// Returns the camera's reach: the distance to the look-at point or, if no surface is that near, to
+// the nearest surface. The sizes of visible details are proportional to the reach. For an
+// orthographic camera, returns the picture's height.
 static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
 {
     if (viewpoint->height > 0)

@@ -24,10 +24,10 @@ typedef struct {
 // 1e9 would leave too few bits for a mesh. Rays of the library use this normalization.
 Normalization normalization_of_primitives(const Scene *scene);
 
-// Returns the normalization for pictures. It differs from normalization_of_primitives only in
-// scenes without triangles, if their box is thousands of times as large as a camera's distance from
-// the visible objects, and several times as large as the box of all eyes (normalize.c). The center
-// is then between the eyes.
+// Returns the normalization for pictures. This is normalization_of_primitives, except in some
+// scenes without triangles. In these scenes, the box is thousands of times as large as a camera's
+// distance from the visible objects, and several times as large as the box of all eyes
+// (normalize.c). The center is then between the eyes.
 Normalization normalization_of(const Scene *scene);
 
 // Returns the longest side of the box that normalization_of scales, or a negative number if the box

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses the next pass that draws the window's picture, so that the camera moves smoothly and a
+// Chooses the next pass that draws the window's picture. The camera thereby moves smoothly, and a
 // resting picture becomes sharp (compare Bergman, Fuchs, Grant and Spach, "Image rendering by
 // adaptive refinement", 1986). The first pass should take at most a frame's time, at a lower
 // resolution if necessary. The next pass traces all pixels with one sample, and another pass traces

@@ -13,7 +13,7 @@
 #define PAIRS  (ORDERS * ORDERS)
 #define SIDE   181
 
-// The first three orders keep the front side, and the others reverse it.
+// The first three orders keep the front side, and the other three orders reverse it.
 static const int orders[ORDERS][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
                                       {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
 

@@ -185,8 +185,8 @@ TEST(no_primitive_is_mistaken_for_sky)
     }
 }
 
-// Writes 48 strips of two triangles. Every second strip is 4 roundings lower than the others, and
-// the scene's last triangle is far below.
+// Writes 48 strips of two triangles. Every second strip is 4 roundings lower than the other strips,
+// and the scene's last triangle is far below.
 #define STRIPS 48
 static void write_strips(char path[TEMPORARY_PATH])
 {

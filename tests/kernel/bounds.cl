@@ -22,10 +22,10 @@ static inline void store3(global Scalar *values, Real3 v)
     values[2] = v.z;
 }
 
-// Stores four values of a sphere. The first is sphere_discriminant, in two-float arithmetic. The
-// others are computed with plain floats: the negative of the first as in sphere_is_passed, the
-// power of the origin as in plain_side, and the projection as in leads_away. The triangle's corners
-// give the sphere's center and radius.
+// Stores four values of a sphere. The first value is sphere_discriminant, in two-float arithmetic.
+// Plain floats compute the other values: the negative of the first value as in sphere_is_passed,
+// the power of the origin as in plain_side, and the projection as in leads_away. The triangle's
+// corners give the sphere's center and radius.
 static inline void probe_sphere(const Ray *ray, const Corners *corners, global Scalar *values)
 {
     const Real3 a = corners->a, b = scaled3(0x1p-25f, corners->b), o = ray->origin;

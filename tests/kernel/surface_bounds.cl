@@ -48,9 +48,9 @@ kernel void probe_checks(global const float *cases, global const TriangleData *t
     values[6] = axis_is_odd(&cubes, cubes.shift.x, p, -1.0f) ? 1.0f : 0.0f;
 }
 
-// A case has nine floats: {previous origin, previous direction, new direction}. Stores whether the
-// previous ray hits its triangle, the surface point, the new ray's start and direction, the sine of
-// the direction's angle to the face, and the triangle's normal.
+// A case has nine floats: {previous origin, previous direction, new direction}. Stores, in this
+// order: whether the previous ray hits its triangle, the surface point, the new ray's start, the
+// new ray's direction, the sine of the direction's angle to the face, and the triangle's normal.
 kernel void probe_starts(global const float *cases, global const TriangleData *triangles,
                          global Scalar *results)
 {

@@ -110,7 +110,7 @@ static void trace(Order order, Results *results)
     free(faces);
 }
 
-// Returns whether the primitive is at most the index of each copy of the face.
+// Returns whether no copy of the face has a lower index than the primitive.
 static bool is_lowest(Order order, uint32_t primitive, uint32_t face)
 {
     for (int copy = 0; copy < COPIES; copy++)

@@ -44,8 +44,8 @@ static ClrtScene *make_scene(void)
     return scene;
 }
 
-// Aims a ray from inside or outside of the scene at a point that is off a sphere's center by about
-// its radius, at a right angle to the ray or nearly so.
+// Aims a ray from inside or outside of the scene at a point near a sphere's outline. The point's
+// distance from the sphere's center is about the radius, at about a right angle to the ray.
 static void aim(double origin[3], double direction[3])
 {
     const uint32_t target = random_below(&random_state, SPHERES);

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests that large scenes open, move and close, that a window closed during tracing disappears at
-once, that a lost display is reported, and that -o never connects to a display. Usage: CLRT=path/to/clrt test_life.py"""
+"""Tests that large scenes open, move and close. A window closed during tracing must disappear at
+once. clrt must report a lost display, and -o must never connect to a display.
+Usage: CLRT=path/to/clrt test_life.py"""
 
 import os
 import socket

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests the text in the window at two densities of the screen: the line at the top and the help fit
-any window, a hint leads to the help, and a note names what a scene lacks.
+"""Tests the text in the window at two densities of the screen. The line at the top and the help
+must fit any window. A hint must lead to the help, and a note must name what a scene lacks.
 Usage: CLRT=path/to/clrt test_text.py"""
 
 import time

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Judges whether clrt meets goals, and at which cost. Compares each error goal with the fastest
-fixed setting that meets it, with the fastest setting of N x N samples per pixel, and with a user
-who doubles N until a picture meets the goal."""
+"""Judges whether clrt meets goals, and at which cost. Compares each error goal with three
+rivals: the fastest fixed setting that meets the goal, the fastest setting of N x N samples per
+pixel, and a user who doubles N until a picture meets the goal."""
 
 from tradeoff import front, uniform
 

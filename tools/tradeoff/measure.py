@@ -14,7 +14,7 @@ from benchmark import common
 from tradeoff import front, goals, grid, uniform
 
 # The number of pictures that a process draws. With a time goal, the process draws one picture
-# fewer. The first picture includes late initialization, so only the others are timed.
+# fewer. The first picture includes late initialization, so only the later pictures are timed.
 FRAMES = 3
 
 # With --processor-time, the frames after a process's first frame together take at least this number

@@ -85,9 +85,9 @@ def png_of_pfm(path):
 
 
 def shown_rows(rows):
-    """Returns the rows whose pictures are shown: the fastest row, the row of grid.BASE, the most
-    accurate row that is not slower than BASE, the second row of --error, and the most accurate
-    row."""
+    """Returns the rows whose pictures the page shows. These are the fastest row, the row of
+    grid.BASE, the most accurate row that is not slower than BASE, the second row of --error, and
+    the most accurate row."""
     best = front.front(rows)
     base = next((row for row in rows if row["setting"] == grid.BASE), best[0])
     rival = [row for row in best if row["milliseconds"] <= base["milliseconds"]]
