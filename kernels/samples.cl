@@ -12,8 +12,8 @@
 // Further samples therefore lie in the gaps between earlier ones.
 //
 // Owen's scrambling keeps this property ("Randomly permuted (t,m,s)-nets and (t,s)-sequences",
-// 1995). The random numbers of the scrambling are hashes of the pixel's position. If one random
-// number per pixel were XORed with all points instead, stripes about as fine as the samples would
+// 1995). The random numbers of the scrambling are hashes of the pixel's position. If all points of
+// a pixel were XORed with one random number instead, stripes about as fine as the samples would
 // alias. For an error of 0.2 %, smooth waves would then take 2.6 times as many samples.
 #include "pixels.cl"
 

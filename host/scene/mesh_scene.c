@@ -54,8 +54,8 @@ static bool stands(const Scene *scene, const BoundingBox *body, int up, int leas
 }
 
 // Returns `usual`, which is UP_Y or UP_Z, unless the meshes stand only with the other axis up. If z
-// is usual, standing with y up requires whole triangles on the table, because meshes may by chance
-// stand on a few points.
+// is usual, meshes count as standing with y up only if whole triangles are on the table, because
+// meshes may by chance stand on a few points.
 static UpAxis up_axis_of_shape(const Scene *scene, UpAxis usual)
 {
     const BoundingBox body = box_below(scene, 0, INFINITY, 0);

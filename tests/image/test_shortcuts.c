@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Kernels skip boxes, blocks of sky, triangles of a plane and pairs of rays and spheres that cannot
-// matter, and some search for scattered rays one by one. Each scene here would show a fault of such
-// a shortcut: its picture would differ between forms of the kernels or between trees.
+// matter, and some kernels search for scattered rays one by one. If such a shortcut had a fault,
+// the picture of a scene below would differ between forms of the kernels or between trees.
 #include "image/form.h"
 #include "image/rendered.h"
 #include "unit/cmocka_all.h"

@@ -11,8 +11,8 @@ typedef struct {
     Device device;
 } Studio;
 
-// Fixtures of a group of tests. *state is the studio. Its device is the one that CLRT_DEVICE names
-// or, without this variable, device_open's default.
+// Fixtures of a group of tests. *state is the studio. CLRT_DEVICE names the studio's device.
+// Without this variable, device_open chooses the device.
 int picture_setup(void **state);
 int picture_teardown(void **state);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The inside of a closed shape. Only rays that start strictly inside must hit the shape.
+// The inside of a closed shape. A ray that starts strictly inside must hit the shape. Other rays
+// may miss it.
 #pragma once
 
 #include "random_points.h"
