@@ -12,7 +12,7 @@ const char *image_format_of_path(const char *path);
 // Returns the format called `name`, or NULL if this build writes no such format. Ignores case.
 const char *image_format_named(const char *name);
 
-// Returns whether the format stores floats. This build must write the format.
+// Returns whether the format stores floats. The format must be one that this build writes.
 bool image_format_is_float(const char *format);
 
 // Returns whether a format stores layers. Only EXR does.

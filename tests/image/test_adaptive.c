@@ -46,8 +46,9 @@ typedef struct {
     uint32_t side, times;
 } Saving;
 
-// The reference is a grid that shares no samples with the compared pictures. Its own error changes
-// the quotients of errors by at most 0.14 and keeps the largest one, 0.85 to 0.87.
+// The reference is a grid that shares no samples with the compared pictures. The error of the
+// reference changes the quotients of errors by at most 0.14. The largest quotient stays between
+// 0.85 and 0.87.
 static void expect_error_of_uniform(const char *scene, const Framebuffer *reference,
                                     const Saving *saving)
 {

@@ -15,8 +15,8 @@ static Vec3 diffuse_of(const Scene *scene, uint32_t material)
     return vec3((double)diffuse[0], (double)diffuse[1], (double)diffuse[2]);
 }
 
-// A surface is parallel to an axis if the size of its unit normal's component on the axis is at
-// most this.
+// A surface counts as parallel to an axis if its unit normal's component on the axis is at most
+// this in magnitude.
 #define LEAN 0x1p-10
 
 // The layers of cubes perpendicular to an axis. rate * coordinate + shift is the coordinate in

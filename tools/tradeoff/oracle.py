@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Computes the least time in which samples can reach an error, from measured pictures of N x N
 samples per pixel. An oracle knows the squared error of each pixel in each picture, and gives each
-pixel its own N. A pixel costs its share of the time of the picture with this N. The oracle
-minimizes the time plus the squared error times a weight, pixel by pixel. Larger weights lead to
-smaller errors."""
+pixel its own N. The cost of a pixel is the time of the picture with this N, divided by the number
+of pixels. The oracle minimizes the time plus the squared error times a weight, pixel by pixel.
+Larger weights lead to smaller errors."""
 
 import numpy
 
