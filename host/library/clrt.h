@@ -344,7 +344,7 @@ typedef struct {
                                // with 95 % confidence
     uint64_t sample_count;     // samples taken
     double smallest_feature;   // in pixels: a disk of this diameter at a random place contains a
-                             // sample with a probability of 95 %
+                               // sample with a probability of 95 %
     // Numbers of pixels with the values 0, 0.5 and 1 in the channel certainty.
     uint64_t pixels_open, pixels_repaired, pixels_certified;
     double seconds; // for the colors and channels, including the time to compile their kernels

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Tests tools/bench --peer povray: the translation of scenes, and that different pictures get no
-ratio. If POV-Ray is installed, its picture is compared with the picture of clrt. Usage: test_povray.py CLRT
+ratio. If POV-Ray is installed, its picture is compared with the picture of
+clrt. Usage: test_povray.py CLRT
 """
 
 import json

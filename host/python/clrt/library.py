@@ -55,7 +55,7 @@ def _declarations():
 
 
 def _open():
-    """Opens $CLRT_LIBRARY if it is set, otherwise the library of the wheel, otherwise the library of the system."""
+    """Opens $CLRT_LIBRARY if it is set, else the wheel's library, else the system's library."""
     own = _FOLDER / "libclrt.so.0"
     try:
         # With this setting, PoCL compiles kernels in three quarters of the time. The program has
