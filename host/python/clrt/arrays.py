@@ -51,19 +51,13 @@ def channel_kinds() -> dict[str, tuple[int, type, str]]:
                            kind["help"]) for kind in kinds}
 
 
-def channel_array(name, shape):
-    """Zeros for a channel of a picture of this shape."""
-    components, dtype, _ = channel_kinds()[name]
-    return np.zeros(shape if components == 1 else (*shape, components), dtype)
-
-
-def _pixels(picture, what="the picture"):
-    return threes(np.ascontiguousarray(fractions(picture)), what, "height", "width")
+def _pixels(picture, dtype, what="the picture"):
+    return threes(fractions(picture), dtype, what, "height", "width")
 
 
 def hash(picture: ArrayLike) -> str:  # pylint: disable=redefined-builtin
     """The 32 digits that `clrt SCENE --hash` prints for this picture."""
-    pixels = _pixels(picture).astype(np.float32, copy=False)
+    pixels = np.ascontiguousarray(_pixels(picture, np.float32))
     text = ffi.new("char[33]")
     lib.clrt_hash(ffi.from_buffer("float[]", pixels), *pixels.shape[1::-1], text)
     return ffi.string(text).decode()
@@ -74,12 +68,12 @@ def compare(picture: ArrayLike, other: ArrayLike) -> dict[str, float]:
 
     Pictures have the shape (height, width, 3). Values of uint8 or uint16 become numbers in [0, 1].
     """
-    a, b = _pixels(picture), _pixels(other, "the other picture")
+    a, b = _pixels(picture, np.float64), _pixels(other, np.float64, "the other picture")
     if a.shape != b.shape:
         raise ArgumentError(f"the pictures have the shapes {a.shape} and {b.shape}")
     for y, x, color in np.argwhere(~(np.isfinite(a) & np.isfinite(b)))[:1]:
         raise ArgumentError(f"{'RGB'[color]} of pixel {x},{y} is not finite")
-    apart = np.abs(a.astype(np.float64) - b)
+    apart = np.abs(a - b)
     rmse = np.sqrt(np.mean(apart**2)) if apart.size else 0.0
     psnr = -20 * np.log10(rmse) if rmse > 0 else np.inf
     return {"rmse": float(rmse), "psnr": float(psnr), "largest": float(apart.max(initial=0)),
@@ -114,17 +108,17 @@ class Hits:
     @property
     def hit(self) -> np.ndarray:
         """Whether each ray hits something, as bools."""
-        if self.primitive is None and self.distance is None:
-            raise ArgumentError("neither 'distance' nor 'primitive' was requested")
-        return np.isfinite(self.distance) if self.primitive is None else self.primitive != NOTHING
+        if self.primitive is None:
+            return np.isfinite(self._given("distance"))
+        return self.primitive != NOTHING
 
-    def _weight(self, column):
-        if self.weights is None:
-            raise ArgumentError("'weights' was not requested")
-        return self.weights[:, column]
+    def _given(self, name):
+        if getattr(self, name) is None:
+            raise ArgumentError(f"'{name}' was not requested")
+        return getattr(self, name)
 
-    u = property(lambda self: self._weight(0))
-    v = property(lambda self: self._weight(1))
+    u = property(lambda self: self._given("weights")[:, 0])
+    v = property(lambda self: self._given("weights")[:, 1])
 
 
 _ARRAYS = {array.name: item for array in fields(Hits) for item in array.metadata.items()}
@@ -132,48 +126,42 @@ RESULTS = tuple(name for name in _ARRAYS if name != "certain")
 
 
 def rays(origins, directions, *, near=None, far=None, starts=None, **settings):
-    """A ClrtRays. Renderer.trace describes the arguments. `settings` are more of its members."""
-    origins = numbers(origins, np.float64, "origins")
-    directions = numbers(directions, np.float64, "directions")
-    axis = next((array.shape[:1] for array in (origins, directions) if array.shape != (3,)), ())
-    origins, directions = (
-        rows(np.broadcast_to(array, (*axis, 3)) if array.shape == (3,) else array, np.float64, what)
-        for array, what in ((origins, "origins"), (directions, "directions")))
-    count = len(origins)
-    if len(directions) != count:
-        raise ArgumentError(f"there are {count} origins, but {len(directions)} directions")
+    """The members of a ClrtRays as a dict. Renderer.trace describes the arguments."""
+    given = {"origins": numbers(origins, np.float64, "origins"),
+             "directions": numbers(directions, np.float64, "directions")}
+    axis = next((array.shape[:1] for array in given.values() if array.shape != (3,)), ())
+    for what, array in given.items():
+        is_one = array.shape == (3,)
+        given[what] = strided(np.broadcast_to(array, (*axis, 3)) if is_one else array, what)
+    count, other = map(len, given.values())
+    if count != other:
+        raise ArgumentError(f"there are {count} origins, but {other} directions")
     limits = (("nears", near, "near", np.float64), ("fars", far, "far", np.float64),
               ("starts", starts, "starts", np.uint32))
-    settings |= {member: np.ascontiguousarray(numbers(values, dtype, what, count))
-                 for member, values, what, dtype in limits if values is not None}
-    return struct("ClrtRays", count=count, origins=origins, origin_stride=origins.strides[0],
-                  directions=directions, direction_stride=directions.strides[0], **settings)
+    return given | settings | {
+        member: np.ascontiguousarray(numbers(values, dtype, what, count))
+        for member, values, what, dtype in limits if values is not None}
 
 
-def rays_from(given, first, count):
-    """A ClrtRays for `count` of the given rays. Its arrays live as long as the given ClrtRays."""
-    made = ffi.new("ClrtRays *", given[0])
-    made.count = count
-    sizes = {"origins": given.origin_stride, "directions": given.direction_stride, "nears": 8,
-             "fars": 8, "starts": 4}
-    for name, size in sizes.items():
-        if array := getattr(given, name):
-            start = ffi.cast("char *", array) + first * size
-            setattr(made, name, ffi.cast(ffi.typeof(array), start))
-    return made
+def rays_struct(given, part=slice(None)):
+    """A ClrtRays for a slice of the rays with these members."""
+    members = {name: value[part] if isinstance(value, np.ndarray) else value
+               for name, value in given.items()}
+    strides = {f"{name[:-1]}_stride": members[name].strides[0]
+               for name in ("origins", "directions") if name in members}
+    return struct("ClrtRays", count=len(members["origins"]), **members, **strides)
+
+
+def strided(values, what):
+    """An array of the shape (n, 3) for ClrtRays. Copies only if its rows are not contiguous."""
+    made = threes(values, np.float64, what, "n")
+    row, column = made.strides
+    return made if column == 8 and row >= 24 and made.flags.aligned else made.copy()
 
 
 def hit_arrays(results, count, room=1):
     """A ClrtHits for `count` rays with `room` hits each, and a dict of its arrays."""
     arrays = {name: np.empty(count * room, _ARRAYS[name][1])
-              for name in choices([*_ARRAYS], results, "a result")}
+              for name in choices(_ARRAYS, results, "a result")}
     members = {_ARRAYS[name][0]: array for name, array in arrays.items()}
     return struct("ClrtHits", room=room, **members), arrays
-
-
-def rows(values, dtype, what, is_dense=False):
-    """An array of the shape (n, 3) with contiguous rows. Copies `values` only if necessary."""
-    made = threes(numbers(values, dtype, what), what, "n")
-    size, (row, column) = made.itemsize, made.strides
-    is_in_rows = column == size and row >= 3 * size and made.flags.aligned
-    return made if is_in_rows and (row == 3 * size or not is_dense) else made.copy()

@@ -2,6 +2,7 @@
 """Calls libclrt. cffi reads clrt.h, so Python does not define the structs again."""
 
 import contextlib
+import functools
 import os
 import pathlib
 import re
@@ -11,6 +12,12 @@ import cffi
 import numpy as np
 
 _FOLDER = pathlib.Path(__file__).parent
+_HEADERS = _FOLDER / "clrt.h", _FOLDER.parents[1] / "library" / "clrt.h"
+_DECLARATIONS = re.sub(r'//.*|^#.*|^extern "C" {|^}$|CLRT_API ', "", next(
+    header for header in _HEADERS if header.exists()).read_text(encoding="utf-8"), flags=re.M)
+# The names of each function's parameters. cffi knows only their types.
+_PARAMETERS = {name: re.findall(r"(\w+)(?:\[\d+\])?(?=[,)])", parameters)
+               for name, parameters in re.findall(r"clrt_(\w+)(\([^;]+\));", _DECLARATIONS)}
 _ADVICE = (
     "\nclrt needs an OpenCL driver and libOpenCL. PoCL runs on every CPU: apt install"
     " pocl-opencl-icd ocl-icd-libopencl1 (Debian), dnf install pocl 'libOpenCL.so.1()(64bit)'"
@@ -20,6 +27,7 @@ NOTHING = 0xFFFFFFFF
 _NUMBERS = {"double": "a number", "_Bool": "True or False",
             "uint32_t": f"an integer from 0 to {NOTHING}"}
 ffi = cffi.FFI()
+VECTOR, NUMBER = ffi.typeof("double[3]"), ffi.typeof("uint32_t")
 _user: list[int] = []  # the id of the first process that used a device, if any
 _kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
@@ -47,13 +55,6 @@ class Stopped(Error):
 _FAULTS = {1: Stopped, 2: ArgumentError, 3: SceneError, 4: DeviceError}
 
 
-def _declarations():
-    """The declarations of clrt.h for cffi. The file is in this folder or in host/library."""
-    places = (_FOLDER / "clrt.h", _FOLDER.parents[1] / "library" / "clrt.h")
-    header = next(place for place in places if place.exists()).read_text(encoding="utf-8")
-    return re.sub(r'//.*|^#.*|^extern "C" {|^}$|CLRT_API ', "", header, flags=re.MULTILINE)
-
-
 def _open():
     """Opens $CLRT_LIBRARY if it is set, else the wheel's library, else the system's library."""
     own = _FOLDER / "libclrt.so.0"
@@ -67,7 +68,7 @@ def _open():
         raise ImportError(text + _ADVICE if "OpenCL" in text else text) from None
 
 
-ffi.cdef(_declarations())
+ffi.cdef(_DECLARATIONS)
 lib = _open()
 
 
@@ -79,10 +80,21 @@ def use_device():
                           " or start processes by multiprocessing's 'spawn'")
 
 
+@functools.cache
+def _types(name):
+    """The types of a struct's members, or of a function's parameters, by their names."""
+    if name in _PARAMETERS:
+        # In clrt.h, parameters that point to doubles are vectors.
+        kinds = ffi.typeof(getattr(lib, "clrt_" + name)).args
+        kinds = (VECTOR if kind.cname == "double *" else kind for kind in kinds)
+        return dict(zip(_PARAMETERS[name], kinds))
+    return {member: field.type for member, field in ffi.typeof(name).fields}
+
+
 def call(name, *arguments):
     """Calls clrt_NAME with a ClrtError as the last argument. Raises an Error if the call fails."""
-    error = ffi.new("ClrtError *")
-    result = getattr(lib, "clrt_" + name)(*arguments, error)
+    function, types, error = getattr(lib, "clrt_" + name), _types(name), ffi.new("ClrtError *")
+    result = function(*map(c_value, arguments, types.values(), types), error)
     if not result:
         text = ffi.string(error.text).decode(errors="replace")
         raise _FAULTS[error.fault](text + _ADVICE if "no OpenCL" in text else text)
@@ -91,26 +103,31 @@ def call(name, *arguments):
 
 def struct(kind, **members):
     """Makes a struct of clrt.h, and keeps its arrays alive. None means the default."""
-    types = {name: field.type for name, field in ffi.typeof(kind).fields}
+    types = _types(kind)
     if unknown := set(members) - set(types):
         raise TypeError(f"there is no setting {', '.join(map(repr, unknown))}")
-    given = {name: _c_value(value, types[name], name) for name, value in members.items()
+    given = {name: c_value(value, types[name], name) for name, value in members.items()
              if value is not None}
     made = ffi.new(kind + " *", {"size": ffi.sizeof(kind), **given})
     _kept[made] = members, given
     return made
 
 
-def _c_value(value, kind, what):
+def c_value(value, kind, what):
+    """The value as the C type `kind`. Raises if the type cannot hold it."""
     if kind.kind == "array":
-        return vector(value, what)
+        return tuple(threes(value, np.float64, what).tolist())
     if kind.kind == "enum":
-        return choice(_names(kind), value, what)
-    if kind.kind == "primitive":
-        return number(value, what, kind.cname)
+        return _names(kind).index(*choices(_names(kind), [value], what))
     if kind.cname == "char *":
-        return ffi.new("char[]", instance(value, str, what).encode())
-    return ffi.cast("void *", value.ctypes.data) if isinstance(value, np.ndarray) else value
+        return ffi.new("char[]", os.fsencode(instance(value, str, what)))
+    if kind.kind != "primitive":
+        return ffi.cast("void *", value.ctypes.data) if isinstance(value, np.ndarray) else value
+    try:
+        return ffi.new(kind.cname + " *", value)[0]
+    except (OverflowError, TypeError):
+        expected = _NUMBERS.get(kind.cname, "an integer")
+        raise ArgumentError(f"{what} is {value!r}, not {expected}") from None
 
 
 def value_of(value, kind):
@@ -144,15 +161,6 @@ def instance(value, kind, what):
     return value
 
 
-def number(value, what, kind="double"):
-    """The value as a number of the C type `kind`. Raises if the type cannot hold the value."""
-    try:
-        return ffi.new(kind + " *", value)[0]
-    except (OverflowError, TypeError):
-        expected = _NUMBERS.get(kind, "an integer")
-        raise ArgumentError(f"{what} is {value!r}, not {expected}") from None
-
-
 def numbers(values, dtype, what, shape=None):
     """The values as an array. Copies only if necessary. Raises if uint32 cannot hold a value."""
     try:
@@ -176,18 +184,14 @@ def fractions(values):
     return (values / most).astype(np.float32) if most else values
 
 
-def threes(array, what, *axes):
-    """Returns the array. Raises unless it has the named axes and a last axis of length 3."""
+def threes(values, dtype, what, *axes):
+    """The values as an array of the shape (*axes, 3). Copies only if necessary."""
+    array = numbers(values, dtype, what)
     if array.shape == (0,) and len(axes) == 1:
         array = array.reshape(0, 3)
     if array.shape[len(axes):] != (3,):
         raise ArgumentError(f"{what}: the shape is {array.shape}, not ({', '.join((*axes, '3'))})")
     return array
-
-
-def vector(values, what):
-    """A tuple of three numbers for the library."""
-    return tuple(threes(numbers(values, np.float64, what), what).tolist())
 
 
 def parts(values, what, *names):
@@ -199,18 +203,12 @@ def parts(values, what, *names):
 
 
 def choices(names, given, what):
-    """The given names as keys of a dict, without repetitions. A string counts as one name."""
-    given = dict.fromkeys([given] if isinstance(given, str) else given)
+    """The given names without repetitions. A string is one name. Raises if one is unknown."""
+    given = list(dict.fromkeys([given] if isinstance(given, str) else given))
     for name in given:
-        choice(names, name, what)
+        if name not in names:
+            raise ArgumentError(f"{what} is {name!r}, not one of {', '.join(names)}")
     return given
-
-
-def choice(names, given, what):
-    """The index of the given name in `names`. Raises if the name is not there."""
-    if given not in names:
-        raise ArgumentError(f"{what} is {given!r}, not one of {', '.join(names)}")
-    return names.index(given)
 
 
 @contextlib.contextmanager

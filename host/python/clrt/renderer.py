@@ -8,10 +8,10 @@ from typing import Any, Callable, Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import (RESULTS, Hits, Picture, channel_array, channel_kinds, hit_arrays, rays,
-                     rays_from, rows)
-from .library import (call, choices, ffi, instance, lib, number, parts, progress_of, result_of,
-                      struct, use_device, value_of)
+from .arrays import (RESULTS, Hits, Picture, channel_kinds, hit_arrays, rays, rays_struct,
+                     strided)
+from .library import (NUMBER, c_value, call, choices, ffi, instance, lib, parts, progress_of,
+                      result_of, struct, use_device, value_of)
 from .scene import Camera, Scene
 
 Progress = bool | Callable[[int, int], bool | None] | None
@@ -49,14 +49,16 @@ class Renderer:
         info = instance(scene, Scene, "scene").info
         shape = (picture.crop_height or height or info["height"],
                  picture.crop_width or width or info["width"])
-        arrays = {name: channel_array(name, shape)
-                  for name in choices([*channel_kinds()], channels, "a channel")}
+        kinds, arrays = channel_kinds(), {}
+        for name in choices(kinds, channels, "a channel"):
+            components, dtype, _ = kinds[name]
+            arrays[name] = np.zeros(shape if components == 1 else (*shape, components), dtype)
         names = [ffi.new("char[]", name.encode()) for name in arrays]
         array = ffi.new("ClrtChannel[]", [*zip(names, map(ffi.from_buffer, arrays.values()))])
         picture.channels, picture.channel_count = array, len(arrays)
         pixels = np.zeros((*shape, 3), np.float32)
-        self._run("reference" if picture.reference_samples else "render", scene, picture,
-                  ffi.from_buffer("float[]", pixels), progress)
+        kind = "reference" if picture.reference_samples else "render"
+        self._call(kind, scene, picture, pixels, progress=progress)
         made = pixels.view(Picture)
         made.channels, made.result = arrays, value_of(picture.result[0], ffi.typeof("ClrtResult"))
         return made
@@ -67,8 +69,8 @@ class Renderer:
 
         The dict has "samples", each sample "rays", and each ray "lights". clrt.h has their members.
         """
-        place = [number(x, "x", "uint32_t"), number(y, "y", "uint32_t")]
-        explanation = self._run("explain", scene, _request(width, height, **settings), place, None)
+        place = [c_value(x, NUMBER, "x"), c_value(y, NUMBER, "y")]
+        explanation = self._call("explain", scene, _request(width, height, **settings), place)
         return _explained(ffi.gc(explanation, lib.clrt_explanation_free))
 
     def trace(self, scene: Scene, origins: ArrayLike, directions: ArrayLike, *,
@@ -82,9 +84,9 @@ class Renderer:
         except a sphere from inside. one_sided: rays pass through the backs of faces that are not
         two_sided.
         """
-        given = rays(origins, directions, **limits)
+        given = rays_struct(rays(origins, directions, **limits))
         target, arrays = hit_arrays(results, given.count)
-        self._run("trace", scene, given, target, progress)
+        self._call("trace", scene, given, target, progress=progress)
         return Hits(**arrays)
 
     def trace_all(self, scene: Scene, origins: ArrayLike, directions: ArrayLike, *,
@@ -97,17 +99,17 @@ class Renderer:
         rays cross very many faces, the counts that `progress` gets may start again.
         """
         given, results = rays(origins, directions, **limits), choices(RESULTS, results, "a result")
-        counts = np.zeros(given.count, np.uint32)
-        self._run("trace_all", scene, given, struct("ClrtHits", counts=counts), None)
-        step, groups = max(_ENTRIES // max(int(counts.max(initial=0)), 1), 1), []
-        for first in range(0, max(given.count, 1), step):
-            part = counts[first:first + step]
-            room = max(int(part.max(initial=0)), 1)
-            target, arrays = hit_arrays({*results, "primitive"}, len(part), room)
-            self._run("trace_all", scene, rays_from(given, first, len(part)), target, progress)
-            found = (np.arange(room) < part[:, None]).ravel()
+        counts, groups = np.zeros(len(given["origins"]), np.uint32), []
+        self._call("trace_all", scene, rays_struct(given), struct("ClrtHits", counts=counts))
+        step = max(_ENTRIES // max(int(counts.max(initial=0)), 1), 1)
+        for first in range(0, max(len(counts), 1), step):
+            part = slice(first, first + step)
+            room = max(int(counts[part].max(initial=0)), 1)
+            target, arrays = hit_arrays({*results, "primitive"}, len(counts[part]), room)
+            self._call("trace_all", scene, rays_struct(given, part), target, progress=progress)
+            found = (np.arange(room) < counts[part, None]).ravel()
             groups.append({name: array[found] for name, array in arrays.items()})
-        return Hits(ray=np.repeat(np.arange(given.count), counts),
+        return Hits(ray=np.repeat(np.arange(len(counts)), counts),
                     **{name: np.concatenate([group[name] for group in groups])
                        for name in groups[0]})
 
@@ -121,10 +123,7 @@ class Renderer:
 
         The meshes must be closed, which `check` finds out. Results for open meshes are meaningless.
         """
-        points = rows(points, np.float64, "points")
-        given = struct("ClrtRays", count=len(points), origins=points,
-                       origin_stride=points.strides[0])
-        return self._flags("contains", scene, given, progress)
+        return self._flags("contains", scene, {"origins": strided(points, "points")}, progress)
 
     def check(self, scene: Scene) -> dict[str, Any]:
         """The facts about the scene's geometry that `clrt check` reports, as a dict.
@@ -139,18 +138,18 @@ class Renderer:
         return {"fine": info["fine"], "meshes": meshes, "findings": findings}
 
     def _flags(self, kind, scene, given, progress):
-        flags = np.empty(given.count, np.bool_)
-        self._run(kind, scene, given, ffi.from_buffer("uint8_t[]", flags), progress)
+        flags = np.empty(len(given["origins"]), np.bool_)
+        self._call(kind, scene, rays_struct(given), flags, progress=progress)
         return flags
 
-    def _run(self, kind, scene, given, target, progress):
-        with progress_of(progress) as given.progress:
-            return self._call(kind, scene, given, target)
-
-    def _call(self, kind, scene, *arguments):
+    def _call(self, kind, scene, *arguments, progress=None):
+        """Calls clrt_KIND. The first of the arguments, if any, is a struct that takes `progress`."""
         use_device()
-        with self._lock:
-            return call(kind, self._handle, instance(scene, Scene, "scene")._handle, *arguments)
+        handle = instance(scene, Scene, "scene")._handle
+        with progress_of(progress) as function, self._lock:
+            for request in arguments[:1]:
+                request.progress = function
+            return call(kind, self._handle, handle, *arguments)
 
 
 def _request(width, height, crop=None, camera=None, max_level=None, **settings):

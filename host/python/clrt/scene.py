@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Picture, rows
-from .library import (ArgumentError, call, choice, ffi, fractions, lib, number, parts, result_of,
-                      struct, vector)
+from .arrays import Picture
+from .library import (VECTOR, ArgumentError, c_value, call, choices, ffi, fractions, lib, parts,
+                      result_of, struct, threes)
 
 _MATERIALS = ("silhouette", "matte", "blinn_phong", "mirror")
 
@@ -34,7 +34,7 @@ class Camera:
 
     def __post_init__(self):
         for name in ("eye", "look_at", "up"):
-            setattr(self, name, vector(getattr(self, name), name))
+            setattr(self, name, c_value(getattr(self, name), VECTOR, name))
 
     def _struct(self):
         members = dict(vars(self))
@@ -75,20 +75,20 @@ class Scene:
         above `crease` degrees stay sharp (33 by default). two_sided: also visible from behind.
         material: "silhouette", "matte", "blinn_phong", "mirror" or the result of `material`.
         """
-        vertices = rows(vertices, np.float64, "vertices", is_dense=True)
-        faces = rows(faces, np.uint32, "faces", is_dense=True)
-        normals = _per_vertex(normals, len(vertices), "normals")
-        colors = _per_vertex(colors, len(vertices), "colors")
-        given = struct("ClrtMesh", positions=vertices, triangles=faces, normals=normals,
-                       colors=colors, vertex_count=len(vertices), triangle_count=len(faces),
+        vertices = _rows(vertices, np.float64, "vertices")
+        faces = _rows(faces, np.uint32, "faces")
+        vectors = {what: _rows(fractions(given), np.float32, what, len(vertices))
+                   for what, given in (("normals", normals), ("colors", colors))
+                   if given is not None}
+        given = struct("ClrtMesh", positions=vertices, triangles=faces, **vectors,
+                       vertex_count=len(vertices), triangle_count=len(faces),
                        material=_material(material), two_sided=two_sided, smooth=smooth,
                        flat=normals is None and not smooth, crease_degrees=_crease(crease))
         call("scene_add_mesh", self._handle, given)
 
     def sphere(self, center: ArrayLike, radius: float, material: int | str = "matte") -> None:
         """Adds a sphere."""
-        call("scene_add_sphere", self._handle, vector(center, "center"), number(radius, "radius"),
-             _material(material))
+        call("scene_add_sphere", self._handle, center, radius, _material(material))
 
     def light(self, position: ArrayLike, intensity: float = 1.0,
               color: ArrayLike = (1, 1, 1), is_sun: bool = False,
@@ -100,9 +100,8 @@ class Scene:
         points, and casts soft shadows.
         """
         if area is None:
-            call("scene_add_sun" if is_sun else "scene_add_colored_light", self._handle,
-                 vector(position, "position"), number(intensity, "intensity"),
-                 vector(color, "color"))
+            call("scene_add_sun" if is_sun else "scene_add_colored_light", self._handle, position,
+                 intensity, color)
         elif is_sun:
             raise ArgumentError("a sun has no area")
         else:
@@ -117,11 +116,11 @@ class Scene:
 
     def background(self, color: ArrayLike) -> None:
         """Sets the color of rays that hit nothing."""
-        call("scene_set_background", self._handle, vector(color, "color"))
+        call("scene_set_background", self._handle, color)
 
     def ambient(self, intensity: float) -> None:
         """Sets the ambient light, in [0, 1]."""
-        call("scene_set_ambient", self._handle, number(intensity, "intensity"))
+        call("scene_set_ambient", self._handle, intensity)
 
     @property
     def info(self) -> dict[str, Any]:
@@ -150,15 +149,13 @@ def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
     studio has area lights, which cast soft shadows.
     """
     settings = struct("ClrtLoad", up=up, flat=flat, crease_degrees=_crease(crease), soft=soft)
-    return Scene(call("scene_load", os.fsencode(path), settings))
+    return Scene(call("scene_load", os.fsdecode(path), settings))
 
 
-def _per_vertex(given, count, what):
-    """The given array of three numbers per vertex, or None."""
-    if given is None:
-        return None
-    made = rows(fractions(given), np.float32, what, is_dense=True)
-    if len(made) != count:
+def _rows(values, dtype, what, count=None):
+    """The values as a dense array of the shape (n, 3), where n is `count` unless that is None."""
+    made = np.ascontiguousarray(threes(values, dtype, what, "n"))
+    if count not in (None, len(made)):
         raise ArgumentError(f"{len(made)} {what} for {count} vertices")
     return made
 
@@ -169,6 +166,5 @@ def _crease(degrees):
 
 
 def _material(material):
-    if isinstance(material, str):
-        return choice(_MATERIALS, material, "material")
-    return number(material, "material", "uint32_t")
+    is_name = isinstance(material, str)
+    return _MATERIALS.index(*choices(_MATERIALS, material, "material")) if is_name else material
