@@ -48,14 +48,14 @@
 #define EDGE_SAMPLED 0.0625
 
 // On rung 0, a pixel that advances drops its old sample, so the change is the sum of the squared
-// errors before and after. If twice as many samples divide the squared error by D, the squared
-// error before times (1 + 1 / D^2) is the change. With the values of D in the next comment, factors
-// of 0.89 and 0.8 would correct the change.
+// errors before and after. Let twice as many samples divide the squared error by D. The change is
+// then 1 + 1 / D^2 times the squared error before. With the values of D in the next comment,
+// factors of 0.89 and 0.8 would correct the change.
 #define CENTER_FACTOR 0.85
 
 // Above rung 0, a pixel that advances keeps its old samples, so the change underestimates the
-// squared error. If twice as many samples divide the squared error by D, the squared error before
-// times (1 - 1 / D) is the change. D is 2.83 at edges and 2 for noise, so factors of 1.55 and 2
+// squared error. Let twice as many samples divide the squared error by D. The change is then 1 - 1
+// / D times the squared error before. D is 2.83 at edges and 2 for noise, so factors of 1.55 and 2
 // would correct the change. With a factor of 1.5, errors of thin strips reached 1.14 times the
 // goal.
 #define NESTED_FACTOR 1.75

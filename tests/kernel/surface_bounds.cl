@@ -170,7 +170,8 @@ kernel void probe_certain_checks(global const float *cases, global const float *
 }
 
 // Refracts the cases of probe_refractions with the vectors that are not turned. Stores whether the
-// refraction is certain and transmits light, its direction and the doubt of this direction.
+// refraction is certain and transmits light, the refracted direction, and the doubt of this
+// direction.
 kernel void probe_certain_refractions(global const float *cases, global const Material *materials,
                                       global Scalar *results)
 {
