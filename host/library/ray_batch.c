@@ -138,7 +138,7 @@ static Vec3 convert_line(RayBatch *batch, size_t entry, const GivenRay *given)
     ray->doubt = is_ray ? 0 : INFINITY;
     ray->limit = !is_ray || !(limit >= 0) ? -1 : limit < 0x1p127 ? (float)limit : INFINITY;
     vec3_store(ray->direction, direction);
-    batch->scales[entry] = (RayScale){start, unit, 0};
+    batch->scales[entry] = (RayScale){start, unit};
     return from;
 }
 
@@ -166,27 +166,30 @@ static double move_to_plane(const RayBatch *batch, uint32_t id, Vec3 *start)
     return fabs(off);
 }
 
-// If near is not 0, the ray only skips the primitive in `starts`.
+// Converts a ray. If near is not 0, the ray only skips the primitive in `starts`. If this primitive
+// does not exist, the ray's element of `offs` is INFINITY.
 static void convert(RayBatch *batch, size_t entry)
 {
     RayData *ray = &batch->data[entry];
-    double *off = &batch->scales[entry].off;
     const RayScene *scene = batch->scene;
     const uint32_t spheres = scene->form.flat.sphere_count;
     const GivenRay given = given_ray(&batch->rays, batch->first + batch->order[entry]);
     Vec3 start = convert_line(batch, entry, &given);
+    double off = 0;
     ray->own = given.own;
     ray->own_index = NOTHING;
     if (given.own != NOTHING && given.own >= primitive_count(scene))
-        *off = INFINITY;
+        off = INFINITY;
     else if (given.own != NOTHING && given.near == 0)
         ray->own_index = given.own < spheres ? given.own : scene->places[given.own - spheres].index;
     if (ray->own_index != NOTHING && given.own >= spheres && ray->limit >= 0)
-        *off = move_to_plane(batch, given.own, &start);
+        off = move_to_plane(batch, given.own, &start);
     vec3_store(ray->origin, start);
     // Without doubts, which no other query needs, calls for camera rays take 1 to 3 % less time.
     if (batch->cast.query == RAYS_CERTAIN)
-        ray->doubt += doubt_of(batch, &given, start, *off);
+        ray->doubt += doubt_of(batch, &given, start, off);
+    if (batch->rays.starts != NULL)
+        batch->offs[entry] = off;
 }
 
 static void convert_range(void *context, uint32_t first, uint32_t end)
@@ -197,7 +200,7 @@ static void convert_range(void *context, uint32_t first, uint32_t end)
 
 static bool check_start(const RayBatch *batch, size_t entry, ClrtError *error)
 {
-    const double off = batch->scales[entry].off;
+    const double off = batch->offs[entry];
     const size_t number = batch->first + batch->order[entry];
     const uint32_t own = batch->data[entry].own;
     if (off == INFINITY)
@@ -286,6 +289,11 @@ INLINED void store(const RayBatch *batch, ClrtHits hits, uint8_t *flags, uint32_
 {
     const bool is_nearest = batch->cast.query == RAYS_NEAREST;
     const size_t room = batch->results.hits.room;
+    const bool has_surface = hits.weights != NULL || hits.normals != NULL || hits.fronts != NULL;
+    const bool has_place = hits.meshes != NULL || hits.triangles != NULL;
+    if (flags == NULL && hits.counts == NULL && hits.distances == NULL && hits.primitives == NULL &&
+        !has_place && !has_surface)
+        return;
     for (size_t entry = first; entry < end; entry++) {
         const size_t ray = batch->first + batch->order[entry];
         const HitData *found = batch->found + entry * room;
@@ -302,9 +310,9 @@ INLINED void store(const RayBatch *batch, ClrtHits hits, uint8_t *flags, uint32_
                     hit.id == NOTHING ? INFINITY : (scale->start + (double)hit.t) * scale->unit;
             if (hits.primitives != NULL)
                 hits.primitives[to] = hit.id;
-            if (hits.meshes != NULL || hits.triangles != NULL)
+            if (has_place)
                 store_place(batch, &hits, hit, to);
-            if (hits.weights != NULL || hits.normals != NULL || hits.fronts != NULL)
+            if (has_surface)
                 store_surface(batch, &hits, entry, hit, to);
         }
     }

@@ -11,7 +11,6 @@
 // Converts distances: the caller's t = (start + the device's t) * unit.
 typedef struct {
     double start, unit;
-    double off; // distance from the start to the primitive in `starts`; INFINITY: none exists
 } RayScale;
 
 // The caller's arrays for results.
@@ -35,6 +34,7 @@ typedef struct RayBatch {
     uint32_t order[PART_RAYS];
     RayData data[PART_RAYS];
     RayScale scales[PART_RAYS];
+    double offs[PART_RAYS]; // distances of starts from their triangles; unset without `starts`
     uint32_t counts[PART_RAYS];
     HitData found[HITS_MAX]; // results.hits.room hits per entry
 } RayBatch;
