@@ -7,7 +7,7 @@
 #include "refine/probe.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 double outline_signed_area(const Outline *outline)
 {
@@ -33,16 +33,16 @@ static double larger(double a, double b)
 
 void outline_complete(Outline *outline)
 {
-    const double *first = outline->corners[0];
-    for (int axis = 0; axis < 2; axis++)
-        outline->box.low[axis] = outline->box.high[axis] = first[axis];
+    OutlineBox *box = &outline->box;
+    memcpy(outline->corners[outline->count], outline->corners[0], sizeof outline->corners[0]);
+    memcpy(box->low, outline->corners[0], sizeof box->low);
+    memcpy(box->high, outline->corners[0], sizeof box->high);
     for (uint32_t i = 0; i < outline->count; i++) {
-        const double *from = outline->corners[i];
-        const double *to = i + 1 < outline->count ? outline->corners[i + 1] : first;
+        const double *from = outline->corners[i], *to = outline->corners[i + 1];
         outline->slopes[i] = (to[0] - from[0]) / (to[1] - from[1]);
         for (int axis = 0; axis < 2; axis++) {
-            outline->box.low[axis] = smaller(outline->box.low[axis], from[axis]);
-            outline->box.high[axis] = larger(outline->box.high[axis], from[axis]);
+            box->low[axis] = smaller(box->low[axis], from[axis]);
+            box->high[axis] = larger(box->high[axis], from[axis]);
         }
     }
 }
@@ -50,12 +50,10 @@ void outline_complete(Outline *outline)
 static double perimeter_of(const Outline *outline)
 {
     double perimeter = 0;
-    const double *from = outline->corners[outline->count - 1];
     for (uint32_t i = 0; i < outline->count; i++) {
-        const double *to = outline->corners[i];
+        const double *from = outline->corners[i], *to = outline->corners[i + 1];
         const double x = to[0] - from[0], y = to[1] - from[1];
         perimeter += sqrt(x * x + y * y);
-        from = to;
     }
     return perimeter;
 }
@@ -79,8 +77,7 @@ static bool find_extent(const Outline *outline, double low, double high, double 
     extent[0] = INFINITY;
     extent[1] = -INFINITY;
     for (uint32_t i = 0; i < outline->count; i++) {
-        const double *one = outline->corners[i];
-        const double *other = outline->corners[i + 1 < outline->count ? i + 1 : 0];
+        const double *one = outline->corners[i], *other = outline->corners[i + 1];
         const double *from = one[1] < other[1] ? one : other;
         const double *to = one[1] < other[1] ? other : one;
         if (to[1] < low || from[1] > high)
@@ -191,12 +188,6 @@ bool projection_begin(Projection *projection, const MeshObject *object, ThreadPo
     return true;
 }
 
-void projection_end(Projection *projection)
-{
-    free(projection->points);
-    projection->points = NULL;
-}
-
 typedef struct {
     uint32_t count;
     Vec3 corners[OUTLINE_CORNERS];
@@ -247,28 +238,19 @@ static bool cut_outline(const Projection *projection, const uint32_t vertices[3]
 }
 
 // Sets members one by one, because an initializer would clear all OUTLINE_CORNERS corners.
-static void set_triangle(Outline *outline, const ProjectedPoint *a, const ProjectedPoint *b,
-                         const ProjectedPoint *c)
-{
-    const ProjectedPoint *points[3] = {a, b, c};
-    outline->count = 3;
-    for (int i = 0; i < 3; i++) {
-        outline->corners[i][0] = points[i]->x;
-        outline->corners[i][1] = points[i]->y;
-    }
-}
-
 bool projection_outline(const Projection *projection, size_t triangle, Outline *outline)
 {
     const uint32_t *vertices = projection->object->mesh.triangles[triangle];
-    const ProjectedPoint *a = &projection->points[vertices[0]],
-                         *b = &projection->points[vertices[1]],
-                         *c = &projection->points[vertices[2]];
-    if ((a->outside & b->outside & c->outside) != 0)
-        return false;
-    if ((a->outside | b->outside | c->outside) == 0)
-        set_triangle(outline, a, b, c);
-    else if (!cut_outline(projection, vertices, outline))
+    uint32_t all = UINT32_MAX, any = 0; // planes beyond which all corners or any corners are
+    outline->count = 3;
+    for (int corner = 0; corner < 3; corner++) {
+        const ProjectedPoint *point = &projection->points[vertices[corner]];
+        all &= point->outside;
+        any |= point->outside;
+        outline->corners[corner][0] = point->x;
+        outline->corners[corner][1] = point->y;
+    }
+    if (all != 0 || (any != 0 && !cut_outline(projection, vertices, outline)))
         return false;
     const double area = outline_signed_area(outline);
     if (!(area < 0 || (area > 0 && projection->object->two_sided)))

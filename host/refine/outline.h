@@ -19,9 +19,9 @@ typedef struct {
 
 typedef struct {
     uint32_t count;
-    double corners[OUTLINE_CORNERS][2]; // in order around the polygon
-    double slopes[OUTLINE_CORNERS];     // dx/dy of the side from each corner to the next
-    OutlineBox box;                     // around the corners
+    double corners[OUTLINE_CORNERS + 1][2]; // in order around the polygon; the first one twice
+    double slopes[OUTLINE_CORNERS];         // dx/dy of the side from each corner to the next
+    OutlineBox box;                         // around the corners
 } Outline;
 
 // A grid of square cells. The cells are pixels or places.
@@ -35,17 +35,10 @@ typedef struct {
     uint32_t first, end;
 } CellRange;
 
-// Computes the slopes and the box from the corners.
+// Computes everything else from the count and the corners.
 void outline_complete(Outline *outline);
 
-// Returns the floor of a number that fits into int64_t. Unlike floor(), it is inlined.
-static inline int64_t outline_floor(double value)
-{
-    const int64_t whole = (int64_t)value;
-    return whole - (value < (double)whole);
-}
-
-static inline uint32_t outline_limit(int64_t value, uint32_t most)
+static inline uint32_t cell_limit(double value, uint32_t most)
 {
     return value > 0 ? (value < most ? (uint32_t)value : most) : 0;
 }
@@ -55,8 +48,8 @@ static inline CellRange cells_touched(double low, double high, const CellGrid *g
 {
     const double first = (low - grid->origin[axis]) * grid->per_length;
     const double last = (high - grid->origin[axis]) * grid->per_length;
-    return (CellRange){outline_limit(outline_floor(first), grid->counts[axis]),
-                       outline_limit(outline_floor(last) + 1, grid->counts[axis])};
+    return (CellRange){cell_limit(first, grid->counts[axis]),
+                       cell_limit(last + 1, grid->counts[axis])};
 }
 
 // Returns the cells along an axis whose centers lie between `low` and `high`.
@@ -64,20 +57,8 @@ static inline CellRange cells_sampled(double low, double high, const CellGrid *g
 {
     const double first = (low - grid->origin[axis]) * grid->per_length;
     const double last = (high - grid->origin[axis]) * grid->per_length;
-    return (CellRange){outline_limit(-outline_floor(0.5 - first), grid->counts[axis]),
-                       outline_limit(outline_floor(last - 0.5) + 1, grid->counts[axis])};
-}
-
-// box_touched returns the cells that a box touches along an axis. box_sampled returns the cells
-// whose centers the box contains.
-static inline CellRange box_touched(const OutlineBox *box, const CellGrid *grid, int axis)
-{
-    return cells_touched(box->low[axis], box->high[axis], grid, axis);
-}
-
-static inline CellRange box_sampled(const OutlineBox *box, const CellGrid *grid, int axis)
-{
-    return cells_sampled(box->low[axis], box->high[axis], grid, axis);
+    return (CellRange){cell_limit(first + 0.5, grid->counts[axis]),
+                       cell_limit(last + 0.5, grid->counts[axis])};
 }
 
 // Returns twice the area, negative if the corners are counterclockwise on the screen (y is down).
@@ -112,10 +93,9 @@ typedef struct {
 // Returns a projection without a mesh. The frame's camera must be made with samples = REFINE_GRID.
 Projection projection_of(const FrameData *frame, const Normalization *normalization);
 
-// projection_begin projects the vertices of a mesh. projection_end frees the results.
+// Projects the vertices of a mesh. The caller frees projection->points.
 bool projection_begin(Projection *projection, const MeshObject *object, ThreadPool *pool,
                       Error *error);
-void projection_end(Projection *projection);
 
 // Computes the clipped outline of a triangle. Returns false if the triangle is outside, seen
 // edge-on, or one-sided and seen from behind.

@@ -81,7 +81,7 @@ static void cover_pixels(void *context, uint32_t first, uint32_t end)
         Outline outline;
         if (!projection_outline(&search->projection, triangle_at(search, i), &outline))
             continue;
-        const CellRange rows = box_sampled(&outline.box, &grid, 1);
+        const CellRange rows = cells_sampled(outline.box.low[1], outline.box.high[1], &grid, 1);
         for (uint32_t row = rows.first; row < rows.end; row++) {
             const CellRange columns = outline_sampled(&outline, &grid, row);
             for (uint32_t column = columns.first; column < columns.end; column++)
@@ -124,7 +124,7 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
     if (!projection_outline(&search->projection, triangle, &outline) ||
         !outline_is_thinner(&outline, THIN_WIDTH))
         return true;
-    const CellRange rows = box_touched(&outline.box, &grid, 1);
+    const CellRange rows = cells_touched(outline.box.low[1], outline.box.high[1], &grid, 1);
     for (uint32_t row = rows.first; row < rows.end; row++) {
         const CellRange columns = outline_touched(&outline, &grid, row);
         for (uint32_t column = columns.first; column < columns.end; column++) {
@@ -250,7 +250,7 @@ static void draw_triangles(const ThinSearch *search, const PixelRun *run, CellGr
             continue;
         if (run->axis == THIN_COLUMNS)
             exchange_axes(&outline);
-        const CellRange lines = box_sampled(&outline.box, &grid, 1);
+        const CellRange lines = cells_sampled(outline.box.low[1], outline.box.high[1], &grid, 1);
         for (uint32_t line = lines.first; line < lines.end; line++) {
             const CellRange places = outline_sampled(&outline, &grid, line);
             for (uint32_t place = places.first; place < places.end; place++)
@@ -314,7 +314,7 @@ static bool search_mesh(ThinSearch *search, const MeshObject *object, Error *err
     for (uint32_t i = 0; ok && i < search->pieces.count; i++)
         ok = search_piece(search, search->pieces.ends[i], error);
     mesh_pieces_free(&search->pieces);
-    projection_end(&search->projection);
+    free(search->projection.points);
     return ok;
 }
 

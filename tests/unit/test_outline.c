@@ -71,7 +71,7 @@ TEST(exactly_the_cells_that_it_meets_are_touched)
     uint64_t random = 1;
     for (int trial = 0; trial < TRIALS; trial++) {
         const Outline outline = random_triangle(&random);
-        const CellRange rows = box_touched(&outline.box, &grid, 1);
+        const CellRange rows = cells_touched(outline.box.low[1], outline.box.high[1], &grid, 1);
         for (uint32_t row = 0; row < grid.counts[1]; row++) {
             const CellRange columns = outline_touched(&outline, &grid, row);
             for (uint32_t column = 0; column < grid.counts[0]; column++)
@@ -87,7 +87,7 @@ TEST(exactly_the_samples_that_it_holds_are_sampled)
     uint64_t random = 2;
     for (int trial = 0; trial < TRIALS; trial++) {
         const Outline outline = random_triangle(&random);
-        const CellRange rows = box_sampled(&outline.box, &grid, 1);
+        const CellRange rows = cells_sampled(outline.box.low[1], outline.box.high[1], &grid, 1);
         for (uint32_t row = 0; row < grid.counts[1]; row++) {
             const CellRange columns = outline_sampled(&outline, &grid, row);
             for (uint32_t column = 0; column < grid.counts[0]; column++)
