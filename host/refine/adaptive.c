@@ -27,24 +27,15 @@ typedef ARRAY(SamplePlace) PlaceList;
 
 typedef enum { SIDE_LEFT, SIDE_RIGHT, SIDE_ABOVE, SIDE_BELOW } Side;
 
-// Returns whether the pixel has a neighbor on that side. Stores the neighbor, or the pixel itself
-// at the picture's border.
-static bool find_neighbor(const Adaptive *adaptive, uint32_t pixel, Side side, uint32_t *neighbor)
+// Returns the pixel's neighbor on that side, or the pixel itself at the picture's border.
+static uint32_t neighbor_of(const Adaptive *adaptive, uint32_t pixel, Side side)
 {
     const uint32_t width = adaptive->frame.width, height = adaptive->frame.height;
     const uint32_t x = pixel % width, y = pixel / width;
-    const uint32_t neighbors[] = {pixel - 1, pixel + 1, pixel - width, pixel + width};
-    const bool are_there[] = {x > 0, x + 1 < width, y > 0, y + 1 < height};
-    *neighbor = are_there[side] ? neighbors[side] : pixel;
-    return are_there[side];
-}
-
-// Returns the center of the neighbor, or of the pixel itself at the picture's border.
-static const SampleData *center_beside(const Adaptive *adaptive, uint32_t pixel, Side side)
-{
-    uint32_t neighbor;
-    find_neighbor(adaptive, pixel, side, &neighbor);
-    return &adaptive->centers[neighbor];
+    const uint32_t neighbors[] = {pixel - (x > 0), pixel + (x + 1 < width),
+                                  y > 0 ? pixel - width : pixel,
+                                  y + 1 < height ? pixel + width : pixel};
+    return neighbors[side];
 }
 
 // Returns whether the pixel's lines are columns. They are if a thin part crosses columns or,
@@ -55,28 +46,27 @@ static bool has_columns(const Adaptive *adaptive, uint32_t pixel)
     const SampleData *center = &adaptive->centers[pixel];
     float changes[4];
     for (int side = 0; side < 4; side++)
-        changes[side] = sample_difference(center, center_beside(adaptive, pixel, (Side)side));
-    return axis == THIN_NONE ? changes[SIDE_ABOVE] + changes[SIDE_BELOW] >
-                                   changes[SIDE_LEFT] + changes[SIDE_RIGHT]
-                             : axis == THIN_COLUMNS;
+        changes[side] =
+            sample_difference(center, &adaptive->centers[neighbor_of(adaptive, pixel, (Side)side)]);
+    return axis <= THIN_TOUCHED ? changes[SIDE_ABOVE] + changes[SIDE_BELOW] >
+                                      changes[SIDE_LEFT] + changes[SIDE_RIGHT]
+                                : axis == THIN_COLUMNS;
 }
 
 static bool add_pixel(Adaptive *adaptive, uint32_t pixel, Error *error)
 {
     const ThinParts *parts = &adaptive->thin_parts;
     const size_t first = thin_parts_first_probe(parts, pixel);
-    size_t end = first;
-    while (end < parts->probes.count && parts->probes.data[end].pixel == pixel)
-        end++;
+    const size_t end = thin_parts_first_probe(parts, pixel + 1);
     const RefinedPixel refined = {.pixel = pixel,
                                   .probes = (uint32_t)first,
+                                  .end = (uint32_t)end,
                                   .samples = 1,
                                   .least =
                                       (uint8_t)band_height(end > first ? 1 : REFINE_LEVELS - 1),
                                   .has_columns = has_columns(adaptive, pixel)};
     adaptive->refined[pixel] = (uint32_t)adaptive->lines.pixels.count;
-    return scan_lines_add(&adaptive->lines, &refined,
-                          end > first ? &parts->probes.data[first] : NULL, end - first, error);
+    return scan_lines_add(&adaptive->lines, &refined, error);
 }
 
 // Inserts a place into an ascending list, unless the list has the place. The list's first place is
@@ -97,16 +87,15 @@ static uint32_t insert_place(LineSample *samples, uint32_t count, uint32_t place
 // number of these places.
 static uint32_t first_places(const Adaptive *adaptive, const ScanLine *line, LineSample *samples)
 {
-    const ThinParts *parts = &adaptive->thin_parts;
+    const Probe *probes = adaptive->lines.probes;
     const RefinedPixel *pixel = &adaptive->lines.pixels.data[line->pixel];
     const uint32_t gaps = line->height < band_height(0) ? 2 * LINE_GAPS : LINE_GAPS;
     uint32_t count = 0;
     for (; count <= gaps; count++)
         samples[count].place = count * (REFINE_GRID - 1) / gaps;
-    for (size_t i = pixel->probes;
-         i < parts->probes.count && parts->probes.data[i].pixel == pixel->pixel; i++)
-        if (parts->probes.data[i].line == line->middle)
-            count = insert_place(samples, count, parts->probes.data[i].place);
+    for (uint32_t i = pixel->probes; i < pixel->end; i++)
+        if (probes[i].line == line->middle)
+            count = insert_place(samples, count, probes[i].place);
     return count;
 }
 
@@ -153,8 +142,8 @@ static bool list_places(const Adaptive *adaptive, PlaceList *places, Error *erro
 static bool spread(Adaptive *adaptive, uint32_t pixel, Side side, const SampleData *sample,
                    float most, Error *error)
 {
-    uint32_t neighbor;
-    if (!find_neighbor(adaptive, pixel, side, &neighbor) || adaptive->refined[neighbor] != 0 ||
+    const uint32_t neighbor = neighbor_of(adaptive, pixel, side);
+    if (adaptive->refined[neighbor] != 0 ||
         !(sample_difference(sample, &adaptive->centers[neighbor]) > most))
         return true;
     return add_pixel(adaptive, neighbor, error);
@@ -222,9 +211,10 @@ static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel,
 {
     const ScanLines *lines = &adaptive->lines;
     const int shift = side == SIDE_LEFT || side == SIDE_ABOVE ? -REFINE_GRID : REFINE_GRID;
-    uint32_t neighbor, nearest = 0;
-    const bool is_there = find_neighbor(adaptive, pixel->pixel, side, &neighbor);
+    const uint32_t neighbor = neighbor_of(adaptive, pixel->pixel, side);
+    const bool is_there = neighbor != pixel->pixel;
     const RefinedPixel *refined = &lines->pixels.data[is_there ? adaptive->refined[neighbor] : 0];
+    uint32_t nearest = 0;
     LineMean mean = {.middle = REFINE_GRID / 2};
     float color[3];
     if (refined->lines != 0 && refined->has_columns == pixel->has_columns) {
@@ -236,7 +226,7 @@ static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel,
         mean = scan_line_mean(&lines->lines.data[nearest]);
     } else {
         if (refined->lines == 0 || !scan_lines_color(lines, refined, color))
-            memcpy(color, center_beside(adaptive, pixel->pixel, side)->color, sizeof color);
+            memcpy(color, adaptive->centers[neighbor].color, sizeof color);
         for (int channel = 0; channel < 3; channel++)
             mean.color[channel] = (double)color[channel];
     }
@@ -245,20 +235,19 @@ static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel,
 }
 
 // Adds lines to the pixels of the opened lines from *first on, if necessary. No gap may be open.
-static bool divide(Adaptive *adaptive, uint32_t *first, uint32_t round, Error *error)
+// New lines of a pixel follow each other, so each pixel is considered once.
+static bool divide(Adaptive *adaptive, uint32_t *first, Error *error)
 {
     ScanLines *lines = &adaptive->lines;
-    const uint32_t end = lines->opened;
     bool ok = true;
-    for (; ok && *first < end; ++*first) {
+    for (const uint32_t end = lines->opened; ok && *first < end; ++*first) {
         const uint32_t number = lines->lines.data[*first].pixel;
-        if (lines->pixels.data[number].round == round)
-            continue;
-        RefinedPixel *pixel = &lines->pixels.data[number];
+        const RefinedPixel *pixel = &lines->pixels.data[number];
         const Side before = pixel->has_columns ? SIDE_LEFT : SIDE_ABOVE;
+        if (*first + 1 < end && lines->lines.data[*first + 1].pixel == number)
+            continue;
         const LineMean beyond[2] = {line_beside(adaptive, pixel, before),
                                     line_beside(adaptive, pixel, (Side)(before + 1))};
-        pixel->round = round;
         ok = scan_lines_divide(lines, number, beyond, error);
     }
     return ok;
@@ -323,14 +312,15 @@ bool adaptive_refine(Adaptive *adaptive, float threshold, Error *error)
     uint32_t divided = 1;
     if (!sampler_is_whole(adaptive->setup.renderer))
         return true;
+    lines->probes = adaptive->thin_parts.probes.data;
     lines->threshold = GAP_PART * threshold;
     lines->bend = BEND_PART * threshold;
     lines->doubt = DOUBT_PART * threshold;
     thread_pool_share(adaptive->setup.pool, adaptive->frame.height, ROWS_OF_TASK, mark_rows, &work);
     bool ok = add_marked(adaptive, error);
-    for (uint32_t round = 1; ok && sampler_is_whole(adaptive->setup.renderer); round++) {
+    while (ok && sampler_is_whole(adaptive->setup.renderer)) {
         if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
-            ok = divide(adaptive, &divided, round, error);
+            ok = divide(adaptive, &divided, error);
         if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
             break;
         ok = ok && trace_pass(adaptive, &places, work.most, error);

@@ -26,46 +26,43 @@ static bool join(uint32_t *lower, uint32_t one, uint32_t other)
     return first != second;
 }
 
-static bool is_small(uint32_t triangles)
+// Merges small pieces into the first one. `sizes` has the number of triangles of each piece, at the
+// index of its root. Replaces the sizes by the starts of the pieces.
+static void lay_out(MeshPieces *pieces, uint32_t *lower, uint32_t *sizes, size_t count)
 {
-    return triangles > 0 && triangles < PIECE_TRIANGLES;
-}
-
-// Stores the start of each piece at the index of its root, and the ends of all pieces. Small pieces
-// come first and are merged into one piece, so they have one common end.
-static void lay_out(MeshPieces *pieces, const uint32_t *sizes, uint32_t *starts, size_t count)
-{
-    uint32_t next = 0;
-    for (size_t vertex = 0; vertex < count; vertex++)
-        if (is_small(sizes[vertex])) {
-            starts[vertex] = next;
-            next += sizes[vertex];
+    uint32_t next = 0, *small = NULL;
+    for (uint32_t vertex = 0; vertex < count; vertex++) {
+        if (sizes[vertex] == 0 || sizes[vertex] >= PIECE_TRIANGLES)
+            continue;
+        if (small == NULL)
+            small = &sizes[vertex];
+        else {
+            *small += sizes[vertex];
+            sizes[vertex] = 0;
+            lower[vertex] = (uint32_t)(small - sizes);
         }
-    if (next > 0)
-        pieces->ends[pieces->count++] = next;
-    for (size_t vertex = 0; vertex < count; vertex++)
-        if (sizes[vertex] >= PIECE_TRIANGLES) {
-            starts[vertex] = next;
-            next += sizes[vertex];
+    }
+    for (uint32_t vertex = 0; vertex < count; vertex++) {
+        const uint32_t start = next;
+        next += sizes[vertex];
+        if (sizes[vertex] > 0)
             pieces->ends[pieces->count++] = next;
-        }
+        sizes[vertex] = start;
+    }
 }
 
 static bool sort_triangles(MeshPieces *pieces, const Mesh *mesh, uint32_t *lower, Error *error)
 {
-    const size_t vertices = mesh->vertex_count, triangles = mesh->triangle_count;
-    uint32_t *sizes = memory_zeroed(vertices, sizeof *sizes, error);
-    uint32_t *starts = memory_raw(vertices, sizeof *starts, error);
-    pieces->order = memory_raw(triangles, sizeof *pieces->order, error);
-    const bool ok = sizes != NULL && starts != NULL && pieces->order != NULL;
-    for (uint32_t i = 0; ok && i < triangles; i++)
+    uint32_t *sizes = memory_zeroed(mesh->vertex_count, sizeof *sizes, error);
+    pieces->order = memory_raw(mesh->triangle_count, sizeof *pieces->order, error);
+    const bool ok = sizes != NULL && pieces->order != NULL;
+    for (uint32_t i = 0; ok && i < mesh->triangle_count; i++)
         sizes[lowest_of(lower, mesh->triangles[i][0])]++;
     if (ok)
-        lay_out(pieces, sizes, starts, vertices);
-    for (uint32_t i = 0; ok && i < triangles; i++)
-        pieces->order[starts[lowest_of(lower, mesh->triangles[i][0])]++] = i;
+        lay_out(pieces, lower, sizes, mesh->vertex_count);
+    for (uint32_t i = 0; ok && i < mesh->triangle_count; i++)
+        pieces->order[sizes[lowest_of(lower, mesh->triangles[i][0])]++] = i;
     free(sizes);
-    free(starts);
     return ok;
 }
 

@@ -110,41 +110,26 @@ CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t
     return cells_sampled(extent[0], extent[1], grid, 0);
 }
 
-// The following functions clip triangles in homogeneous coordinates (x * depth, y * depth, depth).
-// The clipping planes are one at the eye and four around the picture. After the division by depth,
-// all coordinates are therefore bounded. For an orthographic camera, 1 replaces the depth, and
-// triangles behind the eye are not clipped.
+// The following functions clip triangles in homogeneous coordinates. After the division by depth,
+// all coordinates are bounded.
 
-#define PLANES 5
+// The distance between the picture's border and the clipping planes.
 #define MARGIN (2 * REFINE_GRID)
-#define NEAR   1e-30 // tiny compared with the triangles' box, whose longest side is 1 to 2
 
-// Returns a negative number if the point is beyond the plane.
-static double inside_by(const Projection *projection, Vec3 point, int plane)
+Vec3 projection_point(const Projection *projection, Vec3 point)
 {
-    switch (plane) {
-    case 0:
-        return point.z - NEAR;
-    case 1:
-        return point.x + MARGIN * point.z;
-    case 2:
-        return (projection->width + MARGIN) * point.z - point.x;
-    case 3:
-        return point.y + MARGIN * point.z;
-    default:
-        return (projection->height + MARGIN) * point.z - point.y;
-    }
-}
-
-static Vec3 point_of(const Projection *projection, size_t vertex)
-{
-    const double *position = projection->object->mesh.positions[vertex];
-    const Vec3 point = normalize_point(projection->normalization, vec3_of_doubles(position));
     const CameraData *camera = &projection->camera;
     const Vec3 seen = vec3_sub(point, vec3_of_floats(camera->eye));
     const double depth = camera_reduction(camera, vec3_dot(seen, vec3_of_floats(camera->forward)));
     return (Vec3){vec3_dot(seen, projection->right) + projection->width / 2 * depth,
                   vec3_dot(seen, projection->down) + projection->height / 2 * depth, depth};
+}
+
+static Vec3 point_of(const Projection *projection, size_t vertex)
+{
+    const double *position = projection->object->mesh.positions[vertex];
+    return projection_point(projection,
+                            normalize_point(projection->normalization, vec3_of_doubles(position)));
 }
 
 static void project_points(void *context, uint32_t first, uint32_t end)
@@ -153,8 +138,9 @@ static void project_points(void *context, uint32_t first, uint32_t end)
     for (uint32_t vertex = first; vertex < end; vertex++) {
         const Vec3 point = point_of(projection, vertex);
         ProjectedPoint projected = {0};
-        for (int plane = 0; plane < PLANES; plane++)
-            projected.outside |= (uint32_t) !(inside_by(projection, point, plane) >= 0) << plane;
+        for (int plane = 0; plane < CLIPPING_PLANES; plane++)
+            projected.outside |= (uint32_t) !(vec3_dot(projection->planes[plane], point) > 0)
+                                 << plane;
         if (projected.outside == 0) {
             projected.x = (float)(point.x / point.z);
             projected.y = (float)(point.y / point.z);
@@ -168,12 +154,19 @@ Projection projection_of(const FrameData *frame, const Normalization *normalizat
     const Vec3 right = vec3_of_floats(frame->camera.right_step);
     const Vec3 down = vec3_of_floats(frame->camera.down_step);
     const double square = vec3_dot(right, right);
+    const double width = (double)frame->width * REFINE_GRID;
+    const double height = (double)frame->height * REFINE_GRID;
     return (Projection){.normalization = normalization,
                         .camera = frame->camera,
                         .right = vec3_scale(right, 0.5 / square),
                         .down = vec3_scale(down, 0.5 / square),
-                        .width = (double)frame->width * REFINE_GRID,
-                        .height = (double)frame->height * REFINE_GRID};
+                        .width = width,
+                        .height = height,
+                        .planes = {{0, 0, 1},
+                                   {1, 0, MARGIN},
+                                   {-1, 0, width + MARGIN},
+                                   {0, 1, MARGIN},
+                                   {0, -1, height + MARGIN}}};
 }
 
 bool projection_begin(Projection *projection, const MeshObject *object, ThreadPool *pool,
@@ -193,16 +186,16 @@ typedef struct {
     Vec3 corners[OUTLINE_CORNERS];
 } Polygon;
 
-static void keep_inside(const Projection *projection, Polygon *polygon, int plane)
+// Clips a polygon by a plane with this normal.
+static void keep_inside(Polygon *polygon, Vec3 normal)
 {
     Polygon kept = {0};
     for (uint32_t i = 0; i < polygon->count; i++) {
         const Vec3 from = polygon->corners[i], to = polygon->corners[(i + 1) % polygon->count];
-        const double before = inside_by(projection, from, plane);
-        const double after = inside_by(projection, to, plane);
-        if (before >= 0)
+        const double before = vec3_dot(normal, from), after = vec3_dot(normal, to);
+        if (before > 0)
             kept.corners[kept.count++] = from;
-        if ((before >= 0) != (after >= 0) && kept.count < OUTLINE_CORNERS)
+        if ((before > 0) != (after > 0) && kept.count < OUTLINE_CORNERS)
             kept.corners[kept.count++] =
                 vec3_add(from, vec3_scale(vec3_sub(to, from), before / (before - after)));
         if (kept.count == OUTLINE_CORNERS)
@@ -224,8 +217,8 @@ static bool cut_outline(const Projection *projection, const uint32_t vertices[3]
     Polygon polygon = {.count = 3};
     for (int corner = 0; corner < 3; corner++)
         polygon.corners[corner] = point_of(projection, vertices[corner]);
-    for (int plane = 0; plane < PLANES; plane++)
-        keep_inside(projection, &polygon, plane);
+    for (int plane = 0; plane < CLIPPING_PLANES; plane++)
+        keep_inside(&polygon, projection->planes[plane]);
     if (polygon.count < 3)
         return false;
     outline->count = polygon.count;

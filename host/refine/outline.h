@@ -10,7 +10,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// A triangle clipped by five planes has at most this many corners.
+// Triangles are clipped by one plane through the eye and four around the picture. Afterwards, they
+// have at most OUTLINE_CORNERS corners.
+#define CLIPPING_PLANES 5
 #define OUTLINE_CORNERS 8
 
 typedef struct {
@@ -85,13 +87,19 @@ typedef struct {
     const MeshObject *object;
     const Normalization *normalization;
     CameraData camera;
-    Vec3 right, down;       // the dot product with a point at depth 1 is a position in places
-    double width, height;   // of the picture, in places
-    ProjectedPoint *points; // of the mesh's vertices
+    Vec3 right, down;             // the dot product with a point at depth 1 is a position in places
+    double width, height;         // of the picture, in places
+    Vec3 planes[CLIPPING_PLANES]; // normals; the planes pass through the eye
+    ProjectedPoint *points;       // of the mesh's vertices
 } Projection;
 
 // Returns a projection without a mesh. The frame's camera must be made with samples = REFINE_GRID.
 Projection projection_of(const FrameData *frame, const Normalization *normalization);
+
+// Returns the homogeneous coordinates (x * depth, y * depth, depth) of a point that is given in
+// normalized coordinates. For an orthographic camera, 1 replaces the depth, and nothing is behind
+// the eye.
+Vec3 projection_point(const Projection *projection, Vec3 point);
 
 // Projects the vertices of a mesh. The caller frees projection->points.
 bool projection_begin(Projection *projection, const MeshObject *object, ThreadPool *pool,

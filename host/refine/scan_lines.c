@@ -31,14 +31,15 @@ void scan_lines_free(ScanLines *scan)
 
 // Stores the height of the band around each line at the line's index, and 0 elsewhere. Divides the
 // three bands of level 0 until every probe's line is the middle of a band of the probe's level.
-static void band_heights(const Probe *probes, size_t count, uint8_t heights[REFINE_GRID])
+static void band_heights(const ScanLines *scan, const RefinedPixel *pixel,
+                         uint8_t heights[REFINE_GRID])
 {
     for (uint32_t line = 0; line < REFINE_GRID; line++)
         heights[line] = line % band_height(0) == band_height(0) / 2 ? (uint8_t)band_height(0) : 0;
-    for (size_t i = 0; i < count; i++)
-        for (uint32_t level = 0; level < probes[i].level; level++) {
+    for (uint32_t i = pixel->probes; i < pixel->end; i++)
+        for (uint32_t level = 0; level < scan->probes[i].level; level++) {
             const uint32_t height = band_height(level), part = band_height(level + 1);
-            const uint32_t middle = probes[i].line / height * height + height / 2;
+            const uint32_t middle = scan->probes[i].line / height * height + height / 2;
             if (heights[middle] == height)
                 heights[middle] = heights[middle - part] = heights[middle + part] = (uint8_t)part;
         }
@@ -58,12 +59,11 @@ static bool add_line(ScanLines *scan, uint32_t number, uint32_t middle, uint32_t
     return array_push(&scan->lines, line, error);
 }
 
-bool scan_lines_add(ScanLines *scan, const RefinedPixel *pixel, const Probe *probes, size_t count,
-                    Error *error)
+bool scan_lines_add(ScanLines *scan, const RefinedPixel *pixel, Error *error)
 {
     uint8_t heights[REFINE_GRID];
     bool ok = array_push(&scan->pixels, *pixel, error);
-    band_heights(probes, count, heights);
+    band_heights(scan, pixel, heights);
     for (uint32_t line = 0; ok && line < REFINE_GRID; line++)
         ok = heights[line] == 0 ||
              add_line(scan, (uint32_t)scan->pixels.count - 1, line, heights[line], error);

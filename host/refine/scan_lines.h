@@ -37,17 +37,17 @@ typedef struct {
 } Gap;
 
 typedef struct {
-    uint32_t pixel;   // index in the picture
-    uint32_t lines;   // the first line
-    uint32_t probes;  // result of thin_parts_first_probe for this pixel
-    uint32_t samples; // taken in the pixel
-    uint32_t round;   // the latest round that has considered new lines
-    uint8_t least;    // bands of this height are not divided
-    bool has_columns; // lines are columns
+    uint32_t pixel;       // index in the picture
+    uint32_t lines;       // the first line
+    uint32_t probes, end; // indices of the first probe and behind the last one
+    uint32_t samples;     // taken in the pixel
+    uint8_t least;        // bands of this height are not divided
+    bool has_columns;     // lines are columns
 } RefinedPixel;
 
 typedef struct {
-    float threshold; // largest error of a gap that needs no sample
+    const Probe *probes; // of all pixels
+    float threshold;     // largest error of a gap that needs no sample
     float doubt; // the same for a new gap, whose error is computed from the largest contrast of the
                  // line
     float bend;  // largest error of a band that needs no further lines
@@ -61,8 +61,7 @@ bool scan_lines_make(ScanLines *scan, Error *error);
 void scan_lines_free(ScanLines *scan);
 
 // Adds the first lines of a pixel: three, and more around its probes.
-bool scan_lines_add(ScanLines *scan, const RefinedPixel *pixel, const Probe *probes, size_t count,
-                    Error *error);
+bool scan_lines_add(ScanLines *scan, const RefinedPixel *pixel, Error *error);
 
 // A sample of a line.
 typedef struct {

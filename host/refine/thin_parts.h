@@ -10,13 +10,14 @@
 //
 // In pixels at which a piece is not wide, its thin triangles are drawn on the grid of places
 // (probe.h). On each line of level 0, each run of drawn places gets probes (requests for samples)
-// on both sides of both ends. The lines of each further level lie closer together. A line gets
-// probes only where no line of the level before passes near the piece.
+// on both sides of both ends. The lines of each further level lie closer together. A run gets
+// probes only if the nearest lines of the level before have none nearby.
 //
 // Invariant: a sample hits each sphere that is at least 1/57 pixel across, and each triangle whose
 // incircle is at least 1/57 pixel across. The exceptions are
-// - triangles within two pixels of a wider part of the same piece, or within a third of a pixel of
-//   a probe of the same piece;
+// - triangles within two pixels of a wider part of the same piece;
+// - triangles whose distance from a probe of the same piece is below a third of a pixel on both
+//   axes;
 // - hidden triangles and spheres, on which samples are wasted;
 // - parts that are visible only in mirrors or by their shadows;
 // - the thinnest parts, if all probes together would take more than THIN_SAMPLES samples per pixel

@@ -13,16 +13,18 @@
 // The width of the thickest thin part, in places: a pixel's diagonal.
 #define THIN_WIDTH (1.41421356 * REFINE_GRID)
 
-// The lines of a pixel: rows or columns, whichever the thin parts cross.
-typedef enum { THIN_NONE, THIN_ROWS, THIN_COLUMNS } ThinAxis;
+// The lines of a pixel: rows or columns, whichever the thin parts cross. THIN_TOUCHED: thin parts
+// touch the pixel, but request no lines.
+typedef enum { THIN_NONE, THIN_TOUCHED, THIN_ROWS, THIN_COLUMNS } ThinAxis;
 
 typedef ARRAY(Probe) ProbeList;
 
 typedef struct {
     uint32_t width, height;
-    uint8_t *axes;                  // ThinAxis by pixel; THIN_NONE: no thin part touches the pixel
+    uint8_t *axes;                  // ThinAxis by pixel
     uint64_t touched;               // number of pixels that thin parts touch
     ProbeList probes;               // sorted by pixel
+    size_t counted;                 // probes in `counts`
     uint64_t counts[REFINE_LEVELS]; // by level: number of probes of the level that are on a line of
                                     // this level
 } ThinParts;
@@ -34,11 +36,24 @@ typedef struct {
     const Normalization *normalization; // of the scene
     const SphereData *spheres;          // of the frame
     ThreadPool *pool;                   // threads for the work, NULL for none
-    bool has_probes;                    // false: only the axes are needed
+    bool has_probes;                    // false: only the touched pixels are needed
 } ThinSource;
 
-// Records that a thin part touches a pixel. The first part decides the axis.
+// Returns the grid of the picture's pixels.
+static inline CellGrid thin_pixel_grid(const ThinParts *parts)
+{
+    return (CellGrid){REFINE_GRID, 1.0 / REFINE_GRID, {parts->width, parts->height}, {0, 0}};
+}
+
+// Records that a thin part touches a pixel. The pixel keeps its axis if it has one already.
 void thin_parts_touch(ThinParts *parts, uint32_t pixel, ThinAxis axis);
+
+// Returns the number of levels whose probes take at most THIN_SAMPLES samples per pixel of the
+// picture.
+uint32_t thin_parts_affordable(ThinParts *parts);
+
+// Returns the index of the first probe of this pixel or of a later one, or the number of probes.
+size_t thin_parts_first_probe(const ThinParts *parts, uint32_t pixel);
 
 // The places `first` to `end` - 1 of a line, which a thin part covers. They may be outside of the
 // pixel.
@@ -50,12 +65,14 @@ typedef struct {
 // Adds probes at the first and last place of the run, and at the two places next to the run.
 bool probe_list_add(ProbeList *probes, const ProbeRun *run, Error *error);
 
-// Adds a probe to parts->probes and parts->counts.
-bool thin_parts_add(ThinParts *parts, const Probe *probe, Error *error);
+// Places are PLACE_PROBED if they are on a run with probes, or if the next line has this run
+// nearby.
+typedef enum { PLACE_EMPTY, PLACE_DRAWN, PLACE_PROBED } PlaceState;
 
-// Returns the number of levels whose probes take at most THIN_SAMPLES samples per pixel of the
-// picture.
-uint32_t thin_parts_affordable(const ThinParts *parts);
+// The states of a pixel's places, line by line.
+typedef uint8_t ThinDrawing[REFINE_GRID][REFINE_GRID];
 
-// Returns the index of the first probe of this pixel or of a later one, or the number of probes.
-size_t thin_parts_first_probe(const ThinParts *parts, uint32_t pixel);
+// Adds probes so that samples hit the parts of the drawing. Uses bands of the first `levels`
+// levels.
+bool thin_drawing_probe(ThinDrawing drawing, uint32_t pixel, uint32_t levels, ProbeList *probes,
+                        Error *error);

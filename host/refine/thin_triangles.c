@@ -8,23 +8,17 @@
 #include "refine/thin_triangles.h"
 
 #include "refine/mesh_pieces.h"
-#include "refine/thin_drawing.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define TRIANGLES_OF_TASK 1024
-#define RUNS_OF_TASK      64
+#define PAIRS_OF_TASK     1024
 
 typedef struct {
     uint32_t pixel, triangle;
 } PixelTriangle;
-
-// The pairs with one pixel: elements `first` to `end` - 1 of ThinSearch::pairs.
-typedef struct {
-    uint32_t first, end;
-    ThinAxis axis; // of the pixel's lines
-} PixelRun;
 
 // To save memory, a piece with too many pairs of pixels and triangles has no probes. The limit is
 // PAIRS_MOST or, if this is more, PAIRS_OF_PIXEL times the number of pixels in the picture.
@@ -43,22 +37,16 @@ typedef struct {
     const ThinSource *source;
     Projection projection;      // of the mesh
     MeshPieces pieces;          // of the mesh
-    uint32_t first, count;      // the piece's triangles, in the order of the pieces
+    uint32_t first;             // of the piece's triangles, in the order of the pieces
     uint32_t number;            // of the piece, from 1
     uint32_t levels;            // number of levels to search for probes
     _Atomic uint32_t *covered;  // by pixel: the latest piece that contains the pixel's center
     _Atomic uint32_t *touched;  // by pixel: the latest piece whose thin triangles touch it
+    uint64_t most;              // pairs that a piece may have; 0 if no probes are needed
     _Atomic uint64_t met;       // pairs of thin triangles and pixels that they touch
     TaskList *lists;            // of each task
     ARRAY(PixelTriangle) pairs; // of the piece, sorted by pixel
-    ARRAY(PixelRun) runs;       // of all pixels with pairs
 } ThinSearch;
-
-static uint64_t most_pairs(const ThinParts *parts)
-{
-    const uint64_t most = (uint64_t)PAIRS_OF_PIXEL * parts->width * parts->height;
-    return most > PAIRS_MOST ? most : PAIRS_MOST;
-}
 
 static uint32_t triangle_at(const ThinSearch *search, uint32_t place)
 {
@@ -66,17 +54,11 @@ static uint32_t triangle_at(const ThinSearch *search, uint32_t place)
     return order == NULL ? search->first + place : order[search->first + place];
 }
 
-static CellGrid pixels_of(const ThinSearch *search)
-{
-    const ThinParts *parts = search->parts;
-    return (CellGrid){REFINE_GRID, 1.0 / REFINE_GRID, {parts->width, parts->height}, {0, 0}};
-}
-
 // Records the pixels whose centers lie in the triangles.
 static void cover_pixels(void *context, uint32_t first, uint32_t end)
 {
     const ThinSearch *search = context;
-    const CellGrid grid = pixels_of(search);
+    const CellGrid grid = thin_pixel_grid(search->parts);
     for (uint32_t i = first; i < end; i++) {
         Outline outline;
         if (!projection_outline(&search->projection, triangle_at(search, i), &outline))
@@ -118,8 +100,7 @@ static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
 // no probes are needed, or if there are too many pairs, lists a pixel only once per piece.
 static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
 {
-    const CellGrid grid = pixels_of(search);
-    const uint64_t most = search->source->has_probes ? most_pairs(search->parts) : 0;
+    const CellGrid grid = thin_pixel_grid(search->parts);
     Outline outline;
     if (!projection_outline(&search->projection, triangle, &outline) ||
         !outline_is_thinner(&outline, THIN_WIDTH))
@@ -134,7 +115,8 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
             const bool is_first =
                 search->touched[pair.pixel] != search->number &&
                 atomic_exchange(&search->touched[pair.pixel], search->number) != search->number;
-            if ((search->met++ < most || is_first) && !array_push(&list->pairs, pair, &list->error))
+            if ((search->met++ < search->most || is_first) &&
+                !array_push(&list->pairs, pair, &list->error))
                 return false;
         }
     }
@@ -158,7 +140,7 @@ static bool append_list(ThinSearch *search, const TaskList *list, Error *error)
         if (!array_push(&search->pairs, list->pairs.data[i], error))
             return false;
     for (size_t i = 0; i < list->probes.count; i++)
-        if (!thin_parts_add(search->parts, &list->probes.data[i], error))
+        if (!array_push(&search->parts->probes, list->probes.data[i], error))
             return false;
     return true;
 }
@@ -188,95 +170,67 @@ static int compare_pixels(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-// Sorts the pairs into runs of one pixel each.
-static bool find_runs(ThinSearch *search, Error *error)
+// Draws the triangles of pairs of one pixel: the places whose middles they contain become
+// PLACE_DRAWN. Returns the axis of lines that the triangles cross.
+static ThinAxis draw_triangles(const ThinSearch *search, const PixelTriangle *pairs, uint32_t count,
+                               ThinDrawing drawing)
 {
-    const PixelTriangle *pairs = search->pairs.data;
-    const uint32_t count = (uint32_t)search->pairs.count;
-    search->runs.count = 0;
-    if (count > 0)
-        qsort(search->pairs.data, count, sizeof *search->pairs.data, compare_pixels);
-    for (uint32_t i = 0; i < count;) {
-        PixelRun run = {.first = i, .end = i};
-        while (run.end < count && pairs[run.end].pixel == pairs[i].pixel)
-            run.end++;
-        if (!array_push(&search->runs, run, error))
-            return false;
-        i = run.end;
-    }
-    return true;
-}
-
-// Returns the axis of lines that the pixel's triangles cross. If an earlier part has chosen an axis
-// for the pixel, returns this axis.
-static ThinAxis axis_of(const ThinSearch *search, const PixelRun *run)
-{
-    const uint32_t pixel = search->pairs.data[run->first].pixel;
-    double height = 0, width = 0;
-    if (search->parts->axes[pixel] != THIN_NONE)
-        return (ThinAxis)search->parts->axes[pixel];
-    for (uint32_t i = run->first; i < run->end; i++) {
+    const uint32_t width = search->parts->width;
+    const uint32_t column = pairs->pixel % width, row = pairs->pixel / width;
+    const CellGrid grid = {1,
+                           1,
+                           {REFINE_GRID, REFINE_GRID},
+                           {(double)column * REFINE_GRID, (double)row * REFINE_GRID}};
+    double sides[2] = {0};
+    for (uint32_t i = 0; i < count; i++) {
         Outline outline;
-        if (!projection_outline(&search->projection, search->pairs.data[i].triangle, &outline))
+        if (!projection_outline(&search->projection, pairs[i].triangle, &outline))
             continue;
-        width += outline.box.high[0] - outline.box.low[0];
-        height += outline.box.high[1] - outline.box.low[1];
-    }
-    return height >= width ? THIN_ROWS : THIN_COLUMNS;
-}
-
-static void exchange_axes(Outline *outline)
-{
-    for (uint32_t i = 0; i < outline->count; i++) {
-        const double x = outline->corners[i][0];
-        outline->corners[i][0] = outline->corners[i][1];
-        outline->corners[i][1] = x;
-    }
-    outline_complete(outline);
-}
-
-// Draws the pixel's triangles: the places whose middles they contain become PLACE_DRAWN.
-static void draw_triangles(const ThinSearch *search, const PixelRun *run, CellGrid grid,
-                           ThinDrawing drawing)
-{
-    if (run->axis == THIN_COLUMNS) {
-        const double x = grid.origin[0];
-        grid.origin[0] = grid.origin[1];
-        grid.origin[1] = x;
-    }
-    for (uint32_t i = run->first; i < run->end; i++) {
-        Outline outline;
-        if (!projection_outline(&search->projection, search->pairs.data[i].triangle, &outline))
-            continue;
-        if (run->axis == THIN_COLUMNS)
-            exchange_axes(&outline);
-        const CellRange lines = cells_sampled(outline.box.low[1], outline.box.high[1], &grid, 1);
+        const OutlineBox *box = &outline.box;
+        const CellRange lines = cells_sampled(box->low[1], box->high[1], &grid, 1);
+        for (int axis = 0; axis < 2; axis++)
+            sides[axis] += box->high[axis] - box->low[axis];
         for (uint32_t line = lines.first; line < lines.end; line++) {
             const CellRange places = outline_sampled(&outline, &grid, line);
-            for (uint32_t place = places.first; place < places.end; place++)
-                drawing[line][place] = PLACE_DRAWN;
+            if (places.first < places.end)
+                memset(&drawing[line][places.first], PLACE_DRAWN, places.end - places.first);
         }
     }
+    return sides[1] >= sides[0] ? THIN_ROWS : THIN_COLUMNS;
 }
 
-// Adds the probes of the pixels of search->runs from `first` to `end` - 1.
+static void transpose(ThinDrawing drawing)
+{
+    for (uint32_t line = 0; line < REFINE_GRID; line++)
+        for (uint32_t place = 0; place < line; place++) {
+            const uint8_t state = drawing[line][place];
+            drawing[line][place] = drawing[place][line];
+            drawing[place][line] = state;
+        }
+}
+
+// Adds the probes of the pixels whose first pairs are the pairs from `first` to `end` - 1. A pixel
+// keeps the axis that an earlier piece has chosen.
 static void probe_pixels(void *context, uint32_t first, uint32_t end)
 {
     ThinSearch *search = context;
-    TaskList *list = &search->lists[first / RUNS_OF_TASK];
-    const uint32_t width = search->parts->width;
-    for (; first < end; first++) {
-        PixelRun *run = &search->runs.data[first];
-        const uint32_t pixel = search->pairs.data[run->first].pixel;
-        const CellGrid grid = {
-            1,
-            1,
-            {REFINE_GRID, REFINE_GRID},
-            {(double)(pixel % width) * REFINE_GRID, (double)(pixel / width) * REFINE_GRID}};
+    TaskList *list = &search->lists[first / PAIRS_OF_TASK];
+    const PixelTriangle *pairs = search->pairs.data;
+    for (uint32_t i = first; i < end; i++) {
+        uint8_t *axis = &search->parts->axes[pairs[i].pixel];
+        uint32_t count = 1;
+        if (i > 0 && pairs[i - 1].pixel == pairs[i].pixel)
+            continue;
+        while (i + count < search->pairs.count && pairs[i + count].pixel == pairs[i].pixel)
+            count++;
         ThinDrawing drawing = {{PLACE_EMPTY}};
-        run->axis = axis_of(search, run);
-        draw_triangles(search, run, grid, drawing);
-        if (!thin_drawing_probe(drawing, pixel, search->levels, &list->probes, &list->error))
+        const ThinAxis crossed = draw_triangles(search, &pairs[i], count, drawing);
+        if (*axis == THIN_TOUCHED)
+            *axis = (uint8_t)crossed;
+        if (*axis == THIN_COLUMNS)
+            transpose(drawing);
+        if (!thin_drawing_probe(drawing, pairs[i].pixel, search->levels, &list->probes,
+                                &list->error))
             return;
     }
 }
@@ -284,22 +238,19 @@ static void probe_pixels(void *context, uint32_t first, uint32_t end)
 static bool search_piece(ThinSearch *search, uint32_t end, Error *error)
 {
     ThinParts *parts = search->parts;
-    search->count = end - search->first;
+    const uint32_t count = end - search->first;
     search->number++;
     search->met = 0;
     search->pairs.count = 0;
-    search->runs.count = 0;
     search->levels = thin_parts_affordable(parts);
-    thread_pool_share(search->source->pool, search->count, TRIANGLES_OF_TASK, cover_pixels, search);
-    bool ok = collect(search, search->count, TRIANGLES_OF_TASK, list_all_touched, error);
-    if (ok && search->source->has_probes && search->met <= most_pairs(parts))
-        ok = find_runs(search, error) &&
-             collect(search, (uint32_t)search->runs.count, RUNS_OF_TASK, probe_pixels, error);
-    for (size_t i = 0; ok && i < search->runs.count; i++)
-        thin_parts_touch(parts, search->pairs.data[search->runs.data[i].first].pixel,
-                         search->runs.data[i].axis);
+    thread_pool_share(search->source->pool, count, TRIANGLES_OF_TASK, cover_pixels, search);
+    bool ok = collect(search, count, TRIANGLES_OF_TASK, list_all_touched, error);
     for (size_t i = 0; ok && i < search->pairs.count; i++)
-        thin_parts_touch(parts, search->pairs.data[i].pixel, THIN_ROWS);
+        thin_parts_touch(parts, search->pairs.data[i].pixel, THIN_TOUCHED);
+    if (ok && search->met <= search->most && search->pairs.count > 0) {
+        qsort(search->pairs.data, search->pairs.count, sizeof *search->pairs.data, compare_pixels);
+        ok = collect(search, (uint32_t)search->pairs.count, PAIRS_OF_TASK, probe_pixels, error);
+    }
     search->first = end;
     return ok;
 }
@@ -324,6 +275,8 @@ bool thin_triangles_find(ThinParts *parts, const ThinSource *source, Error *erro
                          .source = source,
                          .projection = projection_of(source->frame, source->normalization)};
     const size_t pixels = (size_t)parts->width * parts->height;
+    const uint64_t most = PAIRS_OF_PIXEL * (uint64_t)pixels;
+    search.most = source->has_probes ? (most > PAIRS_MOST ? most : PAIRS_MOST) : 0;
     if (source->scene->objects.count == 0)
         return true;
     search.covered = memory_zeroed(pixels, sizeof *search.covered, error);
@@ -334,6 +287,5 @@ bool thin_triangles_find(ThinParts *parts, const ThinSource *source, Error *erro
     free(search.covered);
     free(search.touched);
     free(search.pairs.data);
-    free(search.runs.data);
     return ok;
 }

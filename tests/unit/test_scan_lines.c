@@ -50,13 +50,13 @@ static uint32_t close_gaps(ScanLines *scan, Shape *shape, uint32_t number)
 }
 
 // Returns the lines of one pixel with these probes.
-static ScanLines lines_of(const Probe *probes, size_t count)
+static ScanLines lines_of(const Probe *probes, uint32_t count)
 {
     Error error;
-    ScanLines scan = {.threshold = 1e-4f, .doubt = 1, .bend = 1e-3f};
-    const RefinedPixel pixel = {.least = 1};
+    ScanLines scan = {.probes = probes, .threshold = 1e-4f, .doubt = 1, .bend = 1e-3f};
+    const RefinedPixel pixel = {.end = count, .least = 1};
     assert_true(scan_lines_make(&scan, &error));
-    assert_true(scan_lines_add(&scan, &pixel, probes, count, &error));
+    assert_true(scan_lines_add(&scan, &pixel, &error));
     return scan;
 }
 
