@@ -477,9 +477,13 @@ typedef struct {
 // triangles is in [1, 2), and rounds coordinates to float. Without triangles, the box contains the
 // spheres. If an origin has a coordinate above 4 in magnitude, the origin first moves along the ray
 // toward the box. In scenes with spheres, the limit is about 4 times the scene's largest
-// coordinate, but at least 4. In traced coordinates, a hit's distance is off by at most 18 * 2^-24
-// times the distance from the origin to the triangle's farthest corner. Both distances are measured
-// along the axis of the direction's largest component.
+// coordinate, but at least 4.
+//
+// In traced coordinates, let r be the distance from the origin to the triangle's farthest corner.
+// Rounding moves each corner by at most 6 * 2^-24 r per axis. The distance to the moved triangle is
+// off by at most 18 * 2^-24 r, measured along the axis of the direction's largest component. The
+// hit point is therefore close to the stored triangle. However, if the ray is almost parallel to
+// the triangle, the hit's distance can be off by up to the triangle's length along the ray.
 //
 // If a ray's `certain` is 1, exact arithmetic finds the same primitive or no hit, both for the
 // caller's ray in doubles and for the traced ray in floats. Rays through edges, and rays with hits
