@@ -145,12 +145,6 @@ static bool no_match(const DeviceList *list, const char *spec, Error *error)
     return error_set(error, "no device matches '%s'; the devices are:\n%s", spec, text);
 }
 
-static bool open_pool(Device *device, Error *error)
-{
-    device->pool = host_pool_make(device->context, device->queue, error);
-    return device->pool != NULL;
-}
-
 bool device_open(Device *device, const char *spec, Error *error)
 {
     DeviceList list;
@@ -166,7 +160,9 @@ bool device_open(Device *device, const char *spec, Error *error)
     if (!cl_succeeded(status, "create an OpenCL context", error))
         return false;
     device->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
-    if (cl_succeeded(status, "create an OpenCL queue", error) && open_pool(device, error))
+    if (cl_succeeded(status, "create an OpenCL queue", error))
+        device->pool = host_pool_make(device->context, device->queue, error);
+    if (device->pool != NULL)
         return true;
     device_close(device);
     return false;

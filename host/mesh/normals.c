@@ -30,7 +30,9 @@ static const double ends[ANGLE_WINDOWS] = {
     0.70710678118654752, 0.64278760968653933, 0.57357643635104610, 0.50000000000000000,
     0.42261826174069944, 0.34202014332566873, 0.25881904510252076};
 
-void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b)
+// Adds an edge between two triangles with the normals `a` and `b`, of length 1, or zero for
+// slivers.
+static void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b)
 {
     int window = 0;
     while (window < ANGLE_WINDOWS && vec3_dot(a, b) <= ends[window])

@@ -37,10 +37,6 @@ typedef struct {
     size_t windows[ANGLE_WINDOWS];
 } EdgeAngles;
 
-// Adds an edge between two triangles with the normals `a` and `b`, of length 1, or zero for
-// slivers.
-void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b);
-
 // Adds all edges of the mesh that have two triangles.
 bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error);
 

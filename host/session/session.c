@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-static bool open_device(Session *session, Error *error)
+bool session_open(Session *session, Error *error)
 {
     const SessionSettings *settings = &session->settings;
     const double start = clock_seconds();
@@ -30,7 +30,7 @@ static bool open_device(Session *session, Error *error)
 static void *run_thread(void *context)
 {
     Session *session = context;
-    open_device(session, &session->error);
+    session_open(session, &session->error);
     return NULL;
 }
 
@@ -39,11 +39,6 @@ void session_begin(Session *session)
     session->is_running = device_thread_start(&session->thread, run_thread, session);
     if (!session->is_running) // fall back to the caller's thread
         run_thread(session);
-}
-
-bool session_open(Session *session, Error *error)
-{
-    return open_device(session, error);
 }
 
 // Returns whether the settings leave the choice of kernels to the session.
@@ -63,7 +58,7 @@ static bool is_compiled(const Session *session, const KernelEntry *entry, Kernel
 
 // Pair kernels compile faster than packets, but trace more slowly. If packets are not in the cache,
 // pair kernels draw small pictures of small scenes if this saves time in total. With a
-// kernel_folder, the choice of open_device remains.
+// kernel_folder, the choice of session_open remains.
 static void choose_quick_kernels(Session *session, const SessionWork *work)
 {
     const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP32};

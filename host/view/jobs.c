@@ -252,7 +252,7 @@ static void publish(Worker *worker, Model *model, bool has_tree)
 void jobs_load(Worker *worker, const Job *job)
 {
     Error scene_failure = {0}, failure = {0};
-    const uint32_t threads = threads_allowed(worker->setup.session.wanted.threads);
+    const uint32_t threads = worker->setup.session.wanted.threads;
     const bool is_first = worker->model == NULL;
     report_busy(worker, "reading the scene");
     Model *model = model_load(job->request.path, &job->request.load, threads, &scene_failure);
