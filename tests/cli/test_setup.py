@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Tests tools/setup, tools/render and tools/test. Stubs replace apt-get, dpkg-query, sudo, id, cmake
-# and ctest. Usage: test_setup.py
+# and ctest. Also tests that tools without arguments or packages print one sentence. Usage: test_setup.py
 import os
 import pathlib
 import pty
@@ -188,6 +188,13 @@ class Setup(unittest.TestCase):
             self.assertRegex(told, r"(?m)^three: skipped: no Slurm\r?$")
             self.assertNotIn("OK (", told)
             self.assertEqual("build: done in " in told, run == self.run_tool)  # the second run has no work
+
+
+class OtherTools(unittest.TestCase):
+    def test_tools_without_arguments_or_packages_print_one_sentence(self):
+        for words in ["tools/balance"], ["python3", "-I", "-S", "tools/bench_rays"]:
+            done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
 
 
 if __name__ == "__main__":
