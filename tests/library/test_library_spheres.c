@@ -107,7 +107,7 @@ TEST(a_tree_over_spheres_changes_no_hit)
     };
     random_state = (uint64_t)time(NULL);
     printf("seed %llu\n", (unsigned long long)random_state);
-    for (int round = 0; round < 4; round++) {
+    for (int round = 0; round < 2; round++) {
         ClrtScene *scene = make_scene();
         for (int i = 0; i < RAYS; i++)
             aim(origins[i], directions[i]);
