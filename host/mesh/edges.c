@@ -4,8 +4,8 @@
 // sorted. The average bucket has about six sides. Fans are joined by union-find.
 #include "mesh/edges.h"
 
-#include "base/array.h"
 #include "base/thread_pool.h"
+#include "base/union_find.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -205,23 +205,8 @@ bool edges_next(const Edges *edges, Edge *edge)
 
 bool fans_make(Fans *fans, const Mesh *mesh, const Edges *edges, Error *error)
 {
-    const size_t corners = 3 * mesh->triangle_count;
-    *fans = (Fans){mesh, &edges->weld, NULL};
-    fans->parents = memory_raw(corners, sizeof *fans->parents, error);
-    for (uint32_t corner = 0; fans->parents != NULL && corner < corners; corner++)
-        fans->parents[corner] = corner;
+    *fans = (Fans){mesh, &edges->weld, sets_make(3 * mesh->triangle_count, error)};
     return fans->parents != NULL;
-}
-
-// Returns the lowest corner of the fan that contains `corner`.
-static uint32_t fans_root(const Fans *fans, uint32_t corner)
-{
-    uint32_t *parents = fans->parents;
-    while (parents[corner] != corner) {
-        parents[corner] = parents[parents[corner]];
-        corner = parents[corner];
-    }
-    return corner;
 }
 
 static uint32_t corner_at(const Fans *fans, uint32_t triangle, uint32_t point)
@@ -235,11 +220,7 @@ static uint32_t corner_at(const Fans *fans, uint32_t triangle, uint32_t point)
 
 void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t other)
 {
-    const uint32_t a = fans_root(fans, corner_at(fans, triangle, point));
-    const uint32_t b = fans_root(fans, corner_at(fans, other, point));
-    // The lower root becomes the root of both fans, so a root is always the lowest corner of its
-    // fan.
-    fans->parents[a > b ? a : b] = a > b ? b : a;
+    sets_join(fans->parents, corner_at(fans, triangle, point), corner_at(fans, other, point));
 }
 
 // Parents are lower than their children, so the loop numbers the parents first.

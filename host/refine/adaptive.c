@@ -156,8 +156,7 @@ static bool open_line(Adaptive *adaptive, const SampleData *data, float most, ui
 {
     const ScanLine line = adaptive->lines.lines.data[adaptive->lines.opened];
     RefinedPixel *pixel = &adaptive->lines.pixels.data[line.pixel];
-    const uint32_t place = pixel->pixel, first = pixel->has_columns ? SIDE_ABOVE : SIDE_LEFT;
-    const uint32_t across = SIDE_ABOVE - first;
+    const uint32_t place = pixel->pixel, turn = pixel->has_columns ? SIDE_ABOVE : 0;
     LineSample samples[REFINE_GRID];
     const uint32_t all = first_places(adaptive, &line, samples);
     *count = 0;
@@ -165,14 +164,13 @@ static bool open_line(Adaptive *adaptive, const SampleData *data, float most, ui
         samples[i].data =
             is_center(&line, samples[i].place) ? adaptive->centers[place] : data[(*count)++];
     pixel->samples += *count;
-    bool ok = scan_lines_open(&adaptive->lines, samples, all, error) &&
-              spread(adaptive, place, (Side)first, &samples[0].data, most, error) &&
-              spread(adaptive, place, (Side)(first + 1), &samples[all - 1].data, most, error);
-    for (uint32_t i = 0; ok && i < all; i++) {
-        if (line.middle < line.height)
-            ok = spread(adaptive, place, (Side)across, &samples[i].data, most, error);
-        if (ok && line.middle + line.height >= REFINE_GRID)
-            ok = spread(adaptive, place, (Side)(across + 1), &samples[i].data, most, error);
+    bool ok = scan_lines_open(&adaptive->lines, samples, all, error);
+    for (uint32_t i = 0; i < all; i++) {
+        const bool is_beside[] = {i == 0, i + 1 == all, line.middle < line.height,
+                                  line.middle + line.height >= REFINE_GRID};
+        for (uint32_t side = 0; ok && side < 4; side++)
+            if (is_beside[side])
+                ok = spread(adaptive, place, (Side)(side ^ turn), &samples[i].data, most, error);
     }
     return ok;
 }
@@ -219,9 +217,7 @@ static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel,
     float color[3];
     if (refined->lines != 0 && refined->has_columns == pixel->has_columns) {
         for (uint32_t i = refined->lines; i != 0; i = lines->lines.data[i].next)
-            if (i < lines->opened &&
-                (nearest == 0 ||
-                 (lines->lines.data[i].middle > lines->lines.data[nearest].middle) == (shift < 0)))
+            if (i < lines->opened && (nearest == 0 || shift < 0))
                 nearest = i;
         mean = scan_line_mean(&lines->lines.data[nearest]);
     } else {

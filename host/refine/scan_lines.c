@@ -45,17 +45,25 @@ static void band_heights(const ScanLines *scan, const RefinedPixel *pixel,
         }
 }
 
+// Adds a line to the pixel's lines, which are in the order of their middles. The unused first
+// element of scan->lines starts the list while it changes.
 static bool add_line(ScanLines *scan, uint32_t number, uint32_t middle, uint32_t height,
                      Error *error)
 {
     RefinedPixel *pixel = &scan->pixels.data[number];
-    const ScanLine line = {.pixel = number,
-                           .next = pixel->lines,
-                           .middle = (uint8_t)middle,
-                           .height = (uint8_t)height};
+    ScanLine *all = scan->lines.data;
+    uint32_t before = 0;
     if (scan->lines.count >= UINT32_MAX / 8)
         return error_set(error, "the picture is refined into too many lines");
-    pixel->lines = (uint32_t)scan->lines.count;
+    all->next = pixel->lines;
+    while (all[before].next != 0 && all[all[before].next].middle < middle)
+        before = all[before].next;
+    const ScanLine line = {.pixel = number,
+                           .next = all[before].next,
+                           .middle = (uint8_t)middle,
+                           .height = (uint8_t)height};
+    all[before].next = (uint32_t)scan->lines.count;
+    pixel->lines = all->next;
     return array_push(&scan->lines, line, error);
 }
 
@@ -205,20 +213,6 @@ static double bend_at(const LineMean *mean)
     return bend;
 }
 
-// Stores the indices of a pixel's lines in the order of their middles. Returns their number.
-static uint32_t sorted_lines(const ScanLines *scan, uint32_t number, uint32_t lines[REFINE_GRID])
-{
-    const ScanLine *all = scan->lines.data;
-    uint32_t count = 0;
-    for (uint32_t i = scan->pixels.data[number].lines; i != 0; i = all[i].next) {
-        uint32_t place = count++;
-        for (; place > 0 && all[lines[place - 1]].middle > all[i].middle; place--)
-            lines[place] = lines[place - 1];
-        lines[place] = i;
-    }
-    return count;
-}
-
 // Divides a line's band into three.
 static bool divide_line(ScanLines *scan, uint32_t index, Error *error)
 {
@@ -231,15 +225,16 @@ static bool divide_line(ScanLines *scan, uint32_t index, Error *error)
 
 bool scan_lines_divide(ScanLines *scan, uint32_t number, const LineMean beyond[2], Error *error)
 {
-    uint32_t lines[REFINE_GRID];
+    uint32_t lines[REFINE_GRID], count = 0;
     LineMean means[REFINE_GRID + 2];
     double bends[REFINE_GRID + 2] = {0};
-    const uint32_t count = sorted_lines(scan, number, lines);
     bool ok = true;
+    for (uint32_t i = scan->pixels.data[number].lines; i != 0; i = scan->lines.data[i].next) {
+        lines[count] = i;
+        means[++count] = scan_line_mean(&scan->lines.data[i]);
+    }
     means[0] = beyond[0];
     means[count + 1] = beyond[1];
-    for (uint32_t i = 0; i < count; i++)
-        means[i + 1] = scan_line_mean(&scan->lines.data[lines[i]]);
     for (uint32_t i = 1; i <= count; i++)
         bends[i] = bend_at(&means[i]);
     for (uint32_t i = 0; ok && i < count; i++) {

@@ -25,7 +25,7 @@
 typedef struct {
     uint64_t sum[3];        // of colors in steps of 2^-32, times half places
     uint32_t pixel;         // index in ScanLines::pixels
-    uint32_t next;          // the pixel's next line; 0 at the end
+    uint32_t next;          // the pixel's next line, with a larger middle; 0 at the end
     uint8_t middle, height; // of the line's band, in places
 } ScanLine;
 
