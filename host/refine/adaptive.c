@@ -11,12 +11,8 @@
 // Gaps are bisected until their error is at most GAP_PART of the threshold. The fraction is small,
 // because bisecting a gap takes one sample, but a new line takes at least three. Bands are divided
 // if the bend of the lines' mean colors causes an error of more than BEND_PART of the threshold.
-// New gaps between equal samples are bisected if their error, computed with the largest contrast of
-// the line, exceeds DOUBT_PART of the threshold. Without these samples, thin strips and tiles had
-// 1.04 to 1.5 times the error at a threshold of 0.01.
-#define GAP_PART   0.13f
-#define BEND_PART  0.17f
-#define DOUBT_PART 1.5f
+#define GAP_PART  0.145f
+#define BEND_PART 0.17f
 
 // The gaps of a line of level 0, which has samples at its middle and at its ends. Lines of deeper
 // levels have twice as many gaps.
@@ -62,8 +58,6 @@ static bool add_pixel(Adaptive *adaptive, uint32_t pixel, Error *error)
                                   .probes = (uint32_t)first,
                                   .end = (uint32_t)end,
                                   .samples = 1,
-                                  .least =
-                                      (uint8_t)band_height(end > first ? 1 : REFINE_LEVELS - 1),
                                   .has_columns = has_columns(adaptive, pixel)};
     adaptive->refined[pixel] = (uint32_t)adaptive->lines.pixels.count;
     return scan_lines_add(&adaptive->lines, &refined, error);
@@ -138,21 +132,20 @@ static bool list_places(const Adaptive *adaptive, PlaceList *places, Error *erro
 }
 
 // Adds the pixel's neighbor on a side, unless the neighbor is refined already or its center differs
-// from the sample by at most `most`.
+// from the sample by at most adaptive->most.
 static bool spread(Adaptive *adaptive, uint32_t pixel, Side side, const SampleData *sample,
-                   float most, Error *error)
+                   Error *error)
 {
     const uint32_t neighbor = neighbor_of(adaptive, pixel, side);
     if (adaptive->refined[neighbor] != 0 ||
-        !(sample_difference(sample, &adaptive->centers[neighbor]) > most))
+        !(sample_difference(sample, &adaptive->centers[neighbor]) > adaptive->most))
         return true;
     return add_pixel(adaptive, neighbor, error);
 }
 
 // Opens the first line that has no samples yet. Takes the line's samples from `data`, and stores
 // the number of these samples in *count.
-static bool open_line(Adaptive *adaptive, const SampleData *data, float most, uint32_t *count,
-                      Error *error)
+static bool open_line(Adaptive *adaptive, const SampleData *data, uint32_t *count, Error *error)
 {
     const ScanLine line = adaptive->lines.lines.data[adaptive->lines.opened];
     RefinedPixel *pixel = &adaptive->lines.pixels.data[line.pixel];
@@ -170,14 +163,14 @@ static bool open_line(Adaptive *adaptive, const SampleData *data, float most, ui
                                   line.middle + line.height >= REFINE_GRID};
         for (uint32_t side = 0; ok && side < 4; side++)
             if (is_beside[side])
-                ok = spread(adaptive, place, (Side)(side ^ turn), &samples[i].data, most, error);
+                ok = spread(adaptive, place, (Side)(side ^ turn), &samples[i].data, error);
     }
     return ok;
 }
 
 // Traces the samples of open gaps and new lines. If the observer stops the pass, drops all samples
 // of the pass.
-static bool trace_pass(Adaptive *adaptive, PlaceList *places, float most, Error *error)
+static bool trace_pass(Adaptive *adaptive, PlaceList *places, Error *error)
 {
     ScanLines *lines = &adaptive->lines;
     const size_t end = lines->lines.count;
@@ -195,7 +188,7 @@ static bool trace_pass(Adaptive *adaptive, PlaceList *places, float most, Error 
         ok = scan_lines_split_gaps(lines, samples, error);
         while (ok && lines->opened < end) {
             uint32_t taken;
-            ok = open_line(adaptive, next, most, &taken, error);
+            ok = open_line(adaptive, next, &taken, error);
             next += taken;
         }
     }
@@ -251,15 +244,10 @@ static bool divide(Adaptive *adaptive, uint32_t *first, Error *error)
 
 #define ROWS_OF_TASK 16
 
-// The work of threads on rows of pixels.
-typedef struct {
-    Adaptive *adaptive;
-    float most; // largest color difference between pixels that are not refined
-} RowWork;
-
 // Returns whether a pixel differs from a neighbor.
-static bool has_contrast(const Adaptive *adaptive, uint32_t x, uint32_t y, float most)
+static bool has_contrast(const Adaptive *adaptive, uint32_t x, uint32_t y)
 {
+    const float most = adaptive->most;
     const uint32_t width = adaptive->frame.width, height = adaptive->frame.height;
     const SampleData *center = &adaptive->centers[y * width + x];
     return (x > 0 && sample_difference(center, center - 1) > most) ||
@@ -272,13 +260,12 @@ static bool has_contrast(const Adaptive *adaptive, uint32_t x, uint32_t y, float
 // touches.
 static void mark_rows(void *context, uint32_t first, uint32_t end)
 {
-    const RowWork *work = context;
-    Adaptive *adaptive = work->adaptive;
+    Adaptive *adaptive = context;
     uint32_t pixel = first * adaptive->frame.width;
     for (uint32_t y = first; y < end; y++)
         for (uint32_t x = 0; x < adaptive->frame.width; x++, pixel++)
-            adaptive->refined[pixel] = adaptive->thin_parts.axes[pixel] != THIN_NONE ||
-                                       has_contrast(adaptive, x, y, work->most);
+            adaptive->refined[pixel] =
+                adaptive->thin_parts.axes[pixel] != THIN_NONE || has_contrast(adaptive, x, y);
 }
 
 // The side of the blocks in which pixels are refined.
@@ -298,30 +285,47 @@ static bool add_marked(Adaptive *adaptive, Error *error)
     return true;
 }
 
+// Stores the present colors of pixels in the setup's picture.
+static void store_rows(void *context, uint32_t first, uint32_t end)
+{
+    const Adaptive *adaptive = context;
+    const uint32_t width = adaptive->frame.width;
+    for (uint32_t pixel = first * width; pixel < end * width; pixel++) {
+        const uint32_t number = adaptive->refined[pixel];
+        float *color = adaptive->setup.picture->pixels[pixel];
+        if (number == 0 ||
+            !scan_lines_color(&adaptive->lines, &adaptive->lines.pixels.data[number], color))
+            memcpy(color, adaptive->centers[pixel].color, 3 * sizeof *color);
+    }
+}
+
 bool adaptive_refine(Adaptive *adaptive, float threshold, Error *error)
 {
     // Differences of whole pixels count twice, because different surfaces may have similar colors
     // by chance.
-    RowWork work = {.adaptive = adaptive, .most = threshold / 2};
+    adaptive->most = threshold / 2;
     ScanLines *lines = &adaptive->lines;
+    ThreadPool *pool = adaptive->setup.pool;
+    const uint32_t height = adaptive->frame.height;
     PlaceList places = {0};
     uint32_t divided = 1;
-    if (!sampler_is_whole(adaptive->setup.renderer))
-        return true;
     lines->probes = adaptive->thin_parts.probes.data;
     lines->threshold = GAP_PART * threshold;
     lines->bend = BEND_PART * threshold;
-    lines->doubt = DOUBT_PART * threshold;
-    thread_pool_share(adaptive->setup.pool, adaptive->frame.height, ROWS_OF_TASK, mark_rows, &work);
+    if (sampler_is_whole(adaptive->setup.renderer))
+        thread_pool_share(pool, height, ROWS_OF_TASK, mark_rows, adaptive);
     bool ok = add_marked(adaptive, error);
     while (ok && sampler_is_whole(adaptive->setup.renderer)) {
         if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
             ok = divide(adaptive, &divided, error);
         if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
             break;
-        ok = ok && trace_pass(adaptive, &places, work.most, error);
+        ok = ok && trace_pass(adaptive, &places, error);
     }
     free(places.data);
+    scan_lines_close_gaps(lines);
+    if (ok)
+        thread_pool_share(pool, height, ROWS_OF_TASK, store_rows, adaptive);
     return ok;
 }
 
@@ -349,28 +353,6 @@ bool adaptive_open(Adaptive *adaptive, const RefineSetup *setup, Error *error)
     if (!ok)
         adaptive_close(adaptive);
     return ok;
-}
-
-static void store_rows(void *context, uint32_t first, uint32_t end)
-{
-    const RowWork *work = context;
-    const Adaptive *adaptive = work->adaptive;
-    const uint32_t width = adaptive->frame.width;
-    for (uint32_t pixel = first * width; pixel < end * width; pixel++) {
-        const uint32_t number = adaptive->refined[pixel];
-        float *color = adaptive->setup.picture->pixels[pixel];
-        if (number == 0 ||
-            !scan_lines_color(&adaptive->lines, &adaptive->lines.pixels.data[number], color))
-            memcpy(color, adaptive->centers[pixel].color, 3 * sizeof *color);
-    }
-}
-
-void adaptive_store(Adaptive *adaptive)
-{
-    RowWork work = {.adaptive = adaptive};
-    scan_lines_close_gaps(&adaptive->lines);
-    thread_pool_share(adaptive->setup.pool, adaptive->frame.height, ROWS_OF_TASK, store_rows,
-                      &work);
 }
 
 uint32_t adaptive_pixel_samples(const Adaptive *adaptive, size_t pixel)

@@ -27,6 +27,7 @@ typedef struct {
     uint32_t *refined;   // by pixel: index in lines.pixels; 0 if the pixel has one sample
     ThinParts thin_parts;
     ScanLines lines;
+    float most;       // largest color difference between pixels that are not refined
     uint64_t samples; // taken so far
 } Adaptive;
 
@@ -34,11 +35,9 @@ typedef struct {
 bool adaptive_open(Adaptive *adaptive, const RefineSetup *setup, Error *error);
 
 // Refines pixels whose contrast exceeds `threshold`, and pixels with thin parts. Stops when the
-// observer returns false. The caller may call this function only once.
+// observer returns false. Then stores the colors of all pixels in the setup's picture. The caller
+// may call this function only once.
 bool adaptive_refine(Adaptive *adaptive, float threshold, Error *error);
-
-// Stores the present colors of all pixels in the setup's picture.
-void adaptive_store(Adaptive *adaptive);
 
 // Returns the number of samples taken in a pixel.
 uint32_t adaptive_pixel_samples(const Adaptive *adaptive, size_t pixel);

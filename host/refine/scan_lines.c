@@ -7,10 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-// If one half of a gap has more than this fraction of the gap's color change, the change is abrupt.
-// In a smooth gradient, both halves have about half of the change.
-#define STEP_PART 0.7f
-
 #define GRID_AREA ((float)(REFINE_GRID * REFINE_GRID))
 
 bool scan_lines_make(ScanLines *scan, Error *error)
@@ -95,40 +91,29 @@ static void close_gap(ScanLines *scan, const Gap *gap)
         add_color(&scan->lines.data[gap->line], &gap->ends[end], gap->to - gap->from);
 }
 
-// Returns the pixel's error if a color that differs by `contrast` fills the gap. If several lines
-// divide a band, their errors are independent, so the squares of their errors add up. The results
-// are therefore increased: together, these lines count as much as one line in the whole band.
-static float gap_error(const ScanLines *scan, const Gap *gap, float contrast)
+// Returns the error of the pixel's color if the change between the gap's ends may be anywhere in
+// the gap. If several lines divide a band, their errors are independent, so the squares of their
+// errors add up. The results are therefore increased: together, these lines count as much as one
+// line in the whole band.
+static float gap_error(const ScanLines *scan, const Gap *gap)
 {
     const float height = (float)(scan->lines.data[gap->line].height * band_height(0));
-    return contrast * (float)(gap->to - gap->from) * sqrtf(height) / GRID_AREA;
+    return sample_difference(&gap->ends[0], &gap->ends[1]) * (float)(gap->to - gap->from) *
+           sqrtf(height) / GRID_AREA;
 }
 
-// Keeps the gap open if its error is large, and if the color change is abrupt or the ends have
-// different signatures. Otherwise, closes the gap.
-static bool keep_gap(ScanLines *scan, const Gap *gap, bool is_abrupt, Error *error)
+// Keeps the gap open if its error is large. Otherwise, closes the gap.
+static bool keep_gap(ScanLines *scan, const Gap *gap, Error *error)
 {
-    const float contrast = sample_difference(&gap->ends[0], &gap->ends[1]);
-    if (gap->to - gap->from > 1 && gap_error(scan, gap, contrast) > scan->threshold &&
-        (is_abrupt || gap->ends[0].signature != gap->ends[1].signature))
+    if (gap->to - gap->from > 1 && gap_error(scan, gap) > scan->threshold)
         return array_push(&scan->gaps, *gap, error);
     close_gap(scan, gap);
     return true;
 }
 
-// Returns the largest color difference between neighboring samples.
-static float line_contrast(const LineSample *samples, uint32_t count)
-{
-    float most = 0;
-    for (uint32_t i = 0; i + 1 < count; i++)
-        most = fmaxf(most, sample_difference(&samples[i].data, &samples[i + 1].data));
-    return most;
-}
-
 bool scan_lines_open(ScanLines *scan, const LineSample *samples, uint32_t count, Error *error)
 {
     ScanLine *line = &scan->lines.data[scan->opened];
-    const float contrast = line_contrast(samples, count);
     bool ok = true;
     add_color(line, &samples[0].data, 2 * samples[0].place + 1);
     add_color(line, &samples[count - 1].data, 2 * (REFINE_GRID - 1 - samples[count - 1].place) + 1);
@@ -137,8 +122,7 @@ bool scan_lines_open(ScanLines *scan, const LineSample *samples, uint32_t count,
                          .line = scan->opened,
                          .from = (uint8_t)samples[i].place,
                          .to = (uint8_t)samples[i + 1].place};
-        ok = gap_error(scan, &gap, contrast) > scan->doubt ? array_push(&scan->gaps, gap, error)
-                                                           : keep_gap(scan, &gap, true, error);
+        ok = keep_gap(scan, &gap, error);
     }
     scan->opened++;
     return ok;
@@ -149,28 +133,16 @@ uint32_t scan_gap_place(const Gap *gap)
     return (gap->from + gap->to) / 2u;
 }
 
-static bool split_gap(ScanLines *scan, const Gap *gap, const SampleData *sample, Error *error)
-{
-    const float most = STEP_PART * sample_difference(&gap->ends[0], &gap->ends[1]);
-    Gap halves[2] = {*gap, *gap};
-    halves[0].to = halves[1].from = (uint8_t)scan_gap_place(gap);
-    halves[0].ends[1] = halves[1].ends[0] = *sample;
-    for (int half = 0; half < 2; half++) {
-        const SampleData *ends = halves[half].ends;
-        if (!keep_gap(scan, &halves[half], sample_difference(&ends[0], &ends[1]) > most, error))
-            return false;
-    }
-    return true;
-}
-
 bool scan_lines_split_gaps(ScanLines *scan, const SampleData *samples, Error *error)
 {
     const size_t count = scan->gaps.count;
     bool ok = true;
     for (size_t i = 0; ok && i < count; i++) {
-        const Gap gap = scan->gaps.data[i];
-        scan->pixels.data[scan->lines.data[gap.line].pixel].samples++;
-        ok = split_gap(scan, &gap, &samples[i], error);
+        Gap halves[2] = {scan->gaps.data[i], scan->gaps.data[i]};
+        halves[0].to = halves[1].from = (uint8_t)scan_gap_place(&halves[0]);
+        halves[0].ends[1] = halves[1].ends[0] = samples[i];
+        scan->pixels.data[scan->lines.data[halves[0].line].pixel].samples++;
+        ok = keep_gap(scan, &halves[0], error) && keep_gap(scan, &halves[1], error);
     }
     if (ok && count > 0) {
         scan->gaps.count -= count;
@@ -240,8 +212,7 @@ bool scan_lines_divide(ScanLines *scan, uint32_t number, const LineMean beyond[2
     for (uint32_t i = 0; ok && i < count; i++) {
         const uint32_t height = scan->lines.data[lines[i]].height;
         const double bend = larger(larger(bends[i], bends[i + 1]), bends[i + 2]);
-        if (bend * height * height / (8 * REFINE_GRID) > (double)scan->bend &&
-            height / 3 >= scan->pixels.data[number].least)
+        if (bend * height * height / (8 * REFINE_GRID) > (double)scan->bend && height > 1)
             ok = divide_line(scan, lines[i], error);
     }
     return ok;

@@ -7,9 +7,9 @@
 // heights of the lines' bands. Along a straight edge, the sums change linearly from line to line,
 // so three lines suffice.
 //
-// A gap between two samples of a line is open if colors may change abruptly in the gap. Bisection
-// locates the change with one sample for each bit of its position. When a gap is closed, its
-// integral is added to the line's sum, and its samples are dropped.
+// A gap between two samples of a line is open if their colors differ too much for the gap's length.
+// Bisection locates an abrupt change with one sample for each bit of its position. When a gap is
+// closed, its integral is added to the line's sum, and its samples are dropped.
 //
 // Invariant: a pixel's color is a sum of integers. Its bits depend on which samples exist, and not
 // on the order in which the samples were taken.
@@ -29,7 +29,7 @@ typedef struct {
     uint8_t middle, height; // of the line's band, in places
 } ScanLine;
 
-// Two neighboring samples of a line, between which colors may change abruptly.
+// Two neighboring samples of a line.
 typedef struct {
     SampleData ends[2];
     uint32_t line;
@@ -41,16 +41,13 @@ typedef struct {
     uint32_t lines;       // the first line
     uint32_t probes, end; // indices of the first probe and behind the last one
     uint32_t samples;     // taken in the pixel
-    uint8_t least;        // bands of this height are not divided
     bool has_columns;     // lines are columns
 } RefinedPixel;
 
 typedef struct {
-    const Probe *probes; // of all pixels
-    float threshold;     // largest error of a gap that needs no sample
-    float doubt; // the same for a new gap, whose error is computed from the largest contrast of the
-                 // line
-    float bend;  // largest error of a band that needs no further lines
+    const Probe *probes;        // of all pixels
+    float threshold;            // largest error of a gap that needs no sample
+    float bend;                 // largest error of a band that needs no further lines
     ARRAY(RefinedPixel) pixels; // from index 1
     ARRAY(ScanLine) lines;      // from index 1
     ARRAY(Gap) gaps;            // open

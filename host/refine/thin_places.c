@@ -73,50 +73,31 @@ static bool next_run(const uint8_t line[REFINE_GRID], ProbeRun *run)
     return true;
 }
 
-// Returns whether any place of `line` that is at most `reach` places from the run has this state or
-// a later one.
-static bool is_near(const uint8_t line[REFINE_GRID], const ProbeRun *run, int reach,
-                    PlaceState state)
-{
-    for (int place = run->first > reach ? run->first - reach : 0;
-         place < run->end + reach && place < REFINE_GRID; place++)
-        if (line[place] >= state)
-            return true;
-    return false;
-}
-
-// Returns whether the thin part at the run is much lower than the bands of the level.
-static bool is_low(ThinDrawing drawing, const ProbeRun *run)
-{
-    const uint32_t height = band_height(run->level), reach = height / 3;
-    return height > 1 && !is_near(drawing[run->line - reach], run, (int)reach, PLACE_DRAWN) &&
-           !is_near(drawing[run->line + reach], run, (int)reach, PLACE_DRAWN);
-}
-
 // Returns whether the lines of the previous level beside the run have probed places. These places
 // are at most as far to the side as the lines are from the run.
 static bool is_probed(ThinDrawing drawing, const ProbeRun *run)
 {
     const int height = run->level > 0 ? (int)band_height(run->level - 1) : REFINE_GRID;
     for (int line = height / 2; run->level > 0 && line < REFINE_GRID; line += height) {
-        const int distance = abs(line - (int)run->line);
-        if (distance < height && is_near(drawing[line], run, distance, PLACE_PROBED))
+        const int reach = abs(line - (int)run->line);
+        const int first = run->first > reach ? run->first - reach : 0;
+        const int end = run->end + reach < REFINE_GRID ? run->end + reach : REFINE_GRID;
+        if (reach < height &&
+            memchr(&drawing[line][first], PLACE_PROBED, (size_t)(end - first)) != NULL)
             return true;
     }
     return false;
 }
 
-// Adds the probes of each drawn run of a line, with two exceptions. Low runs remain for the next
-// level. Runs near probed ones have no probes of the level, but on lines of level 1 they have
-// probes of level 0. These probes are used only if the pixel gets lines of level 1.
+// Adds the probes of each drawn run of a line. Runs near probed ones have no probes of the level,
+// but on lines of level 1 they have probes of level 0. These probes are used only if the pixel gets
+// lines of level 1.
 static bool probe_line(ThinDrawing drawing, ProbeRun run, ProbeList *probes, Error *error)
 {
     const uint32_t level = run.level;
     while (next_run(drawing[run.line], &run)) {
         run.level = level;
         const bool is_old = is_probed(drawing, &run);
-        if (!is_old && is_low(drawing, &run))
-            continue;
         run.level = is_old ? 0 : level;
         if ((!is_old || level == 1) && !probe_list_add(probes, &run, error))
             return false;

@@ -152,10 +152,8 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
     bool ok = adaptive_open(&adaptive, &setup, error);
     measure_truncation(drawing, adaptive.samples);
     ok = ok && adaptive_refine(&adaptive, (float)drawing->request->wanted.contrast, error);
-    if (ok) {
-        adaptive_store(&adaptive);
+    if (ok)
         result->feature = adaptive_feature(&adaptive, result->pixels);
-    }
     for (size_t i = 0; ok && result->pixel_samples != NULL && i < result->pixels; i++)
         result->pixel_samples[i] = adaptive_pixel_samples(&adaptive, i);
     result->samples = adaptive.samples;

@@ -11,7 +11,7 @@ typedef float Shape(uint32_t place, uint32_t line, uint32_t number);
 static SampleData sample_of(Shape *shape, uint32_t place, uint32_t line, uint32_t number)
 {
     const float color = shape(place, line, number);
-    return (SampleData){{color, color, color}, (uint32_t)(100 * color)};
+    return (SampleData){.color = {color, color, color}};
 }
 
 // Opens all new lines with samples at both ends, in the middle and at `extra`.
@@ -53,8 +53,8 @@ static uint32_t close_gaps(ScanLines *scan, Shape *shape, uint32_t number)
 static ScanLines lines_of(const Probe *probes, uint32_t count)
 {
     Error error;
-    ScanLines scan = {.probes = probes, .threshold = 1e-4f, .doubt = 1, .bend = 1e-3f};
-    const RefinedPixel pixel = {.end = count, .least = 1};
+    ScanLines scan = {.probes = probes, .threshold = 1e-4f, .bend = 1e-3f};
+    const RefinedPixel pixel = {.end = count};
     assert_true(scan_lines_make(&scan, &error));
     assert_true(scan_lines_add(&scan, &pixel, &error));
     return scan;
@@ -114,30 +114,12 @@ TEST(a_third_surface_in_a_gap_is_found_by_its_middle)
     assert_true(fabs(color_of(&scan) - expected) < 1e-6);
 }
 
-// A stripe between two samples of equal color. The last third is of a third color.
-static float stripe(uint32_t place, uint32_t line, uint32_t number)
-{
-    (void)line;
-    return place > 60 ? 1 : place >= number && place < number + 8 ? 0.75f : 0.25f;
-}
-
-TEST(gaps_between_equal_samples_are_searched_if_there_is_contrast_beside_them)
-{
-    FREED_BY(scan_lines_free) ScanLines scan = lines_of(NULL, 0);
-    scan.doubt = 0.05f;
-    open_lines(&scan, stripe, 16, 0);
-    close_gaps(&scan, stripe, 16);
-    const double expected = (0.25 * 53 + 0.75 * 8 + 20) / REFINE_GRID;
-    assert_true(fabs(color_of(&scan) - expected) < 1e-6);
-}
-
 static float gradient(uint32_t place, uint32_t line, uint32_t number)
 {
     (void)line;
     return (float)(place + number) / 200;
 }
 
-// The samples of a gradient have different signatures in this test, as they have at an edge.
 TEST(a_gradient_has_its_exact_color)
 {
     FREED_BY(scan_lines_free) ScanLines scan = lines_of(NULL, 0);
