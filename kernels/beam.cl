@@ -33,6 +33,7 @@ typedef struct {
     uint live[PACKETS];   // bits of the lanes that search
     float reach[PACKETS]; // upper bound on search_reach in the live lanes
     Hit *hits;            // of the packets
+    SpherePairs pairs;    // that wait for their tests
     WideStack stack;
     uint inside[WIDE_STACK_SIZE]; // packets with rays in the parent's box, per child on the stack
 } Beam;
@@ -173,21 +174,18 @@ static NOT_INLINE bool intersect_beam_block(Beam *beam, uint block, uint others,
     return any;
 }
 
-// Tests a block of spheres against the given lanes of the given packets. Returns whether a hit
-// changed.
+// Pairs a block of spheres with the given lanes of the given packets. Returns whether a hit or its
+// bound changed.
 static NOT_INLINE bool intersect_beam_spheres(Beam *beam, uint child, uint packets,
                                               const uint bits[PACKETS])
 {
-    SpherePairs pairs;
     uint any = 0;
-    start_pairs(&pairs, beam->tracer, beam->packets[0].rays.ray, beam->hits);
-    for (uint left = packets; left != 0; left &= left - 1)
-        pair_lanes(&pairs, lowest_bit(left), bits[lowest_bit(left)], child);
-    finish_pairs(&pairs);
     for (; packets != 0; packets &= packets - 1) {
         const uint number = lowest_bit(packets);
-        any |= pairs.changed[number];
-        if (pairs.changed[number] != 0)
+        beam->pairs.changed[number] = 0;
+        pair_lanes(&beam->pairs, number, bits[number], child);
+        any |= beam->pairs.changed[number];
+        if (beam->pairs.changed[number] != 0)
             update_packet(beam, number);
     }
     return any != 0;

@@ -47,7 +47,8 @@ static NOT_INLINE void search_apart(Beam *beam, uint child, uint packets, const 
         shear_packets(beam);
     for (; packets != 0; packets &= packets - 1) {
         const uint number = lowest_bit(packets);
-        intersect_lanes(&beam->packets[number].rays, bits[number], child, &beam->hits[number]);
+        intersect_lanes(&beam->packets[number].rays, bits[number], child, &beam->hits[number],
+                        &beam->pairs);
         update_packet(beam, number);
     }
 }
@@ -223,9 +224,13 @@ static inline void search_tree(Beam *beam, uint root, bool alone)
 // Finds hits on spheres. Triangles beyond these hits then do not count.
 static inline void search_spheres(Beam *beam, bool alone)
 {
+    start_pairs(&beam->pairs, beam->tracer, beam->packets->rays.ray, beam->hits);
     search_tree(beam, beam->tracer->frame->sphere_root, alone);
-    for (uint number = 0; number < beam->count; number++)
+    finish_pairs(&beam->pairs);
+    for (uint number = 0; number < beam->count; number++) {
+        update_packet(beam, number);
         beam->packets[number].rays.limit = beam->hits[number].t;
+    }
 }
 
 // Finds the hits of rays: any hits if ends_at_any_hit returns true, else the nearest hits. If the

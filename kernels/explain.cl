@@ -100,6 +100,18 @@ static inline Real hit_error(const Tracer *tracer, const Ray *ray, const Hit *hi
     return triangle_error(tracer, ray, hit->index);
 }
 
+// Returns the distance to a light's blocker. A search for any hit may store only an upper bound on
+// the distance to a sphere (sphere_blocks.cl).
+static inline Real blocker_distance(const Tracer *tracer, const Ray *ray, const Hit *blocker)
+{
+    const Mask on_sphere = ray->active && blocker->id < tracer->frame->sphere_count;
+    if (CLRT_GLASS || !any_lane(on_sphere))
+        return blocker->t;
+    const Hit hit = hit_everywhere(blocker, on_sphere);
+    const Sphere sphere = fetch_sphere(tracer, hit.index);
+    return exact_sphere_distance(&sphere, ray->origin, ray->direction);
+}
+
 // Records the contribution that shade() computes for a light.
 static inline void note_light(const Notes *notes, const Tracer *tracer, uint index,
                               const Lighting *lighting)
@@ -122,7 +134,8 @@ static inline void note_light(const Notes *notes, const Tracer *tracer, uint ind
     note_count(notes, LIGHT_STATE,
                blocker.id == NOTHING ? (UInt)(LIGHT_SEEN) : (UInt)(LIGHT_BLOCKED));
     note_count(notes, LIGHT_BLOCKER, blocker.id);
-    note(notes, LIGHT_BLOCKER_T, CLRT_GLASS ? 1.0f - beyond : blocker.t);
+    note(notes, LIGHT_BLOCKER_T,
+         CLRT_GLASS ? 1.0f - beyond : blocker_distance(tracer, &ray, &blocker));
     note(notes, LIGHT_DIFFUSE, received.diffuse);
     note(notes, LIGHT_SPECULAR, received.specular);
     note3(notes, LIGHT_TINT, tinted(&path, 0, real3_of(1.0f, 1.0f, 1.0f)));

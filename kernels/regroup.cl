@@ -340,14 +340,17 @@ static inline bool are_coherent(const Ray *rays, const uint *wanted, uint count)
 static inline void search_lanes(const Tracer *tracer, const Ray *ray, uint wanted, Hit *hit)
 {
     Search search = search_along(tracer, ray, hit->t);
+    SpherePairs pairs;
     if (has_sphere_tree(tracer)) {
-        intersect_lanes(&search, wanted, tracer->frame->sphere_root, hit);
+        start_pairs(&pairs, tracer, ray, hit);
+        intersect_lanes(&search, wanted, tracer->frame->sphere_root, hit, &pairs);
+        finish_pairs(&pairs);
         search.limit = hit->t;
         if (ends_at_any_hit(ray->kind))
             wanted &= lane_bits(hit->id == NOTHING);
     }
     if (CLRT_TRIANGLES && tracer->frame->uses_bvh)
-        intersect_lanes(&search, wanted, 0, hit);
+        intersect_lanes(&search, wanted, 0, hit, &pairs);
 }
 
 // Finds the hits of the lanes selected by `wanted`, in `count` packets.

@@ -219,6 +219,7 @@ static inline void prefetch_child(const Tracer *tracer, uint child)
 typedef struct {
     const Search *search;
     Hit *hits;
+    SpherePairs *pairs; // of the packets, if the tree has spheres
     NearPlanes near_planes;
     uint child[CLRT_LANES]; // the next child of each ray
     uint leaves, ended;     // bits of the lanes at a block, and of the lanes whose search has ended
@@ -264,17 +265,16 @@ static inline void visit_nodes(LaneSearches *searches)
     }
 }
 
-// Tests the given lanes' blocks, which must be blocks of spheres. Returns the lanes whose hits
-// changed.
+// Pairs the given lanes with their blocks, which must be blocks of spheres. Returns the lanes whose
+// hits or bounds changed.
 static NOT_INLINE uint visit_spheres(LaneSearches *searches, uint bits)
 {
-    const Search *search = searches->search;
-    SpherePairs pairs;
-    start_pairs(&pairs, search->tracer, search->ray, searches->hits);
+    SpherePairs *pairs = searches->pairs;
+    const uint packet = (uint)(searches->hits - pairs->hits);
+    pairs->changed[packet] = 0;
     for (; bits != 0; bits &= bits - 1)
-        pair_ray(&pairs, 0, lowest_bit(bits), searches->child[lowest_bit(bits)]);
-    finish_pairs(&pairs);
-    return pairs.changed[0];
+        pair_ray(pairs, packet, lowest_bit(bits), searches->child[lowest_bit(bits)]);
+    return pairs->changed[packet];
 }
 
 // Tests the block's triangles against the lane's ray. Returns whether the ray's hit changed.
@@ -309,12 +309,15 @@ static inline void visit_leaves(LaneSearches *searches)
 }
 
 // Searches the subtree `child` with the rays of the lanes whose bits are set. This is a fifth
-// faster than tracing one ray after another.
-static NOT_INLINE void intersect_lanes(const Search *search, uint bits, uint child, Hit *best)
+// faster than tracing one ray after another. If the subtree has spheres, `pairs` must have been
+// started for an array of hits that contains *best.
+static NOT_INLINE void intersect_lanes(const Search *search, uint bits, uint child, Hit *best,
+                                       SpherePairs *pairs)
 {
     LaneSearches searches;
     searches.search = search;
     searches.hits = best;
+    searches.pairs = pairs;
     searches.near_planes = near_planes(&search->slabs.inverse);
     searches.ended = ALL_LANES & ~bits;
     searches.prefetches = exceeds_cache(search->tracer);

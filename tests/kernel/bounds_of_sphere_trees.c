@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measures B21 and B22 of docs/numerics.md. A case is a bounding sphere, a sphere inside it, and a
+// Measures B21 to B23 of docs/numerics.md. A case is a bounding sphere, a sphere inside it, and a
 // ray that often almost touches the bounding sphere.
 #include "kernel/surface_bounds.h"
 
@@ -7,7 +7,7 @@
 #include "unit/random.h"
 
 typedef struct {
-    float passed, away, meets_before, t;
+    float passed, away, meets_before, t, reach;
 } TreeAnswer;
 
 typedef struct {
@@ -23,7 +23,7 @@ typedef struct {
     bool is_hit;
 } ExactChord;
 
-enum { PASSED, AWAY, BEHIND, DISTANCE, OUTSIDE, BOUNDS };
+enum { PASSED, AWAY, BEHIND, DISTANCE, OUTSIDE, REACH, BOUNDS };
 
 static Share shares[BOUNDS] = {
     [PASSED] = {"B21: passed, 27 u sqrt(q), of the gap", 0},
@@ -31,6 +31,7 @@ static Share shares[BOUNDS] = {
     [BEHIND] = {"B21: beyond t, 4000 u (sqrt(q) + t |d|) / |d|", 0},
     [DISTANCE] = {"B21: distance, 64 u (sqrt(q) + t |d|) / |d|", 0},
     [OUTSIDE] = {"B22: hit outside of the sphere, 76 u (B + o)", 0},
+    [REACH] = {"B23: bound of a certain hit, 0.001 r / |d|", 0},
 };
 
 static SurfaceCase cases[CASES];
@@ -168,6 +169,18 @@ static void note_outside(const SurfaceCase *ray, const ExactSphere *sphere, Quad
     share_note(&shares[OUTSIDE], outside, 76 * U * (box + start));
 }
 
+// A bound promises a hit before it.
+static void check_reach(const TreeAnswer *answer, const ExactSphere *sphere,
+                        const ExactChord *chord)
+{
+    if (isinf(answer->reach))
+        return;
+    const Quad radius = sphere->radius / chord->length, foot = (chord->near + chord->far) / 2;
+    assert_true(chord->is_hit && answer->t <= answer->reach);
+    share_note(&shares[REACH], magnitude(answer->reach - foot - (Quad)1.05f * radius),
+               0.001 * radius);
+}
+
 static void check_case(int i)
 {
     const TreeAnswer *answer = &answers[i];
@@ -177,6 +190,7 @@ static void check_case(int i)
     const Quad root = quad_root(squares_of(&cases[i], &bound)), t = cases[i].given[0];
     if (!(inside.radius > 0))
         return;
+    check_reach(answer, &inside, &chord);
     if (answer->passed != 0)
         note_least(PASSED, 27 * U * root, chord.line - inside.radius);
     else if (answer->away != 0)

@@ -121,13 +121,13 @@ kernel void probe_heights(global const float *cases, global const TriangleData *
 
 // A case has seven floats, {origin, direction, t}, padded to nine, and two spheres: a bounding
 // sphere and a sphere inside it. Stores whether the ray's line passes the bounding sphere, whether
-// the ray starts outside of it and leads away, whether the ray may meet it before t, and the
-// distance of the sphere inside.
+// the ray starts outside of it and leads away, and whether the ray may meet it before t. Also
+// stores the distance of the sphere inside, and its bound.
 kernel void probe_sphere_trees(global const float *cases, global const SphereData *spheres,
                                global Scalar *results)
 {
     const uint item = get_global_id(0);
-    global Scalar *values = results + 4 * item;
+    global Scalar *values = results + 5 * item;
     const Real3 o = load3(cases + 9 * item), d = load3(cases + 9 * item + 3);
     const Sphere bound = sphere_at(&spheres[2 * item]), inside = sphere_at(&spheres[2 * item + 1]);
     const Mask away = leads_away(&bound, o, d) && plain_side(&bound, o) > 0;
@@ -135,6 +135,7 @@ kernel void probe_sphere_trees(global const float *cases, global const SphereDat
     values[1] = away ? 1.0f : 0.0f;
     values[2] = may_meet_before(&bound, o, d, cases[9 * item + 6], 1) ? 1.0f : 0.0f;
     values[3] = sphere_distance(&inside, o, d, 1);
+    values[4] = certain_reach(&inside, o, d);
 }
 
 #ifdef CLRT_CERTIFY_CONE_CL
