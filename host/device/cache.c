@@ -133,17 +133,16 @@ static bool write_file(int file, const char *key, const void *bytes, size_t size
            write(file, bytes, size) == (ssize_t)size;
 }
 
-// The temporary file is in the private folder, if there is one, so a killed process leaves nothing
-// but this folder. The private folder is on another disk only if the cache's folder is full or not
-// writable. Renaming then fails, and nothing is stored.
+// The temporary file is in the private folder if that is in the cache's folder, so a killed process
+// leaves nothing but the private folder.
 void cache_write(const Cache *cache, const char *key, const void *bytes, size_t size)
 {
-    const bool is_private = cache->private_folder[0] != '\0';
+    const char *folder = cache->folder;
+    const bool is_inside = strncmp(cache->private_folder, folder, strlen(folder)) == 0;
     char path[BINARY_PATH_SIZE], temporary[BINARY_PATH_SIZE];
-    binary_path(path, cache->folder, key);
-    snprintf(temporary, sizeof temporary, "%s/XXXXXX",
-             is_private ? cache->private_folder : cache->folder);
-    const int file = cache->folder[0] != '\0' ? mkstemp(temporary) : -1;
+    binary_path(path, folder, key);
+    snprintf(temporary, sizeof temporary, "%s/XXXXXX", is_inside ? cache->private_folder : folder);
+    const int file = folder[0] != '\0' ? mkstemp(temporary) : -1;
     if (file < 0)
         return;
     const bool ok = write_file(file, key, bytes, size) && fchmod(file, 0644) == 0;

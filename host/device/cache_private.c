@@ -28,14 +28,18 @@
 #define PREFIX_SIZE  (HOST_NAME_MAX + 8)
 #define PRIVATE_SIZE (CACHE_PATH_SIZE + sizeof LOCK_NAME)
 
-// Returns whether the folder has enough free space; true if the file system does not report it.
-static bool has_room(const char *folder)
+// Returns whether the folder suits PoCL, which writes libraries there and loads them: the file
+// system has enough free space and allows execution. Returns true if the file system does not
+// report it.
+static bool suits_pocl(const char *folder)
 {
     struct statvfs disk;
-    if (statvfs(folder, &disk) != 0 || disk.f_blocks == 0)
+    if (statvfs(folder, &disk) != 0)
         return true;
     const bool has_files = disk.f_files == 0 || disk.f_favail > 0;
-    return has_files && (unsigned long long)disk.f_bavail * disk.f_frsize >= ROOM_LEAST;
+    const bool has_bytes = (unsigned long long)disk.f_bavail * disk.f_frsize >= ROOM_LEAST;
+    const bool has_room = disk.f_blocks == 0 || (has_files && has_bytes);
+    return has_room && (disk.f_flag & ST_NOEXEC) == 0;
 }
 
 static void remove_tree(const char *path)
@@ -140,7 +144,7 @@ static bool open_private(Cache *cache, const char *base)
     if (base == NULL || base[0] != '/')
         return false;
     remove_all_abandoned(base);
-    return access(base, W_OK | X_OK) == 0 && has_room(base) && make_private(cache, base);
+    return access(base, W_OK | X_OK) == 0 && suits_pocl(base) && make_private(cache, base);
 }
 
 void cache_private_open(Cache *cache)

@@ -93,9 +93,9 @@ bool device_list(DeviceList *list, Error *error)
     return list->count > 0 ||
            error_set(error,
                      "no OpenCL device was found: install pocl-opencl-icd (any CPU) or the OpenCL "
-                     "driver of your GPU; PoCL shows none if it cannot write its cache: set "
-                     "POCL_CACHE_DIR to a folder with 16 MB of free space; clinfo lists the "
-                     "devices");
+                     "driver of your GPU; PoCL shows none if it cannot use its cache: set "
+                     "POCL_CACHE_DIR to a folder with 16 MB of free space and without noexec; "
+                     "clinfo lists the devices");
 }
 
 void device_list_text(const DeviceList *list, char text[DEVICE_TEXT_SIZE])
