@@ -284,6 +284,7 @@ INLINED void store_place(const RayBatch *batch, const ClrtHits *hits, HitData hi
 }
 
 // Stores the results for which the caller has arrays in `hits`, and the flags unless they are NULL.
+// Without the early return, loops that store nothing would take 7 % of a call for camera rays.
 INLINED void store(const RayBatch *batch, ClrtHits hits, uint8_t *flags, uint32_t first,
                    uint32_t end)
 {
