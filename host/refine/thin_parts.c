@@ -38,14 +38,6 @@ static bool project(const Projection *projection, const SphereData *sphere, Sphe
     return true;
 }
 
-// Returns the columns or rows of pixels that the outline touches.
-static CellRange pixels_along(const ThinParts *parts, const SphereOutline *outline, int axis)
-{
-    const CellGrid pixels = thin_pixel_grid(parts);
-    return cells_touched(outline->middle[axis] - outline->outer,
-                         outline->middle[axis] + outline->outer, &pixels, axis);
-}
-
 // Adds probes on the rows of a pixel that the sphere covers. The bands of the probes' level are at
 // most as high as the sphere's radius, unless the level is the last. If it is 0, also adds probes
 // on the rows of level 1. These probes are used only if the pixel gets rows of level 1.
@@ -75,12 +67,14 @@ static bool add_probes(ThinParts *parts, const SphereOutline *outline, uint32_t 
 static bool add_sphere(ThinParts *parts, const Projection *projection, const SphereData *sphere,
                        bool has_probes, Error *error)
 {
+    const CellGrid pixels = thin_pixel_grid(parts);
     SphereOutline outline;
     bool ok = true;
     if (!project(projection, sphere, &outline) || 2 * outline.radius >= THIN_WIDTH)
         return true;
-    const CellRange columns = pixels_along(parts, &outline, 0);
-    const CellRange rows = pixels_along(parts, &outline, 1);
+    const double *middle = outline.middle, outer = outline.outer;
+    const CellRange columns = cells_touched(middle[0] - outer, middle[0] + outer, &pixels, 0);
+    const CellRange rows = cells_touched(middle[1] - outer, middle[1] + outer, &pixels, 1);
     for (uint32_t y = rows.first; ok && y < rows.end; y++)
         for (uint32_t x = columns.first; ok && x < columns.end; x++) {
             thin_parts_touch(parts, y * parts->width + x, THIN_ROWS);

@@ -77,8 +77,10 @@ static bool next_run(const uint8_t line[REFINE_GRID], ProbeRun *run)
 // are at most as far to the side as the lines are from the run.
 static bool is_probed(ThinDrawing drawing, const ProbeRun *run)
 {
-    const int height = run->level > 0 ? (int)band_height(run->level - 1) : REFINE_GRID;
-    for (int line = height / 2; run->level > 0 && line < REFINE_GRID; line += height) {
+    if (run->level == 0)
+        return false;
+    const int height = (int)band_height(run->level - 1);
+    for (int line = height / 2; line < REFINE_GRID; line += height) {
         const int reach = abs(line - (int)run->line);
         const int first = run->first > reach ? run->first - reach : 0;
         const int end = run->end + reach < REFINE_GRID ? run->end + reach : REFINE_GRID;

@@ -132,19 +132,6 @@ static void list_all_touched(void *context, uint32_t first, uint32_t end)
             return;
 }
 
-static bool append_list(ThinSearch *search, const TaskList *list, Error *error)
-{
-    if (list->error.text[0] != '\0')
-        return error_set(error, "%s", list->error.text);
-    for (size_t i = 0; i < list->pairs.count; i++)
-        if (!array_push(&search->pairs, list->pairs.data[i], error))
-            return false;
-    for (size_t i = 0; i < list->probes.count; i++)
-        if (!array_push(&search->parts->probes, list->probes.data[i], error))
-            return false;
-    return true;
-}
-
 // Runs `work` for tasks of `part` elements, and collects the pairs and probes that it lists.
 static bool collect(ThinSearch *search, uint32_t count, uint32_t part, ThreadPoolPart *work,
                     Error *error)
@@ -155,9 +142,15 @@ static bool collect(ThinSearch *search, uint32_t count, uint32_t part, ThreadPoo
     if (ok)
         thread_pool_share(search->source->pool, count, part, work, search);
     for (uint32_t task = 0; search->lists != NULL && task < tasks; task++) {
-        ok = ok && append_list(search, &search->lists[task], error);
-        free(search->lists[task].pairs.data);
-        free(search->lists[task].probes.data);
+        TaskList *list = &search->lists[task];
+        if (ok && list->error.text[0] != '\0')
+            ok = error_set(error, "%s", list->error.text);
+        for (size_t i = 0; ok && i < list->pairs.count; i++)
+            ok = array_push(&search->pairs, list->pairs.data[i], error);
+        for (size_t i = 0; ok && i < list->probes.count; i++)
+            ok = array_push(&search->parts->probes, list->probes.data[i], error);
+        free(list->pairs.data);
+        free(list->probes.data);
     }
     free(search->lists);
     return ok;
