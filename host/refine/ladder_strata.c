@@ -15,9 +15,11 @@
 #define SOME_BEND  0.05
 #define LARGE_BEND 0.5
 
-// Weights of the priors, in pixels.
+// Weights of the priors, in pixels. With a STRATUM_WEIGHT of 2, pictures took 4, 9 and 6 % more
+// samples for errors of 1, 0.5 and 0.2 %. With 1, more than 5 % of the errors in a test exceeded
+// their bounds.
 #define RUNG_WEIGHT    4
-#define STRATUM_WEIGHT 2
+#define STRATUM_WEIGHT 1.3
 
 // The change per feature on rungs 0 and 1 before any change is measured.
 #define CENTER_RATIO 0.03
@@ -56,9 +58,9 @@
 // Above rung 0, a pixel that advances keeps its old samples, so the change underestimates the
 // squared error. Let twice as many samples divide the squared error by D. The change is then 1 - 1
 // / D times the squared error before. D is 2.83 at edges and 2 for noise, so factors of 1.55 and 2
-// would correct the change. With a factor of 1.5, errors of thin strips reached 1.14 times the
-// goal.
-#define NESTED_FACTOR 1.75
+// would correct the change. In twelve generated scenes, the squared error was 1.45 to 1.61 times
+// the change on rungs 1 to 5, and 1.7 times on rung 6.
+#define NESTED_FACTOR 1.6
 
 // A step raises the fraction of a stratum's pixels that advance. A stratum's first step selects the
 // number of controls at which the prior contributes PRIOR_PART of the aim to the estimate. This
