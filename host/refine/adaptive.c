@@ -158,6 +158,8 @@ static bool open_line(Adaptive *adaptive, const SampleData *data, uint32_t *coun
             is_center(&line, samples[i].place) ? adaptive->centers[place] : data[(*count)++];
     pixel->samples += *count;
     bool ok = scan_lines_open(&adaptive->lines, samples, all, error);
+    // Sides are as for rows. If the lines are columns, `turn` exchanges left and above, and right
+    // and below.
     for (uint32_t i = 0; i < all; i++) {
         const bool is_beside[] = {i == 0, i + 1 == all, line.middle < line.height,
                                   line.middle + line.height >= REFINE_GRID};

@@ -65,8 +65,8 @@ typedef struct {
 // Adds probes at the first and last place of the run, and at the two places next to the run.
 bool probe_list_add(ProbeList *probes, const ProbeRun *run, Error *error);
 
-// Places are PLACE_PROBED if they are on a run with probes, or if the next line has this run
-// nearby.
+// Places are PLACE_PROBED if their run has probes, or if it is near a run of the previous level
+// that is PLACE_PROBED.
 typedef enum { PLACE_EMPTY, PLACE_DRAWN, PLACE_PROBED } PlaceState;
 
 // The states of a pixel's places, line by line.
