@@ -6,7 +6,8 @@
 //
 // A pixel is certified if all its decisions are certain for the fp32 tracer. If they are certain
 // only for the fp64 tracer, the pixel is repaired: it gets the color of the fp64 tracer. All other
-// pixels are open. The kernel is compiled after render.cl with CLRT_FP64, and only if requested.
+// pixels are open. Only programs with this kernel contain this file. In them, the file follows
+// render.cl, and CLRT_FP64 is set.
 //
 // Invariant: an answer of YES or NO is proved. If a bound does not suffice, the answer is UNKNOWN.
 // All decisions that depend on this answer are then uncertain.

@@ -209,8 +209,9 @@ static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
     }
 }
 
-// Returns whether the axis enters a grown sphere before `reach`. The sphere grows by `factor` times
-// the bound of B21. If the result is false, the tracer finds no hit of the sphere before `reach`.
+// Returns whether the axis may enter a grown sphere before `reach`. The sphere grows by `factor`
+// times the bound of B21. If the result is false, the tracer finds no hit of the sphere before
+// `reach`.
 static inline bool cone_may_meet(const RayCone *ray, const PlainSphere *sphere, Real factor,
                                  Real reach)
 {

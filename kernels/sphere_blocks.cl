@@ -284,9 +284,9 @@ static inline void pair_packet(SpherePairs *pairs, uint packet, uint bits, uint 
     }
 }
 
-// Finds the pairs of the given lanes of a packet and the spheres of a block. If many lanes are
-// given, each sphere is tested against all of them at once. Otherwise, each lane's ray is tested
-// against all spheres at once.
+// Appends a pair for each given lane of a packet and each sphere of a block that the lane's ray may
+// hit. If many lanes are given, each sphere is tested against all of them at once. Otherwise, each
+// lane's ray is tested against all spheres at once.
 static inline void pair_lanes(SpherePairs *pairs, uint packet, uint bits, uint child)
 {
     if (popcount(bits) >= WIDE - 1)

@@ -6,8 +6,8 @@
 #include "image/framebuffer.h"
 #include "image/stored_image.h"
 
-// The counts off_by_1 and off_by_4 tolerate this additional difference. Rounding to float can make
-// a difference of one 8-bit step slightly larger than 1/255.
+// The counts off_by_1 and off_by_4 tolerate this additional difference. After rounding to float,
+// values that are one 8-bit step apart can differ by slightly more than 1/255.
 #define DIFFERENCE_ROUNDING 0x1p-22
 
 // The name of the channel with the ids of first hits.

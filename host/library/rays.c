@@ -44,7 +44,8 @@ static size_t grid_width(const ClrtRays *rays)
 }
 
 // Fills batch->order for a part. In a grid with rows of `width` rays, consecutive entries form
-// blocks of 64 rays. Rows that fill no block come last. If `width` is 0, the numbers ascend.
+// blocks of 64 rays, or less at the right edge. If the last rows are too few for blocks, they come
+// last in ascending order. If `width` is 0, all numbers ascend.
 static void fill_order(RayBatch *batch, size_t width)
 {
     const size_t count = batch->cast.count;

@@ -128,9 +128,10 @@ static Vec3 farthest(const Framing *framing, Vec3 d)
     return vec3_sub(found, framing->center);
 }
 
-// Returns the slope of the two planes through the eye that enclose the meshes along `axis`. Stores
-// the eye's coordinate on the axis in *middle. Newton's method ends after few steps, because the
-// gap between the planes and the meshes is a convex, piecewise linear function of the slope.
+// Two planes through the eye enclose the meshes along `axis`. Their slopes to the view direction
+// are s and -s. Returns s, and stores the eye's coordinate on the axis in *middle. Newton's method
+// ends after few steps, because the gap between the planes and the meshes is a convex, piecewise
+// linear function of the slope.
 static double touch(const Framing *framing, Vec3 axis, Vec3 back, double *middle)
 {
     double slope = -1, next = 0;

@@ -14,8 +14,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// If max_level causes more than this fraction of an error goal, one more level costs less time than
-// the samples that the level saves.
+// If the bound on max_level's error exceeds this fraction of the error goal, one more level saves
+// more time than it costs.
 #define TRUNCATED_MOST 0.9
 
 typedef struct {

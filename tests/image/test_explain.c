@@ -144,7 +144,8 @@ TEST(explanations_give_the_bits_of_pixels_in_every_form)
     check_scene(SOURCE_SCENE("tests/image/glass.scn"), 1);
 }
 
-// Checkers need separate programs, but their code is the same in all forms, so one form suffices.
+// Scenes with checkers need programs of their own, which take time to compile. The code for
+// checkers is the same in all forms, so this test uses one form.
 TEST(explanations_of_checkers_give_the_bits_of_pixels)
 {
     check_in_form(&form_few[0], SOURCE_SCENE("tests/image/checkered.scn"), 1);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Measures B14 of docs/numerics.md: how far the starts of new rays move, and how far from an edge a
-// start can be and still move. Also measures the rounding of normals (B13). Most cases are changes
-// of the cases with the largest shares.
+// start can be and still move. Also measures the rounding of normals (B13). A case's share is its
+// error divided by the bound. After the first round, most cases are changed copies of the cases
+// with the largest shares so far.
 #include "kernel/surface_bounds.h"
 
 #include "unit/cmocka_all.h"
@@ -57,7 +58,8 @@ static void change(SurfaceCase *changed, TriangleData *triangle)
     }
 }
 
-// Makes a new direction, often at a small angle to the triangle.
+// Makes case i. After the first round, seven of eight cases are changed copies of worst cases. All
+// others are random, and their direction is often at a small angle to the triangle.
 static void make_start(int i, bool is_first)
 {
     const uint32_t worst = random_below(&seed, BOUNDS);

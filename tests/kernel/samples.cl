@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Returns the positions of points of pixels' sequences to test_samples.c. probe.c appends this file
-// to kernels/samples.cl.
+// A kernel for test_samples.c, which stores the positions of a pixel's samples. probe.c appends
+// this file to kernels/samples.cl.
 
 // All requests have *samples samples. places receives pairs {x, y}, relative to the pixel.
 kernel void probe_places(global const PixelRequest *requests, global const uint *samples,

@@ -170,9 +170,9 @@ kernel void probe_certain_checks(global const float *cases, global const float *
     }
 }
 
-// Refracts the cases of probe_refractions with the vectors that are not turned. Stores whether the
-// refraction is certain and transmits light, the refracted direction, and the doubt of this
-// direction.
+// Refracts the cases of probe_refractions with the vectors that are not turned. Stores two flags:
+// whether the refraction is certain, and whether it transmits light. Also stores the refracted
+// direction and its doubt.
 kernel void probe_certain_refractions(global const float *cases, global const Material *materials,
                                       global Scalar *results)
 {

@@ -247,7 +247,7 @@ TEST(a_shift_moves_samples_by_parts_of_their_distance)
 {
     CameraData camera = camera_make(&ahead, &unmoved, 100, 100, 1);
     camera_shift(&camera, 0.5, -0.25);
-    // Samples are two half steps apart.
+    // right_step and down_step are half the distance between samples, which is 0.02.
     assert_float_equal(camera.forward[1], 0.01, 1e-9);
     assert_float_equal(camera.forward[2], 0.005, 1e-9);
     assert_true(camera.forward[0] == -1);

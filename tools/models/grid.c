@@ -13,8 +13,9 @@
 
 #define BLOCK_SAMPLES 4
 
-// Fields only approximate distances. A block is skipped if the field at its center is more than
-// twice the distance from the center to the block's corners.
+// Fields only approximate distances. If the magnitude of the field at a block's center exceeds
+// BLOCK_CAUTION times the distance from the center to the block's corners, the surface does not
+// cross the block, and all samples of the block get the center's value.
 #define BLOCK_CAUTION 2.0
 
 // The depth of a sample that is moved inside, in cells. The depth is small, so that the surface

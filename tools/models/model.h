@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A model: a signed field (negative inside, about a distance) and the box in which it is sampled.
-// The field must be positive on the box's faces, so that the surface is closed.
+// A model: a signed field, and the box in which the field is sampled. The field is negative inside,
+// and its magnitude approximates the distance to the surface. It must be positive on the box's
+// faces, so that the surface is closed.
 #pragma once
 
 #include "base/vec.h"

@@ -207,9 +207,9 @@ static Vec3 cow_inside(Random *random)
     return vec3_add(vec3(0.1, 0.3, 0.36), random_in_cube(random, 0.05));
 }
 
-// Makes 100 million reflections in the course's cow. The cow touches itself in a point, where rays
-// could change sides, so shape_apart removes this point. Rays can also escape where parts of the
-// cow cross. The limit is the measured number of escapes: 3.
+// Makes 100 million reflections in the course's cow. The cow touches itself at one point, where
+// rays could change sides. shape_apart therefore separates the parts that meet there. Rays can also
+// escape where parts of the cow cross. The limit is the measured number of escapes: 3.
 EXTREME(no_ray_escapes_from_a_mirror_cow_t45)
 {
     char path[COURSE_PATH_SIZE];

@@ -18,8 +18,8 @@ static bool pixel_agrees(const Framebuffer *picture, const OracleView *view, uin
 
 #define PROBES 100
 
-// Compares the last pixel and PROBES random pixels with the pixels of the oracle. Compares all
-// pixels of smaller pictures.
+// Compares the last pixel and PROBES random pixels with the pixels of the oracle. If the picture
+// has at most PROBES pixels, compares all of them instead.
 static void judge_size(const Studio *studio, uint32_t width, uint32_t height)
 {
     Error error = {0};
