@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The kernels for the channels of --aov, except certainty (certify.cl). trace_paths writes the
 // first hit of the ray through each pixel's center. count_tests writes the cost of each pixel. Both
-// follow rays with paths_step (trace.cl). The kernels are compiled after render.cl, and only if
-// requested.
+// follow rays with paths_step (trace.cl). PathData (shared.h) defines the values, which
+// host/render/aov.c converts to the scene's units. The kernels are compiled after render.cl, and
+// only if requested.
 
 static inline Mask light_reaches(const Tracer *tracer, uint index, const Surface *surface, Mask met)
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The switches that specialize a program. The kernels test most of them with a plain `if`, and the
 // optimizer removes unused features. With the defaults, a program renders every scene without
-// glass. A general program (traits_general in host/accel/flat.h) omits glass if the scene has none.
-// It also omits checkers if the scene has neither checkers nor glass. The first group describes the
-// scene and enables counting (host/accel/traits.c).
+// glass. A general program (traits_general in host/accel/traits.h) omits glass if the scene has
+// none. It also omits checkers if the scene has neither checkers nor glass. The first group
+// describes the scene and enables counting (host/accel/traits.c).
 #ifndef CLRT_CONFIG_H
 #define CLRT_CONFIG_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reports of a picture's costs and results, as text and as JSON.
+// Reports of a picture's costs and results, as text and as JSON, and its hash.
 #pragma once
 
 #include "cli/picture_data.h"

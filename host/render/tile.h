@@ -10,8 +10,8 @@ typedef struct {
     uint32_t whole_width, whole_height; // size of the whole picture; 0 without a crop
     uint32_t samples;                   // along each side of a pixel
     uint32_t max_level; // rays of this level return the background; camera rays have level 0
-    uint32_t tile_width, tile_height;
-    uint64_t ready_tiles; // number of leading tiles that exist already and are skipped
+    uint32_t tile_width, tile_height; // by default those of session/request.c
+    uint64_t ready_tiles;             // number of leading tiles that exist already and are skipped
     uint32_t part, parts; // draws one of `parts` parts (see Tile); all tiles if both are 0
 } RenderSettings;
 
