@@ -40,11 +40,6 @@ typedef struct {
 bool layers_make(Layers *layers, uint32_t width, uint32_t height, Error *error);
 void layers_free(Layers *layers);
 
-static inline uint32_t *layers_at(const Layers *layers, uint32_t x, uint32_t y)
-{
-    return layers->values + ((size_t)y * layers->width + x) * layers->count;
-}
-
 typedef enum { ENCODE_RAW, ENCODE_SRGB } Encoding;
 
 // Multiplies `count` values by `gain`, limits them to 1 and rounds them to bytes. ENCODE_SRGB

@@ -41,11 +41,6 @@ typedef struct {
     size_t first; // index of its first point light
 } AreaLight;
 
-static inline Light light_white(Vec3 position, double intensity)
-{
-    return (Light){position, intensity, {1, 1, 1}, false};
-}
-
 typedef struct {
     Vec3 center;
     double radius; // above 0

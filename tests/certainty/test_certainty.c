@@ -9,6 +9,7 @@
 #include "certainty/real.h"
 #include "extremes/support/check.h"
 #include "image/course.h"
+#include "image/rendered.h"
 #include "image/unusual_scenes.h"
 #include "scene/scn.h"
 #include "unit/cmocka_all.h"

@@ -22,6 +22,12 @@ Framebuffer rendered_with(PictureRequest request, const char *channels, Layers *
 // Returns the request with another form of the kernels, one of form_all.
 PictureRequest rendered_in_form(PictureRequest request, const KernelChoice *form);
 
+// Returns the values of a pixel.
+static inline const uint32_t *layers_at(const Layers *layers, uint32_t x, uint32_t y)
+{
+    return layers->values + ((size_t)y * layers->width + x) * layers->count;
+}
+
 // Return the floats with these bits. Channels store floats as bits.
 double layer_float(uint32_t bits);
 Vec3 layer_vector(const uint32_t bits[3]);

@@ -68,6 +68,11 @@ Mesh shape_triangle(Vec3 a, Vec3 b, Vec3 c);
 // twentieth of the way from the point to the fan's middle. The result has no normals.
 Mesh shape_apart(const Mesh *mesh);
 
+static inline Light light_white(Vec3 position, double intensity)
+{
+    return (Light){position, intensity, {1, 1, 1}, false};
+}
+
 // Adds mesh as a two-sided object. The scene then owns the mesh.
 void shape_add(Scene *scene, Mesh mesh, uint32_t material);
 
