@@ -5,10 +5,12 @@
 # partial file. Usage: test_faults.py CLRT FORMATS FAIL_MEMORY FAIL_DEVICE SET_ENVIRONMENT [TEST...],
 # with the libraries of tests/cli/fail_memory.c, fail_device.c and set_environment.c
 import os
+import random
 import re
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import bombs
@@ -104,6 +106,7 @@ class Inputs(Faults):
                     with open(mesh, "r+b") as file:
                         file.truncate(size)
                         file.write(whole[:size])
+                    time.sleep(random.random() / 1000)  # otherwise, a read may never see the whole mesh
 
         writer = threading.Thread(target=change)
         writer.start()
