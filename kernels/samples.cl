@@ -24,7 +24,7 @@
 #define ITEM_SMALL (ITEM_SAMPLES > SMALL_SAMPLES ? ITEM_SAMPLES / SMALL_SAMPLES : 1)
 #define ITEM_LARGE (ITEM_SAMPLES > LARGE_SAMPLES ? ITEM_SAMPLES / LARGE_SAMPLES : 1)
 
-// The sizes of requests and results in words.
+// The number of words of a request, and of a result.
 #define REQUEST_WORDS                                                                              \
     ((CLRT_SIGNATURES ? sizeof(SamplePlace) : sizeof(PixelRequest)) / sizeof(uint))
 #define RESULT_WORDS ((CLRT_SIGNATURES ? sizeof(SampleData) : sizeof(PixelSums)) / sizeof(float))

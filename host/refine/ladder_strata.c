@@ -51,14 +51,14 @@
 
 // On rung 0, a pixel that advances drops its old sample, so the change is the sum of the squared
 // errors before and after. Let twice as many samples divide the squared error by D. The change is
-// then 1 + 1 / D^2 times the squared error before. With the values of D in the next comment,
+// then the squared error before, times 1 + 1 / D^2. With the values of D in the next comment,
 // factors of 0.89 and 0.8 would correct the change.
 #define CENTER_FACTOR 0.85
 
 // Above rung 0, a pixel that advances keeps its old samples, so the change underestimates the
-// squared error. Let twice as many samples divide the squared error by D. The change is then 1 - 1
-// / D times the squared error before. D is 2.83 at edges and 2 for noise, so factors of 1.55 and 2
-// would correct the change. In twelve generated scenes, the squared error was 1.45 to 1.61 times
+// squared error. Let twice as many samples divide the squared error by D. The change is then the
+// squared error before, times 1 - 1 / D. D is 2.83 at edges and 2 for noise, so factors of 1.55 and
+// 2 would correct the change. In twelve generated scenes, the squared error was 1.45 to 1.61 times
 // the change on rungs 1 to 5, and 1.7 times on rung 6.
 #define NESTED_FACTOR 1.6
 

@@ -67,8 +67,8 @@ static int find_key(int key, int code, int modifiers)
     return name != NULL && (name[0] == 's' || name[0] == 'q') ? name[0] : 0;
 }
 
-// Adds the event of a key without a character. Of these keys, only arrows repeat while they are
-// held.
+// Adds the event of a key without a character. The only such keys that repeat while they are held
+// are the arrows.
 static void take_key(GLFWwindow *handle, int key, int code, int action, int modifiers)
 {
     Window *window = glfwGetWindowUserPointer(handle);

@@ -153,7 +153,7 @@ def load(path: str | os.PathLike, *, up: str = "auto", flat: bool = False,
 
 
 def _rows(values, dtype, what, count=None):
-    """The values as a dense array of the shape (n, 3), where n is `count` unless that is None."""
+    """The values as a dense array of the shape (n, 3). If `count` is given, n must equal it."""
     made = np.ascontiguousarray(threes(values, dtype, what, "n"))
     if count not in (None, len(made)):
         raise ArgumentError(f"{len(made)} {what} for {count} vertices")
