@@ -121,6 +121,10 @@ class Errors(unittest.TestCase):
             ("material is -1, not an integer", lambda: scene.sphere((0, 0, 0), 1, -1)),
             ("material is -1, not an integer", lambda: scene.mesh(ROOF, SLOPES, -1)),
             ("radius is 'big', not a number", lambda: scene.sphere((0, 0, 0), "big")),
+            ("radius is None, not a number", lambda: scene.sphere((0, 0, 0), None)),
+            ("material is None, not an integer", lambda: scene.sphere((0, 0, 0), 1, None)),
+            ("path contains a null character", lambda: clrt.load("a.scn\0")),
+            ("device contains a null character", lambda: clrt.Renderer("cpu\0")),
             ("intensity is '1', not a number", lambda: scene.light((0, 0, 9), "1")),
             ("area is 2, not", lambda: scene.light((0, 0, 9), area=2)),
             ("checker is .*, not", lambda: scene.material(checker=(1, (1, 1, 1)))),
@@ -139,6 +143,14 @@ class Errors(unittest.TestCase):
                     warnings.simplefilter("error")
                     action()
 
+    def test_rays_take_no_members_of_structs(self):
+        scene, renderer, ray = roof(), clrt.Renderer(), ((0, 0, 5), [(0, 0, -1)])
+        for name, value in (("size", 8), ("nears", np.zeros(0)), ("fars", np.zeros(0))):
+            with self.subTest(name), self.assertRaisesRegex(TypeError, name):
+                renderer.trace(scene, *ray, **{name: value})
+        with self.assertRaisesRegex(TypeError, "there is no setting 'size'"):
+            scene.render(8, 8, size=160)
+
     def test_scenes_without_cameras_say_so(self):
         with self.assertRaisesRegex(clrt.ArgumentError, "the scene has no camera"):
             clrt.Scene().render(8, 8)
@@ -155,6 +167,13 @@ class Arguments(unittest.TestCase):
         scene = roof(two_sided=np.True_, smooth=np.True_, crease=np.float32(20))
         picture = scene.render(np.int64(8), np.uint8(6), samples=np.int32(2), error=np.float64(0))
         self.assertEqual(clrt.hash(picture), clrt.hash(scene.render(8, 6, samples=2)))
+
+    def test_false_of_numpy_stops(self):
+        with self.assertRaises(clrt.Stopped):
+            roof().render(300, 300, progress=lambda done, all_: np.False_)
+
+    def test_empty_pictures_have_no_png(self):
+        self.assertIsNone(roof().render(8, 8)[:0]._repr_png_())  # pylint: disable=protected-access
 
     def test_cameras_of_arrays_are_equal(self):
         self.assertEqual(clrt.Camera(np.zeros(3), up=[0, 1, 0]), clrt.Camera((0, 0, 0), up=(0, 1, 0)))

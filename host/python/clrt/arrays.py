@@ -29,7 +29,7 @@ class Picture(np.ndarray):
 
     def _repr_png_(self) -> bytes | None:
         """PNG bytes for notebooks, with the pixels of `clrt SCENE -o picture.png`."""
-        if self.ndim != 3 or self.shape[2] != 3:
+        if self.ndim != 3 or self.shape[2] != 3 or self.size == 0:
             return None
         height, width, _ = self.shape
         lines = np.zeros((height, 1 + 3 * width), np.uint8)
@@ -125,7 +125,7 @@ _ARRAYS = {array.name: item for array in fields(Hits) for item in array.metadata
 RESULTS = tuple(name for name in _ARRAYS if name != "certain")
 
 
-def rays(origins, directions, *, near=None, far=None, starts=None, **settings):
+def rays(origins, directions, *, near=None, far=None, starts=None, one_sided=None):
     """The members of a ClrtRays as a dict. Renderer.trace describes the arguments."""
     given = {"origins": numbers(origins, np.float64, "origins"),
              "directions": numbers(directions, np.float64, "directions")}
@@ -138,7 +138,7 @@ def rays(origins, directions, *, near=None, far=None, starts=None, **settings):
         raise ArgumentError(f"there are {count} origins, but {other} directions")
     limits = (("nears", near, "near", np.float64), ("fars", far, "far", np.float64),
               ("starts", starts, "starts", np.uint32))
-    return given | settings | {
+    return given | {"one_sided": one_sided} | {
         member: np.ascontiguousarray(numbers(values, dtype, what, count))
         for member, values, what, dtype in limits if values is not None}
 

@@ -82,13 +82,13 @@ def use_device():
 
 @functools.cache
 def _types(name):
-    """The types of a struct's members, or of a function's parameters, by their names."""
+    """The types of a struct's members except `size`, or of a function's parameters."""
     if name in _PARAMETERS:
         # In clrt.h, parameters that point to doubles are vectors.
         kinds = ffi.typeof(getattr(lib, "clrt_" + name)).args
         kinds = (VECTOR if kind.cname == "double *" else kind for kind in kinds)
         return dict(zip(_PARAMETERS[name], kinds))
-    return {member: field.type for member, field in ffi.typeof(name).fields}
+    return {member: field.type for member, field in ffi.typeof(name).fields if member != "size"}
 
 
 def call(name, *arguments):
@@ -120,11 +120,13 @@ def c_value(value, kind, what):
     if kind.kind == "enum":
         return _names(kind).index(*choices(_names(kind), [value], what))
     if kind.cname == "char *":
-        return ffi.new("char[]", os.fsencode(instance(value, str, what)))
+        if "\0" in instance(value, str, what):
+            raise ArgumentError(f"{what} contains a null character: {value!r}")
+        return ffi.new("char[]", os.fsencode(value))
     if kind.kind != "primitive":
         return ffi.cast("void *", value.ctypes.data) if isinstance(value, np.ndarray) else value
     try:
-        return ffi.new(kind.cname + " *", value)[0]
+        return ffi.new(kind.cname + "[1]", [value])[0]  # Also raises for None.
     except (OverflowError, TypeError):
         expected = _NUMBERS.get(kind.cname, "an integer")
         raise ArgumentError(f"{what} is {value!r}, not {expected}") from None
@@ -216,13 +218,17 @@ def progress_of(progress):
     """Yields a ClrtProgress that calls `progress` or, if it is True, shows a bar. None: NULL."""
     faults, advance = [], _bar() if progress is True else progress
     callback = advance and ffi.callback(
-        "ClrtProgress", lambda _, *parts: not faults and advance(*parts) is not False, error=False,
-        onerror=lambda _, fault, __: faults.append(fault))
+        "ClrtProgress", lambda _, *parts: not faults and not _is_false(advance(*parts)),
+        error=False, onerror=lambda _, fault, __: faults.append(fault))
     try:
         yield callback or ffi.NULL
     finally:
         if faults:
             raise faults[0] from None
+
+
+def _is_false(value):
+    return isinstance(value, (bool, np.bool_)) and not value
 
 
 def _bar():
