@@ -19,7 +19,7 @@ SIZE = "--size wants WIDTHxHEIGHT, each between 1 and 131072, not '{}'"
 NOT_HERE = "clrt SCENE -o FILE takes no --"
 NO_FILE = "cannot be opened: No such file or directory"
 REFUSALS = [
-    (2, "a name is missing: the usage is clrt SCENE", []),
+    (2, "a name is missing: the usage is clrt SCENE [options]; clrt --help lists them", []),
     (2, NOT_HERE, [*FILE, "--keys", "q"]),
     (2, "clrt warm takes no --hash; clrt SCENE -o FILE does", ["warm", "--hash"]),
     (2, "clrt devices takes no --aa; clrt SCENE does", ["devices", "--aa=9"]),
@@ -69,6 +69,9 @@ REFUSALS = [
     (2, "unknown option '-1,5'; clrt --help lists them", ["explain", "none.scn", "-1,5"]),
     (2, "there is no command 'render'; clrt --help lists the commands", ["render", "none.scn"]),
     (2, "there is no command 'help'; clrt --help lists the commands", ["help"]),
+    (2, "there is no command 'chekc', perhaps check", ["chekc", "none.scn"]),
+    (2, "there is no command 'devcies', perhaps devices", ["devcies"]),
+    (3, f"none: {NO_FILE}", ["none", "-o", "a.pfm"]),
     (2, "unknown option '--work-group=8x8', perhaps --tune group=WxH", [*FILE, "--work-group=8x8"]),
     (4, "work-groups of 100 x 100 are too large", [*FILE, "--tune", "group=100x100"]),
     (3, f"none.scn: {NO_FILE}", ["none.scn", "-o", "a.pfm"]),

@@ -101,9 +101,11 @@ typedef struct {
     const char *help;
 } Command;
 
+#define COMMANDS_MOST 16
+
 // Rows with the same name are adjacent.
 extern const Command command_table[];
-extern const size_t command_count;
+extern const size_t command_count; // at most COMMANDS_MOST
 
 // Returns whether this is the first row with its name.
 bool command_is_first(const Command *command);

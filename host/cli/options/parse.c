@@ -134,7 +134,8 @@ static bool check_count(const Command *command, char **words, int count, Error *
     char text[COMMAND_TEXT_SIZE];
     command_write(command, text);
     if (count < command->least)
-        return error_set(error, "a name is missing: the usage is %s [options]", text);
+        return error_set(
+            error, "a name is missing: the usage is %s [options]; clrt --help lists them", text);
     if (count == 2 && command->action == ACTION_VIEW && image_format_of_path(words[1]) != NULL)
         return error_set(error, "to write the picture '%s', give -o %s", words[1], words[1]);
     return count <= command->most ||
@@ -166,15 +167,26 @@ static bool is_command(const char *word)
     return i < command_count;
 }
 
-// Fails if the only name is `help`, or if the first of several names is probably meant as a
-// command.
+static const char *nearest_command(const char *word)
+{
+    const char *names[COMMANDS_MOST];
+    for (size_t i = 0; i < command_count; i++)
+        names[i] = command_table[i].name;
+    return word_nearest(word, strlen(word), names, command_count);
+}
+
+// Fails if the first name is probably meant as a command: it is neither a file nor looks like one,
+// and it is `help`, or resembles a command, or other names follow.
 static bool check_command(char **words, int count, Error *error)
 {
-    const char *word = words[0];
-    const bool is_help = count == 1 && strcmp(word, "help") == 0;
-    if ((count < 2 && !is_help) || strpbrk(word, "./") != NULL || access(word, F_OK) == 0)
+    if (count == 0 || strpbrk(words[0], "./") != NULL || access(words[0], F_OK) == 0)
         return true;
-    return error_set(error, "there is no command '%s'; clrt --help lists the commands", word);
+    const char *nearest = nearest_command(words[0]);
+    if (nearest != NULL)
+        return error_set(error, "there is no command '%s', perhaps %s", words[0], nearest);
+    if (count == 1 && strcmp(words[0], "help") != 0)
+        return true;
+    return error_set(error, "there is no command '%s'; clrt --help lists the commands", words[0]);
 }
 
 // An option with a fallback takes no value after a space. The function rejects a valid value there,

@@ -214,6 +214,8 @@ const Command command_table[] = {
 };
 
 const size_t command_count = sizeof command_table / sizeof command_table[0];
+_Static_assert(sizeof command_table / sizeof command_table[0] <= COMMANDS_MOST,
+               "arrays of COMMANDS_MOST hold the table");
 
 bool command_is_first(const Command *command)
 {
