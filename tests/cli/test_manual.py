@@ -76,6 +76,13 @@ class Pages(Work):
             for name in names:
                 self.assertRegex(page, pattern.format(name))
 
+    @unittest.skipUnless(shutil.which("man"), "man is not installed")
+    def test_man_finds_the_pages_of_a_build_folder_in_path(self):
+        environment = dict(os.environ, PATH=f"{CLRT.parent}:{os.environ['PATH']}", MANPATH="")
+        found = run("man", "-w", "clrt", "clrt-scene", env=environment).stdout.split()
+        folder = CLRT.parent / "man"
+        self.assertEqual(found, [f"{folder}/man1/clrt.1.gz", f"{folder}/man5/clrt-scene.5.gz"])
+
     def test_the_readme_shows_a_scene_that_is_there(self):
         self.assertIn((ROOT / "scenes/ball.scn").read_text(), (ROOT / "README.md").read_text())
 
