@@ -30,9 +30,9 @@ void picture_warn_of_few_tiles(const Options *options, const RenderSettings *set
     const unsigned long long most = tiles / PART_TILES > 1 ? tiles / PART_TILES : 1;
     if (settings->parts > most)
         stage_note(options,
-                   "a part of fewer than %d tiles may take much longer than the others: for %llu "
-                   "tiles, give at most N=%llu",
-                   PART_TILES, tiles, most);
+                   "a part of fewer than %d tiles may take much longer than the others: for this "
+                   "picture, give at most N=%llu",
+                   PART_TILES, most);
 }
 
 void picture_print_beginning(const Picture *picture)
@@ -59,10 +59,12 @@ void picture_print_end(Picture *picture)
 ExitCode picture_fail_goal(const Picture *picture, Error *error)
 {
     if (picture->options->picture.seconds > 0)
-        error_set(error, "one sample a pixel took %.3f s, longer than --time allows",
+        error_set(error,
+                  "one sample a pixel took %.3f s, longer than --time allows: give more time or a "
+                  "smaller --size",
                   picture->repetition_seconds[0]);
     else
-        error_set(error, "the error may be %.2g %%, more than --error allows",
+        error_set(error, "the error may be %.2g %%, more than --error allows: give a larger error",
                   100 * fmax(picture->drawn.bound, picture->drawn.truncated));
     return EXIT_FAULTS;
 }

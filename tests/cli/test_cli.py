@@ -241,7 +241,7 @@ class Samples(Work):
     def test_an_error_that_no_levels_hold_is_exit_1(self):
         self.write(mirror_scn="define it matte reflectivity 1\nmaterial it\nsphere 0 0 0 1\n")
         told = self.clrt("mirror.scn", "-s", "8x8", "--error", "1%", "-o", "a.pfm", code=1)
-        self.assertIn("clrt: the error may be 1e+02 %, more than --error allows", told)
+        self.assertIn("clrt: the error may be 1e+02 %, more than --error allows: give a larger error\n", told)
 
     def test_an_error_too_small_for_the_ladder_is_exit_1_in_doubles(self):
         words = [*SMALL, "a.pfm", "--error", "0.01%", "--json=a.json"]
@@ -264,7 +264,7 @@ class Samples(Work):
         self.assertLess(found["seconds"]["trace"], 30)
 
     def test_too_little_time_is_exit_1(self):
-        self.assertRegex(self.clrt(*FILE, "--time", "1e-9", code=1), "longer than --time allows\n$")
+        self.assertRegex(self.clrt(*FILE, "--time", "1e-9", code=1), "longer than --time allows: give more time or a smaller --size\n$")
 
     def test_max_level_auto_is_the_least_that_the_file_can_show(self):
         bytes_alone = self.statistics(*SMALL, "a.ppm", "--format", "png", "--max-level", "auto")
