@@ -35,17 +35,19 @@ def names_of(requirements):
 
 class Action(unittest.TestCase):
     """The tests imitate a user's checkout, with clrt in its folder clrt. Instead of building clrt,
-    tools/render starts the program CLRT."""
+    tools/render starts the program CLRT, and tools/setup records its arguments."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.work = pathlib.Path(folder.name)
-        render = self.work / "clrt/tools/render"
         (self.work / "clrt" / ACTION).mkdir(parents=True)
         (self.work / "clrt/scenes").symlink_to(ROOT / "scenes")
-        render.write_text(f'#!/bin/sh\nexec "{CLRT}" "$@"\n')
-        render.chmod(0o755)
+        self.purposes = self.work / "purposes"
+        for tool, command in ("render", f'exec "{CLRT}" "$@"'), ("setup", f'echo "$@" >"{self.purposes}"'):
+            path = self.work / "clrt/tools" / tool
+            path.write_text(f"#!/bin/sh\n{command}\n")
+            path.chmod(0o755)
         self.action = read(ROOT / ACTION / "action.yml")
         self.step = next(step for step in read(WORKFLOW)["jobs"]["picture"]["steps"]
                          if step.get("uses") == f"./clrt/{ACTION}")
@@ -93,6 +95,10 @@ class Action(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertRegex(output, "^hash=[0-9a-f]{32}\n$")
         self.assertEqual(picture.name, "picture.png")
+
+    def test_it_installs_the_reader_of_meshes(self):
+        self.run_action(self.step["with"])
+        self.assertEqual(self.purposes.read_text(), "meshes\n")
 
     def test_an_error_of_clrt_fails(self):
         done, output, _ = self.run_action({"scene": "none.scn"})
