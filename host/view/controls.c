@@ -112,9 +112,11 @@ static void orbit_switch_perspective(Orbit *orbit)
     orbit->camera.width = becomes_orthographic ? width : 0;
 }
 
+// Scales the distance by a mouse drag. At the course's distance, the speed is the course's.
 static void orbit_zoom(Orbit *orbit, double down)
 {
-    set_shown_distance(orbit, shown_distance(orbit) + LENGTH_PER_PIXEL * orbit->unit * down);
+    set_shown_distance(orbit,
+                       shown_distance(orbit) * exp(LENGTH_PER_PIXEL / COURSE_DISTANCE * down));
 }
 
 // Moves camera and pivot parallel to the picture by a mouse drag. In a window that is COURSE_HEIGHT

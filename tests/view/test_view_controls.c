@@ -170,11 +170,11 @@ TEST(the_target_follows_a_drag_sideways)
     assert_true(same_place(fixture.state.camera.eye, before.eye));
 }
 
-TEST(zooming_keeps_to_the_courses_distances)
+TEST(zooming_has_the_speed_and_the_limits_of_the_course)
 {
     FREED_BY(release) Fixture fixture = opened("");
-    happen(&fixture, EVENT_ZOOM, 0, 10);
-    assert_true(near(fixture.state.orbit.distance, 8));
+    happen(&fixture, EVENT_ZOOM, 0, 0.01);
+    assert_true(fabs(fixture.state.orbit.distance - 6.5015) < 1e-5);
     happen(&fixture, EVENT_ZOOM, 0, -1000);
     assert_true(near(fixture.state.orbit.distance, 0.5));
     happen(&fixture, EVENT_ZOOM, 0, 10000);
@@ -183,11 +183,22 @@ TEST(zooming_keeps_to_the_courses_distances)
     assert_true(near(fixture.state.orbit.distance, 90));
 }
 
+TEST(equal_drags_scale_the_distance_equally)
+{
+    FREED_BY(release) Fixture fixture = opened("");
+    happen(&fixture, EVENT_ZOOM, 0, -30);
+    const double once = fixture.state.orbit.distance;
+    happen(&fixture, EVENT_ZOOM, 0, -30);
+    assert_true(near(fixture.state.orbit.distance, once * once / 6.5));
+    happen(&fixture, EVENT_ZOOM, 0, 60);
+    assert_true(near(fixture.state.orbit.distance, 6.5));
+}
+
 TEST(scenes_of_any_size_zoom_alike)
 {
     FREED_BY(release) Fixture fixture = opened("camera 6500 0 0  0 0 0  45");
-    happen(&fixture, EVENT_ZOOM, 0, 10);
-    assert_true(near(fixture.state.orbit.distance, 8000));
+    happen(&fixture, EVENT_ZOOM, 0, 0.01);
+    assert_true(fabs(fixture.state.orbit.distance - 6501.5) < 1e-2);
     happen(&fixture, EVENT_ZOOM, 0, -1000);
     assert_true(near(fixture.state.orbit.distance, 500));
 }
