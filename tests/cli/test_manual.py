@@ -102,7 +102,8 @@ class Pages(Work):
         for name in pictures:
             content = (ROOT / "docs" / name).read_bytes()
             self.assertEqual(int.from_bytes(content[16:20], "big"), 320, name)
-            self.assertLessEqual(len(content), 40000, name)
+            self.assertEqual(content[25], 2, f"{name} is not in full color")
+            self.assertLessEqual(len(content), 90000, name)
 
     def test_the_scene_of_the_page_is_drawn(self):
         text = PAGES[1].read_text()
