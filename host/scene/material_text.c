@@ -9,17 +9,23 @@
 #include <stddef.h>
 #include <string.h>
 
+#define USAGE(values) "define NAME KIND ... " values " ..."
+
 const MaterialProperty material_properties[] = {
-    {"diffuse", offsetof(Material, diffuse), 3, 0, 1, USED_BY_ALL_BUT_GLASS},
-    {"checker", offsetof(Material, check_size), 7, RADIUS_LEAST, RADIUS_MOST,
+    {"diffuse", USAGE("diffuse R G B"), offsetof(Material, diffuse), 3, 0, 1,
      USED_BY_ALL_BUT_GLASS},
-    {"kd", offsetof(Material, kd), 1, 0, FACTOR_MOST, USED_BY_ALL_BUT_GLASS},
-    {"specular", offsetof(Material, specular), 3, 0, 1, USED_BY_BLINN_PHONG},
-    {"ks", offsetof(Material, ks), 1, 0, FACTOR_MOST, USED_BY_BLINN_PHONG},
-    {"shininess", offsetof(Material, shininess), 1, 0, SHININESS_MOST, USED_BY_BLINN_PHONG},
-    {"reflectivity", offsetof(Material, reflectivity), 1, 0, 1, USED_BY_ALL_BUT_GLASS},
-    {"color", offsetof(Material, diffuse), 3, 0, 1, USED_BY_GLASS},
-    {"ior", offsetof(Material, ior), 1, IOR_LEAST, IOR_MOST, USED_BY_GLASS}};
+    {"checker", USAGE("checker SIZE R G B R G B"), offsetof(Material, check_size), 7, RADIUS_LEAST,
+     RADIUS_MOST, USED_BY_ALL_BUT_GLASS},
+    {"kd", USAGE("kd V"), offsetof(Material, kd), 1, 0, FACTOR_MOST, USED_BY_ALL_BUT_GLASS},
+    {"specular", USAGE("specular R G B"), offsetof(Material, specular), 3, 0, 1,
+     USED_BY_BLINN_PHONG},
+    {"ks", USAGE("ks V"), offsetof(Material, ks), 1, 0, FACTOR_MOST, USED_BY_BLINN_PHONG},
+    {"shininess", USAGE("shininess V"), offsetof(Material, shininess), 1, 0, SHININESS_MOST,
+     USED_BY_BLINN_PHONG},
+    {"reflectivity", USAGE("reflectivity V"), offsetof(Material, reflectivity), 1, 0, 1,
+     USED_BY_ALL_BUT_GLASS},
+    {"color", USAGE("color R G B"), offsetof(Material, diffuse), 3, 0, 1, USED_BY_GLASS},
+    {"ior", USAGE("ior V"), offsetof(Material, ior), 1, IOR_LEAST, IOR_MOST, USED_BY_GLASS}};
 
 // The property `checker` fills the members check_size and checks, which must therefore be adjacent.
 _Static_assert(offsetof(Material, checks) == offsetof(Material, check_size) + sizeof(float), "");
@@ -42,6 +48,22 @@ static bool unknown_property(Tokens *tokens, Token property, const Material *mat
                : tokens_fail(tokens, property, "unknown property (did you mean '%s'?)", nearest);
 }
 
+static bool read_values(Tokens *tokens, const MaterialProperty *property, Material *material)
+{
+    float *values = (float *)(void *)((char *)material + property->offset);
+    for (int place = 0; place < property->count; place++) {
+        const double least = place == 0 ? property->least : 0;
+        const double most = place == 0 ? property->most : 1;
+        double value;
+        if (!tokens_number_within(tokens, &value, least, most))
+            return false;
+        values[place] = (float)value;
+    }
+    if (property->offset == offsetof(Material, shininess))
+        material_set_shininess(material, material->shininess);
+    return true;
+}
+
 // Reads the values of `property` into *material, and sets the property's bit in *given. Fails if
 // the bit is set already.
 static bool read_property(Tokens *tokens, Token property, Material *material, uint32_t *given)
@@ -55,18 +77,11 @@ static bool read_property(Tokens *tokens, Token property, Material *material, ui
     if ((*given >> i & 1) != 0)
         return tokens_fail(tokens, property, "the property is given twice");
     *given |= (uint32_t)1 << i;
-    float *values = (float *)(void *)((char *)material + material_properties[i].offset);
-    for (int place = 0; place < material_properties[i].count; place++) {
-        const double least = place == 0 ? material_properties[i].least : 0;
-        const double most = place == 0 ? material_properties[i].most : 1;
-        double value;
-        if (!tokens_number_within(tokens, &value, least, most))
-            return false;
-        values[place] = (float)value;
-    }
-    if (material_properties[i].offset == offsetof(Material, shininess))
-        material_set_shininess(material, material->shininess);
-    return true;
+    const char *usage = tokens->usage;
+    tokens->usage = material_properties[i].usage;
+    const bool ok = read_values(tokens, &material_properties[i], material);
+    tokens->usage = usage;
+    return ok;
 }
 
 static bool read_shader(Tokens *tokens, Shader *shader)

@@ -12,7 +12,8 @@ typedef enum { USED_BY_ALL_BUT_GLASS, USED_BY_BLINN_PHONG, USED_BY_GLASS } Prope
 // numbers are in [0, 1].
 typedef struct {
     const char *name;
-    size_t offset; // of the floats in Material
+    const char *usage; // for messages
+    size_t offset;     // of the floats in Material
     int count;
     double least, most;
     PropertyUse use;

@@ -60,7 +60,7 @@ static bool unknown_name(const Scene *scene, const Tokens *tokens, Token token)
     if (token.text != NULL)
         nearest = word_nearest(token.text, token.length, names, count);
     if (nearest == NULL)
-        tokens_fail(tokens, token, "expected an integer or a defined name");
+        tokens_fail(tokens, token, "expected an integer or the name of a 'define' above");
     else
         tokens_fail(tokens, token, "undefined material (did you mean '%s'?)", nearest);
     free(names);

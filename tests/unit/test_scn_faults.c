@@ -17,6 +17,7 @@ static void expect_error(const char *text, const char *message)
 #define SUN       STATEMENT "'sun X Y Z INTENSITY [R G B]'"
 #define SPHERE    STATEMENT "'sphere X Y Z RADIUS'"
 #define DEFINE    STATEMENT "'define NAME silhouette|matte|blinn_phong|glass [PROPERTY VALUES]...'"
+#define CHECKER   STATEMENT "'define NAME KIND ... checker SIZE R G B R G B ...'"
 #define NORMALS   STATEMENT "'normals flat|smooth [DEGREES]'"
 #define CAMERA                                                                                     \
     STATEMENT "'camera EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z FOV_DEGREES|orthographic HEIGHT [WIDTH]'"
@@ -46,13 +47,22 @@ TEST(faults_name_line_column_and_the_statement)
         {"??", "1:1: expected a statement (ambient, background, camera, define, light, material, "
                "max_level, mesh, normals, ply_file, sides, size, sphere, sun, "
                "up): found '\?\?'"},
+        {"material gold\ndefine gold matte",
+         "1:10: expected an integer or the name of a 'define' above: found 'gold'" STATEMENT
+         "'material NUMBER|NAME|own [NUMBER|NAME]'"},
         {"define gold matte\nmaterial gild",
          "2:10: undefined material (did you mean 'gold'?): found 'gild'" STATEMENT
          "'material NUMBER|NAME|own [NUMBER|NAME]'"},
         {"define a matte checker 0 1 1 1 0 0 0",
-         "1:24: expected a number between 1e-30 and 1e+30: found '0'" DEFINE},
+         "1:24: expected a number between 1e-30 and 1e+30: found '0'" CHECKER},
         {"define a matte checker 1 1 1 1 0 0 1.1",
-         "1:36: expected a number between 0 and 1: found '1.1'" DEFINE},
+         "1:36: expected a number between 0 and 1: found '1.1'" CHECKER},
+        {"define a matte diffuse 1 1",
+         "1:27: expected a number: found the end of the line" STATEMENT
+         "'define NAME KIND ... diffuse R G B ...'"},
+        {"define a matte diffuse 1 1 1 1",
+         "1:30: expected a property of a material (diffuse, checker, kd, specular, ks, shininess, "
+         "reflectivity): found '1'" DEFINE},
         {"define red matte kd 0.5 kd 0.6", "1:25: the property is given twice: found 'kd'" DEFINE},
         {"define a matte difuse 1 1 1",
          "1:16: unknown property (did you mean 'diffuse'?): found 'difuse'" DEFINE},
@@ -71,7 +81,8 @@ TEST(faults_name_line_column_and_the_statement)
          "shininess, reflectivity): found 'color'" DEFINE},
         {"define a glass diffuse 1 1 1",
          "1:16: expected a property of a material (color, ior): found 'diffuse'" DEFINE},
-        {"define a glass ior 0", "1:20: expected a number between 0.1 and 10: found '0'" DEFINE},
+        {"define a glass ior 0", "1:20: expected a number between 0.1 and 10: found '0'" STATEMENT
+                                 "'define NAME KIND ... ior V ...'"},
         {"define a glas", "1:10: expected 'silhouette', 'matte', 'blinn_phong' or 'glass': found "
                           "'glas'" DEFINE},
         {"up 0 1 0", "1:1: no camera follows this 'up': found 'up'" STATEMENT "'up X Y Z'"},
