@@ -102,8 +102,8 @@ BY_HAND = [
      {"color": [0.08] * 3}),
 ]
 PIXEL = ["explain", "mirrors.scn", "2,2"]
-FORMS = ["", "--aa=3", "--tune kernel=pair", "--tune kernel=wide", "--tune kernel=packet:4",
-         "--precision fp64", "--precision fp64 --aa", "--tune bvh=none", "--max-level 1", "--max-level 0", "-j 1"]
+FORMS = ["", "--aa=3", "--tune kernel=pair", "--tune kernel=wide", "--precision fp64", "--precision fp64 --aa",
+         "--tune bvh=none", "--max-level 1", "--max-level 0", "-j 1"]
 
 
 NUMBER = r"(-?[\d.]+(?:e[-+]\d+)?)"
@@ -293,7 +293,7 @@ class Scenes(Explain):
         return found
 
     def test_the_text_lists_compiled_and_omitted_features_and_uploads(self):
-        told = self.clrt("explain", "ball.scn", "--tune", "specialize=always")
+        told = self.clrt("explain", "ball.scn", "--tune", "specialize=always,kernel=pair")
         left_out = told.split("\nleft out\n")[1].split("\nuploaded")[0]
         self.assertEqual(left_out.count("\n  ") + 1, 7, told)
         self.assertIn("  tree        there are no triangles to find", left_out)
@@ -302,7 +302,7 @@ class Scenes(Explain):
             self.assertIn(part, told)
 
     def test_special_kernels_have_only_the_features_of_the_scene(self):
-        found = self.expect_parts(["ball.scn", "--tune", "specialize=always"],
+        found = self.expect_parts(["ball.scn", "--tune", "specialize=always,kernel=pair"],
                                   spheres=(True, True, "1 of them"), triangles=(False, False, "there are none"),
                                   mirrors=(False, False, "no material in use reflects: no reflected rays"))
         self.assertEqual(found["program"], {"special": True, "reason": "--tune specialize=always"})
@@ -314,7 +314,7 @@ class Scenes(Explain):
         self.expect_parts([*general, "--stats"], statistics=(True, True, "--stats counts rays and tests"))
 
     def test_only_scenes_that_show_colors_of_vertices_compile_and_upload_them(self):
-        special = ["--tune", "specialize=always"]
+        special = ["--tune", "specialize=always,kernel=pair"]
         found = self.expect_parts([PAINTED, *special], colors=(True, True, "240 triangles have colors of vertices"))
         self.assertEqual(found["uploaded_bytes"]["colors"], 240 * 40)
         self.write(gray_scn="material 1\nmesh painted.ply\n",
@@ -323,7 +323,7 @@ class Scenes(Explain):
         self.assertEqual(found["uploaded_bytes"]["colors"], 0)
 
     def test_only_scenes_with_checkers_or_glass_compile_them(self):
-        general = ["--tune", "specialize=never"]
+        general = ["--tune", "specialize=never,kernel=pair"]
         self.expect_parts(["ball.scn", *general], glass=(False, False, "no material in use is glass"))
         self.write(glass_scn="define a glass\nmaterial a\nsphere 0 0 0 1\n")
         self.expect_parts(["glass.scn", *general], glass=(True, True, "a material in use is glass"))

@@ -115,7 +115,7 @@ class Parts(SharedWork):
         self.expect_whole(names, *scene)
 
     def test_counts_of_tests_are_of_one_tree(self):
-        scene = [str(ROOT / "scenes/cone.ply"), *SMALL[1:], "-q", "--aov", "boxtests", "--tune", "kernel=wide,bvh=sah"]
+        scene = [str(ROOT / "scenes/cone.ply"), *SMALL[1:], "-q", "--aov", "boxtests", "--tune=kernel=packet,bvh=sah"]
         names = self.draw("count", *scene, of=2)
         self.expect_whole(names, *scene)
         for other in ["--tune", "bvh=midpoint"], ["--tune", "kernel=pair"]:

@@ -260,7 +260,7 @@ class Schemas(Talk):
     def test_explanations(self):
         for pixel in "0,0", "8,6", "7,9":
             self.validate("explanation", "explain", *SMALL, pixel, "--json")
-        for words in [*SMALL, "--stats"], [*SMALL, "--tune", "specialize=always"], ["empty.scn"]:
+        for words in [*SMALL, "--stats"], [*SMALL, "--tune", "specialize=always,kernel=pair"], ["empty.scn"]:
             self.validate("explanation-scene", "explain", *words, "--json")
 
 
