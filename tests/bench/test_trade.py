@@ -215,6 +215,11 @@ class Trade(unittest.TestCase):
             best = front.time_at(points, goal["goal"])
             self.assertEqual(goal["oracle_times"], goal["milliseconds"] / best["milliseconds"])
 
+    def test_each_step_is_announced(self):
+        steps = ["reference", *(f"setting {number} of 7" for number in range(1, 8)),
+                 "round 1 of 2", "round 2 of 2"]
+        self.assertEqual(re.findall(r"reflections\.scn: (\w+.*)", self.said), steps)
+
     def test_every_setting_is_timed_in_every_round(self):
         for row in self.rows.values():
             self.assertEqual(len(row["times"]), 2)

@@ -146,9 +146,15 @@ def finish_row(row):
     row["megarays_per_second"] = row["rays"] / row["milliseconds"] / 1e3
 
 
+def report_progress(scene, text):
+    print(f"{scene}: {text}", file=sys.stderr)
+
+
 def first_rows(scene, options, folder):
-    rows = [first_row(place, setting, scene, options, folder)
-            for place, setting in enumerate(grid.all_settings(options.quick, options.kinds))]
+    rows, settings = [], grid.all_settings(options.quick, options.kinds)
+    for place, setting in enumerate(settings):
+        report_progress(scene, f"setting {place + 1} of {len(settings)}")
+        rows.append(first_row(place, setting, scene, options, folder))
     more = holding_settings(rows, scene, options, folder)
     return rows + [first_row(len(rows) + place, setting, scene, options, folder)
                    for place, setting in enumerate(more)]
@@ -206,9 +212,9 @@ def measured_rows(scene, options, folder):
     affects all of them."""
     rows = first_rows(scene, options, folder)
     for turn in range(options.runs):
+        report_progress(scene, f"round {turn + 1} of {options.runs}")
         for row in rows if turn % 2 == 0 else reversed(rows):
             time_row(row, scene, options, folder)
-        print(f"{scene}: round {turn + 1} of {options.runs}", file=sys.stderr)
     return rows
 
 
@@ -219,6 +225,7 @@ def measure_scene(scene, name, options, folder):
         report = json.loads((folder / "reference.json").read_text())
         rows = stored_rows(scene, options, folder)
     else:
+        report_progress(scene, "reference")
         report, rows = draw_reference(scene, options, folder), measured_rows(scene, options, folder)
     for row in rows:
         finish_row(row)
