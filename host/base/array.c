@@ -76,10 +76,3 @@ void *memory_zeroed(size_t count, size_t size, Error *error)
     void *memory = memory_raw(count, size, error);
     return memory != NULL ? memset(memory, 0, byte_count(count, size)) : NULL;
 }
-
-char *text_copy(const char *text, Error *error)
-{
-    const size_t size = strlen(text) + 1;
-    char *copy = memory_raw(size, 1, error);
-    return copy != NULL ? memcpy(copy, text, size) : NULL;
-}

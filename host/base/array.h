@@ -31,9 +31,6 @@ bool array_reserve(void **memory, size_t *capacity, size_t count, size_t size, E
 void *memory_zeroed(size_t count, size_t size, Error *error);
 void *memory_raw(size_t count, size_t size, Error *error);
 
-// Returns a copy of `text`, or NULL if memory runs out. The caller frees the copy.
-char *text_copy(const char *text, Error *error);
-
 // Like memory_raw, but elements take no physical memory until they are written. The array gets no
 // huge pages and is not aligned to 64 bytes.
 void *memory_sparse(size_t count, size_t size, Error *error);

@@ -3,6 +3,7 @@
 #include "base/file.h"
 
 #include "base/array.h"
+#include "base/text.h"
 
 #include <errno.h>
 #include <stdint.h>
@@ -117,12 +118,6 @@ bool file_has_ending(const char *path, const char *ending)
 
 char *file_path_beside(const char *beside, const char *path, Error *error)
 {
-    const char *slash = strrchr(beside, '/');
-    const size_t folder = path[0] == '/' || slash == NULL ? 0 : (size_t)(slash - beside) + 1;
-    char *joined = memory_raw(folder + strlen(path) + 1, 1, error);
-    if (joined != NULL) {
-        memcpy(joined, beside, folder);
-        strcpy(joined + folder, path);
-    }
-    return joined;
+    const int folder = path[0] == '/' ? 0 : (int)(text_file_name(beside) - beside);
+    return text_format(error, "%.*s%s", folder, beside, path);
 }

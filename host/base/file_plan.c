@@ -5,6 +5,7 @@
 #include "base/file_plan.h"
 
 #include "base/file.h"
+#include "base/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -54,8 +55,7 @@ static bool identify_new(PlannedFile *file, Error *error)
     char *path = follow_links(file->path, error);
     if (path == NULL)
         return false;
-    const char *slash = strrchr(path, '/');
-    file->name = text_copy(slash != NULL ? slash + 1 : path, error);
+    file->name = text_copy(text_file_name(path), error);
     char *folder = file_path_beside(path, ".", error);
     if (folder != NULL && stat(folder, &status) == 0)
         take_identity(file, &status);

@@ -10,6 +10,7 @@
 
 #include "base/array.h"
 #include "base/file.h"
+#include "base/text.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -26,7 +27,7 @@
 #include <unistd.h>
 
 #define PREFIX      "clrt-"
-#define SUFFIX_SIZE sizeof PREFIX "0123456701234567"
+#define NAME        PREFIX "0123456701234567" // make_file replaces the digits
 #define BOOT_DIGITS 8
 #define ATTEMPTS    100 // to find an unused name
 #define OLD_SECONDS 86400
@@ -69,7 +70,7 @@ static int make_file(char *suffix, const char *name)
         uint32_t number = 0;
         if (getrandom(&number, sizeof number, 0) != sizeof number)
             return -1;
-        snprintf(suffix, SUFFIX_SIZE, PREFIX "%s%08x", boot, number);
+        snprintf(suffix, sizeof NAME, PREFIX "%s%08x", boot, number);
         const int file = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file >= 0 && take_file(file))
             return file;
@@ -85,25 +86,23 @@ static int make_file(char *suffix, const char *name)
 // file that will be copied is in the system's temporary folder.
 static bool make_temporary(OutputFile *file, Error *error)
 {
-    const char *slash = strrchr(file->path, '/');
     const char *system = getenv("TMPDIR");
     const char *folder = system != NULL && system[0] == '/' ? system : "/tmp";
-    const size_t length = slash == NULL ? 0 : (size_t)(slash - file->path) + 1;
-    const size_t size = strlen(file->path) + strlen(folder) + SUFFIX_SIZE + 2;
-    char *name = file->temporary = memory_raw(size, 1, error);
+    const int length = (int)(text_file_name(file->path) - file->path);
+    char *name = file->replaces ? text_format(error, "%.*s." NAME, length, file->path)
+                                : text_format(error, "%s/" NAME, folder);
+    file->temporary = name;
     if (name == NULL)
         return false;
-    const int start = file->replaces ? snprintf(name, size, "%.*s.", (int)length, file->path)
-                                     : snprintf(name, size, "%s/", folder);
-    file->lock = make_file(name + start, name);
+    file->lock = make_file(name + strlen(name) - strlen(NAME), name);
     return file->lock >= 0 || error_set(error, "%s: cannot be written: %s",
                                         file->replaces ? file->path : name, strerror(errno));
 }
 
 static bool is_temporary(const char *name)
 {
-    return strlen(name) == SUFFIX_SIZE && strncmp(name, "." PREFIX, sizeof PREFIX) == 0 &&
-           strspn(name + sizeof PREFIX, "0123456789abcdef") == SUFFIX_SIZE - sizeof PREFIX;
+    return strlen(name) == sizeof NAME && strncmp(name, "." PREFIX, sizeof PREFIX) == 0 &&
+           strspn(name + sizeof PREFIX, "0123456789abcdef") == sizeof NAME - sizeof PREFIX;
 }
 
 // Removes a temporary file unless a process has locked it, or another machine may have written to
@@ -158,7 +157,7 @@ bool output_file_check(const char *path, Error *error)
     }
     if (!check_folder(path, error))
         return false;
-    return strlen(strrchr(path, '/') != NULL ? strrchr(path, '/') + 1 : path) <= NAME_MAX ||
+    return strlen(text_file_name(path)) <= NAME_MAX ||
            error_set(error, "%s: cannot be written: the name is too long", path);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // clrt convert: writes a scene as scene text with PLY meshes, or as one PLY mesh. clrt reads all
 // files before it writes any, and never overwrites a file that it has read.
+#include "base/text.h"
 #include "cli/commands.h"
 
 #include "base/file.h"
@@ -80,22 +81,20 @@ static ExitCode write_joined(const Conversion *conversion, Error *error)
 static bool name_meshes(Conversion *conversion, Error *error)
 {
     const char *path = conversion->options->other_path;
-    const char *slash = strrchr(path, '/');
-    const size_t folder = slash != NULL ? (size_t)(slash - path) + 1 : 0;
-    const size_t stem = strlen(path) - strlen(".scn");
-    const size_t count = conversion->scene.objects.count, size = strlen(path) + 32;
+    const char *name = text_file_name(path);
+    const int stem = (int)(strlen(path) - strlen(".scn"));
+    const size_t count = conversion->scene.objects.count;
     conversion->mesh_paths = memory_zeroed(count, sizeof *conversion->mesh_paths, error);
     conversion->mesh_names = memory_zeroed(count, sizeof *conversion->mesh_names, error);
     if (conversion->mesh_paths == NULL || conversion->mesh_names == NULL)
         return false;
-    if (!scn_write_can_name(path + folder))
+    if (!scn_write_can_name(name))
         return error_set(error, "%s: scene text cannot contain this name: choose another", path);
     for (size_t i = 0; i < count; i++) {
-        conversion->mesh_paths[i] = memory_raw(size, 1, error);
+        conversion->mesh_paths[i] = text_format(error, "%.*s-%zu.ply", stem, path, i + 1);
         if (conversion->mesh_paths[i] == NULL)
             return false;
-        snprintf(conversion->mesh_paths[i], size, "%.*s-%zu.ply", (int)stem, path, i + 1);
-        conversion->mesh_names[i] = conversion->mesh_paths[i] + folder;
+        conversion->mesh_names[i] = conversion->mesh_paths[i] + (name - path);
     }
     return true;
 }

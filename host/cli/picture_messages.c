@@ -2,6 +2,7 @@
 // Prints notes about a picture, and describes pictures that miss a goal or are stopped.
 #include "cli/picture_messages.h"
 
+#include "base/text.h"
 #include "cli/progress.h"
 #include "image/json_file.h"
 

@@ -4,6 +4,7 @@
 #include "cli/stages.h"
 
 #include "base/clock.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "image/image_file.h"

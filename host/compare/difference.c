@@ -5,6 +5,7 @@
 #include "compare/difference.h"
 
 #include "base/number.h"
+#include "base/text.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -135,7 +136,7 @@ const char *const limit_names[LIMIT_KINDS] = {"rmse", "max", "psnr", "share1", "
 static int kind_named(const char *name, size_t length)
 {
     for (int kind = 0; kind < LIMIT_KINDS; kind++)
-        if (strlen(limit_names[kind]) == length && strncmp(limit_names[kind], name, length) == 0)
+        if (text_is(name, length, limit_names[kind]))
             return kind;
     return -1;
 }

@@ -3,6 +3,7 @@
 // light.
 #include "explain/lights.h"
 
+#include "base/text.h"
 #include "image/json_file.h"
 
 #include <string.h>
@@ -16,10 +17,9 @@ void explain_print(const ExplainReport *report, const json_t *json, const char *
 void explain_print_primitive(const ExplainReport *report, const json_t *primitive, FILE *stream)
 {
     const char *path = json_string_value(json_object_get(primitive, "file"));
-    const char *slash = path == NULL ? NULL : strrchr(path, '/');
     json_print(primitive, "{kind} {number}", stream);
     if (path != NULL)
-        text_print(stream, " of %s", report->is_brief && slash != NULL ? slash + 1 : path);
+        text_print(stream, " of %s", report->is_brief ? text_file_name(path) : path);
 }
 
 // Prints the diffuse and specular light that the surface receives from one light.

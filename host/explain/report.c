@@ -4,6 +4,7 @@
 // --aov channel "primitive".
 #include "explain/report.h"
 
+#include "base/text.h"
 #include "image/json_file.h"
 
 #include <assert.h>

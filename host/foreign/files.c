@@ -4,6 +4,7 @@
 // Assimp only gets files in the model's folder or below.
 #include "foreign/files.h"
 
+#include "base/text.h"
 #include "foreign/process_limits.h"
 
 #include <errno.h>
@@ -22,7 +23,7 @@ typedef struct {
 
 static size_t folder_length(const Files *files)
 {
-    return (size_t)(strrchr(files->model, '/') - files->model) + 1;
+    return (size_t)(text_file_name(files->model) - files->model);
 }
 
 // Returns whether `file` is in `folder` or in a subfolder. Neither path may contain links.

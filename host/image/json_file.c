@@ -3,10 +3,10 @@
 #include "image/json_file.h"
 
 #include "base/output_file.h"
+#include "base/text.h"
 
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,20 +70,6 @@ static const json_t *find_value(const json_t *value, char *path)
         value = json_is_array(value) ? json_array_get(value, strtoul(name, NULL, 10))
                                      : json_object_get(value, name);
     return value;
-}
-
-void text_print(FILE *stream, const char *format, ...)
-{
-    char *text;
-    va_list arguments;
-    va_start(arguments, format);
-    const bool ok = vasprintf(&text, format, arguments) >= 0;
-    va_end(arguments);
-    if (!ok)
-        return;
-    text_hide_controls(text);
-    fputs(text, stream);
-    free(text);
 }
 
 // Prints a value in a format such as ".3f", "5.3f", ".3g", ".3g%" or, for arrays of reals, ".3v".

@@ -49,9 +49,6 @@ json_t *json_of(const JsonField *fields, size_t count);
 #define REPORT(schema, ...)                                                                        \
     JSON(FIELD("schema", json_integer(schema)), FIELD("version", CLRT_VERSION), __VA_ARGS__)
 
-// Prints as fprintf does, and replaces control characters as text_hide_controls does.
-__attribute__((format(printf, 2, 3))) void text_print(FILE *stream, const char *format, ...);
-
 // Prints `text`, and replaces its placeholders by the report's values: {GROUP.NAME} for integers
 // and strings, {NAME .3f} or {NAME .3g} for reals, {NAME .3g%} for shares in percent, and {NAME
 // .3v} for arrays of reals. A null value prints as infinity. A null report prints nothing.

@@ -5,6 +5,7 @@
 // has the same bits as an uninterrupted one.
 #include "jobs/resume.h"
 
+#include "base/text.h"
 #include "jobs/stored_tiles.h"
 
 #include <stdlib.h>
@@ -15,11 +16,7 @@
 
 char *resume_journal_name(const char *output_path, Error *error)
 {
-    const size_t size = strlen(output_path) + sizeof ".part";
-    char *name = memory_raw(size, 1, error);
-    if (name != NULL)
-        snprintf(name, size, "%s.part", output_path);
-    return name;
+    return text_format(error, "%s.part", output_path);
 }
 
 bool resume_prepare(Resume *resume, const char *path, bool is_exr, Error *error)

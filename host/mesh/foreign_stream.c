@@ -4,6 +4,7 @@
 #include "mesh/foreign_stream.h"
 
 #include "base/limits.h"
+#include "base/text.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -60,12 +61,7 @@ static char *copy_text(const Parser *parser, const char *start, size_t size)
         fail_damaged(parser);
         return NULL;
     }
-    char *text = memory_raw(size + 1, 1, parser->error);
-    if (text != NULL) {
-        memcpy(text, start, size);
-        text[size] = '\0';
-    }
-    return text;
+    return text_format(parser->error, "%.*s", (int)size, start);
 }
 
 static bool take_file(Parser *parser)

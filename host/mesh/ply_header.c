@@ -4,6 +4,7 @@
 #include "mesh/ply_header.h"
 
 #include "base/number.h"
+#include "base/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -57,7 +58,7 @@ static const struct {
 
 static bool word_is(PlyWord word, const char *text)
 {
-    return word.length == strlen(text) && memcmp(word.start, text, word.length) == 0;
+    return text_is(word.start, word.length, text);
 }
 
 static void split_line(Parser *parser, const char *text, const char *end)

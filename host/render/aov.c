@@ -5,7 +5,7 @@
 // some programs display integers as fractions of the largest integer.
 #include "render/aov.h"
 
-#include "base/word.h"
+#include "base/text.h"
 #include "render/tile_pass.h"
 
 #include <string.h>
@@ -89,12 +89,11 @@ static bool unknown_name(const char *name, size_t length, Error *error)
 
 static bool read_name(const char *name, size_t length, AovSet *set, Error *error)
 {
-    const bool is_all = length == 3 && memcmp(name, "all", 3) == 0;
+    const bool is_all = text_is(name, length, "all");
     bool is_known = false;
     for (size_t i = 0; i < aov_count; i++) {
         const bool is_named = is_all ? aov_table[i].need != AOV_NEEDS_REFERENCE
-                                     : strlen(aov_table[i].name) == length &&
-                                           memcmp(aov_table[i].name, name, length) == 0;
+                                     : text_is(name, length, aov_table[i].name);
         if (is_named && aov_has(*set, i))
             return error_set(error, "--aov names '%s' twice", aov_table[i].name);
         *set |= (AovSet)is_named << i;

@@ -4,7 +4,7 @@
 
 #include "base/limits.h"
 #include "base/number.h"
-#include "base/word.h"
+#include "base/text.h"
 
 #include <stddef.h>
 #include <string.h>

@@ -4,6 +4,7 @@
 // of two files rarely have the same name.
 #include "scene/mesh_load.h"
 
+#include "base/text.h"
 #include "mesh/foreign_stream.h"
 
 #include <stdio.h>
@@ -29,9 +30,7 @@ static Material material_of(const ForeignMaterial *given)
 static MaterialName name_of(const ForeignMaterial *given, const char *path, uint32_t material)
 {
     MaterialName name = {.material = material};
-    const char *slash = strrchr(path, '/');
-    snprintf(name.name, sizeof name.name, "%.30s:%s", slash != NULL ? slash + 1 : path,
-             given->name);
+    snprintf(name.name, sizeof name.name, "%.30s:%s", text_file_name(path), given->name);
     return name;
 }
 

@@ -4,6 +4,8 @@
 // that max_level causes.
 #include "scene/scene.h"
 
+#include "base/text.h"
+
 #include <inttypes.h>
 #include <search.h>
 #include <stdio.h>
@@ -152,15 +154,13 @@ bool scene_add_input(Scene *scene, const char *path, Error *error)
 
 bool scene_add_note(Scene *scene, const char *path, const char *text, Error *error)
 {
-    const size_t size = strlen(path) + strlen(text) + sizeof ": ";
-    char *note = memory_raw(size, 1, error);
-    if (note == NULL || !array_push(&scene->notes, note, error)) {
-        free(note);
-        return false;
+    char *note = text_format(error, "%s: %s", path, text);
+    if (note != NULL && array_push(&scene->notes, note, error)) {
+        text_hide_controls(note);
+        return true;
     }
-    snprintf(note, size, "%s: %s", path, text);
-    text_hide_controls(note);
-    return true;
+    free(note);
+    return false;
 }
 
 size_t scene_triangle_count(const Scene *scene)

@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/limits.h"
-#include "base/word.h"
+#include "base/text.h"
 #include "mesh/foreign_stream.h"
 #include "scene/statements.h"
 #include "scene/tokens.h"

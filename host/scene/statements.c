@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "base/number.h"
-#include "base/word.h"
+#include "base/text.h"
 #include "mesh/foreign_stream.h"
 #include "mesh/mesh.h"
 #include "scene/material_text.h"
@@ -261,11 +261,8 @@ static bool add_objects(Scene *scene, const Tokens *tokens, Token path,
 {
     Error *error = tokens->error;
     Error cause = {0};
-    char *relative = memory_zeroed(path.length + 1, 1, error);
-    if (relative == NULL)
-        return false;
-    memcpy(relative, path.text, path.length);
-    char *full = file_path_beside(tokens->name, relative, error);
+    char *relative = text_format(error, "%.*s", (int)path.length, path.text);
+    char *full = relative != NULL ? file_path_beside(tokens->name, relative, error) : NULL;
     const bool ok = full != NULL && (!options->is_plain_ply && foreign_format_is(full)
                                          ? mesh_load_foreign(scene, full, options, &cause)
                                          : add_ply(scene, full, options, &cause, error));

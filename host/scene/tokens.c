@@ -4,6 +4,7 @@
 
 #include "base/limits.h"
 #include "base/number.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -103,8 +104,7 @@ bool tokens_have_more(const Tokens *tokens)
 
 bool token_is(Token token, const char *word)
 {
-    return token.text != NULL && strlen(word) == token.length &&
-           memcmp(token.text, word, token.length) == 0;
+    return token.text != NULL && text_is(token.text, token.length, word);
 }
 
 // Writes the token for a message: in quotes and shortened.

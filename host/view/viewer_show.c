@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws the picture and then the text over it, prints changes of the state, and saves pictures.
+#include "base/text.h"
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
@@ -33,8 +34,7 @@ static bool is_free(const char *stem, const char *ending)
 // Stores the name of the files without an ending: the start of the scene file's name, and a number.
 static void write_stem(char stem[NAME_SIZE], const char *scene_path)
 {
-    const char *slash = strrchr(scene_path, '/');
-    const char *name = slash == NULL ? scene_path : slash + 1;
+    const char *name = text_file_name(scene_path);
     const char *dot = strrchr(name, '.');
     const size_t length = dot == NULL || dot == name ? strlen(name) : (size_t)(dot - name);
     const int kept = length < NAME_SIZE / 4 ? (int)length : NAME_SIZE / 4;
@@ -114,13 +114,12 @@ static bool is_explained(const Viewer *viewer)
 static Figures figures_of(const Viewer *viewer)
 {
     const WorkerStatus *status = &viewer->status;
-    const char *slash = strrchr(viewer->settings.scene_path, '/');
     const char *missing = scene_missing(&viewer->model->scene).text;
     const UpAxis up = viewer->model->scene.mesh_up;
     Figures figures = {.state = &viewer->state,
                        .request = &viewer->request,
                        .status = status,
-                       .scene_name = slash == NULL ? viewer->settings.scene_path : slash + 1,
+                       .scene_name = text_file_name(viewer->settings.scene_path),
                        .up = up == UP_AUTO ? NULL : up_axis_names[up],
                        .samples = viewer->settings.samples,
                        .box_count = viewer->views.boxes.count,

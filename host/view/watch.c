@@ -3,6 +3,8 @@
 // the sum of its files' signatures.
 #include "view/watch.h"
 
+#include "base/text.h"
+
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>

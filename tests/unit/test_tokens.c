@@ -2,7 +2,7 @@
 // Tests the tokenizer of scene text and the suggestions for misspelled words.
 #include "scene/tokens.h"
 
-#include "base/word.h"
+#include "base/text.h"
 
 #include "unit/cmocka_all.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parses ranges of frames, and names the files of frames. A frame's number replaces the last run of
 // # in a file name, or is inserted before the ending.
+#include "base/text.h"
 #include "cli/options/options.h"
 
 #include "base/array.h"
@@ -83,18 +84,13 @@ uint32_t frames_at(const Frames *frames, uint32_t place)
 
 char *frames_name(const char *pattern, uint32_t number, Error *error)
 {
-    const char *slash = strrchr(pattern, '/');
-    const char *file = slash == NULL ? pattern : slash + 1;
+    const char *file = text_file_name(pattern);
     const char *dot = strrchr(file, '.'), *last = strrchr(file, '#');
     const char *end = last != NULL ? last + 1 : dot != NULL ? dot : file + strlen(file);
     const char *start = end;
     while (last != NULL && start > file && start[-1] == '#')
         start--;
     const int digits = last != NULL ? (int)(end - start) : DIGITS;
-    const size_t size = strlen(pattern) + (size_t)digits + 16;
-    char *name = memory_raw(size, 1, error);
-    if (name != NULL)
-        snprintf(name, size, "%.*s%s%0*u%s", (int)(start - pattern), pattern,
-                 last != NULL ? "" : ".", digits, number, end);
-    return name;
+    return text_format(error, "%.*s%s%0*u%s", (int)(start - pattern), pattern,
+                       last != NULL ? "" : ".", digits, number, end);
 }

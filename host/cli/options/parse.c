@@ -4,7 +4,7 @@
 // similar one.
 #include "cli/options/options.h"
 
-#include "base/word.h"
+#include "base/text.h"
 #include "cli/options/option.h"
 
 #include <assert.h>
@@ -66,7 +66,7 @@ static const struct {
 static const char *find_synonym(const char *name, size_t length)
 {
     for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
-        if (strlen(synonyms[i].name) == length && memcmp(synonyms[i].name, name, length) == 0)
+        if (text_is(name, length, synonyms[i].name))
             return synonyms[i].words;
     return NULL;
 }
