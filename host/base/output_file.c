@@ -8,7 +8,6 @@
 // the start of the system's boot id. Files with another boot id are removed after OLD_SECONDS.
 #include "base/output_file.h"
 
-#include "base/array.h"
 #include "base/file.h"
 #include "base/text.h"
 

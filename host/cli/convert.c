@@ -7,7 +7,6 @@
 #include "base/file.h"
 #include "base/output_file.h"
 #include "cli/stages.h"
-#include "image/json_file.h"
 #include "mesh/ply_write.h"
 #include "scene/scn_write.h"
 

@@ -4,7 +4,6 @@
 
 #include "base/text.h"
 #include "cli/progress.h"
-#include "image/json_file.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,6 @@
 #include "image/json_file.h"
 
 #include <stdio.h>
-#include <string.h>
 #include <strings.h>
 #include <sys/resource.h>
 

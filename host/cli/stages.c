@@ -8,7 +8,6 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "image/image_file.h"
-#include "image/json_file.h"
 #include "scene/scene.h"
 #include "scene/scn.h"
 

@@ -6,8 +6,6 @@
 #include "base/text.h"
 #include "image/json_file.h"
 
-#include <string.h>
-
 void explain_print(const ExplainReport *report, const json_t *json, const char *full,
                    const char *brief, FILE *stream)
 {

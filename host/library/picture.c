@@ -7,7 +7,6 @@
 #include "session/level.h"
 #include "session/reference.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 // Draws the colors and, if a channel requires it, computes the certainty of the pixels.

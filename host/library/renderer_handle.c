@@ -5,9 +5,7 @@
 #include "session/request.h"
 
 #include <pthread.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 // Locked during calls that open drivers. PoCL 3.1 crashes if two threads make the first OpenCL
 // calls concurrently. These calls may also change the environment while cache_open reads

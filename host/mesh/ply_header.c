@@ -7,7 +7,6 @@
 #include "base/text.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #define WORD_LIMIT 6 // one more than the number of words of the longest statement
 

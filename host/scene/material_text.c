@@ -3,7 +3,6 @@
 #include "scene/material_text.h"
 
 #include "base/limits.h"
-#include "base/number.h"
 #include "base/text.h"
 
 #include <stddef.h>

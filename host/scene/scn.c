@@ -10,7 +10,6 @@
 #include "scene/statements.h"
 #include "scene/tokens.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct {

@@ -6,7 +6,6 @@
 #include "base/number.h"
 #include "base/text.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -4,8 +4,6 @@
 
 #include "scene/camera.h"
 
-#include <math.h>
-
 // Omitted reflections may use up this fraction of the error goal. The fraction is small, because
 // additional levels cost less time than additional samples.
 #define TRUNCATION_PART 0.25

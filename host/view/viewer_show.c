@@ -4,7 +4,6 @@
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
-#include "image/json_file.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -4,8 +4,6 @@
 // colors, but not the depth.
 #include "view/views.h"
 
-#include "image/image_file.h"
-
 static const float blue[3] = {26 / 255.0f, 77 / 255.0f, 1}, red[3] = {1, 26 / 255.0f, 13 / 255.0f};
 
 bool views_open(Views *views, Error *no_font, Error *error)

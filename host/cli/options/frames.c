@@ -4,10 +4,8 @@
 #include "base/text.h"
 #include "cli/options/options.h"
 
-#include "base/array.h"
 #include "base/number.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #define DIGITS 4
