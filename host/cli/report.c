@@ -19,11 +19,11 @@ static uint64_t ray_count(const uint64_t *tallies)
 }
 
 // Returns the name of the tree's builder as in --tune bvh, or "none" if there is no tree.
-static const char *tree_name(const Bvh *tree, BvhBuilder builder)
+static const char *tree_name(const Picture *picture)
 {
-    if (tree->node_count == 0)
+    if (picture->form->stages.bvh.node_count == 0)
         return "none";
-    return builder == BVH_MIDPOINT ? "midpoint" : "sah";
+    return picture->session->settings.wanted.tree == CLRT_TREE_MIDPOINT ? "midpoint" : "sah";
 }
 
 static json_t *repetitions_json(const Picture *picture)
@@ -42,9 +42,10 @@ static json_t *inner_nodes_json(const Bvh *tree)
     return list;
 }
 
-static json_t *tree_json(const Bvh *tree, BvhBuilder builder)
+static json_t *tree_json(const Picture *picture)
 {
-    return JSON(FIELD("builder", tree_name(tree, builder)), FIELD("nodes", tree->node_count),
+    const Bvh *tree = &picture->form->stages.bvh;
+    return JSON(FIELD("builder", tree_name(picture)), FIELD("nodes", tree->node_count),
                 FIELD("leaves", tree->leaf_count), FIELD("depth", tree->depth),
                 FIELD("inner_nodes", inner_nodes_json(tree)),
                 FIELD("largest_leaf", tree->largest_leaf));
@@ -168,9 +169,7 @@ static json_t *report_json(const Picture *picture)
               JSON(FIELD("name", device->facts.name), FIELD("driver", device->facts.driver))),
         FIELD("bytes",
               JSON(FIELD("uploaded", picture->drawn.upload_size), FIELD("peak_memory", peak))),
-        FIELD("scene", scene_json(picture)),
-        FIELD("bvh", tree_json(&picture->form->stages.bvh,
-                               session_scene_builder(&picture->session->settings.wanted))),
+        FIELD("scene", scene_json(picture)), FIELD("bvh", tree_json(picture)),
         FIELD("settings", settings_json(picture)), FIELD("cached", picture->drawn.was_compiled),
         FIELD("tiles", tiles_json(picture)),
         FIELD("samples", samples_json(&picture->drawn, picture->options->picture.contrast)),
@@ -277,52 +276,31 @@ static json_t *stored_samples_json(const Picture *picture)
                : json_count(picture->request.settings.samples);
 }
 
-// If the file has channels that count tests, adds the settings on which these counts depend: the
-// tree's builder and the node layout.
-static void add_tree(json_t *json, const Picture *picture)
-{
-    if (!aov_needs(picture->options->aovs, AOV_NEEDS_TESTS))
-        return;
-    json_object_set_new(
-        json, "bvh",
-        json_string(tree_name(&picture->form->stages.bvh,
-                              session_scene_builder(&picture->session->settings.wanted))));
-    json_object_set_new(json, "nodes",
-                        json_string(kernel_nodes_name(picture->session->choice.nodes)));
-}
-
 static json_t *stored_settings_json(const Picture *picture)
 {
     const RenderSettings *settings = &picture->request.settings;
     const Options *options = picture->options;
     const bool is_unfinished = !picture->complete && !goal_is_given(&options->picture);
-    json_t *json =
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:s, s:s}", "view", json_count(picture->view), "width",
-                  json_count(render_whole_width(settings)), "height",
-                  json_count(render_whole_height(settings)), "samples",
-                  stored_samples_json(picture), "max_level", json_count(settings->max_level),
-                  "encode", options->encoding == ENCODE_SRGB ? "srgb" : "raw", "precision",
-                  kernel_precision_name(picture->session->choice.precision));
-    add_tree(json, picture);
-    if (options->exposure != 0)
-        json_object_set_new(json, "exposure", json_real(options->exposure));
-    if (picture->turned > 0)
-        json_object_set_new(json, "turned", json_real(picture->turned));
-    if (render_is_part(settings))
-        json_object_set_new(json, "crop", crop_json(settings));
-    if (options->picture.contrast > 0)
-        json_object_set_new(json, "contrast", json_real(options->picture.contrast));
-    if (options->picture.error > 0)
-        json_object_set_new(json, "error", json_real(options->picture.error));
-    if (options->picture.seconds > 0)
-        json_object_set_new(json, "time", json_real(options->picture.seconds));
-    if (settings->parts > 0)
-        json_object_set_new(json, "part", json_two(settings->part + 1, settings->parts));
-    if (settings->parts > 0 || is_unfinished)
-        json_object_set_new(json, "tile", json_two(settings->tile_width, settings->tile_height));
-    if (is_unfinished)
-        json_object_set_new(json, "tiles_done", json_count(picture->drawn.progress.tiles_done));
-    return json;
+    // The counts of tests depend on the tree's builder and on the node layout.
+    const bool counts_tests = aov_needs(options->aovs, AOV_NEEDS_TESTS);
+    return JSON(
+        FIELD("view", picture->view), FIELD("width", render_whole_width(settings)),
+        FIELD("height", render_whole_height(settings)),
+        FIELD("samples", stored_samples_json(picture)), FIELD("max_level", settings->max_level),
+        FIELD("encode", options->encoding == ENCODE_SRGB ? "srgb" : "raw"),
+        FIELD("precision", kernel_precision_name(picture->session->choice.precision)),
+        FIELD_IF(counts_tests, "bvh", tree_name(picture)),
+        FIELD_IF(counts_tests, "nodes", kernel_nodes_name(picture->session->choice.nodes)),
+        FIELD_IF(options->exposure != 0, "exposure", options->exposure),
+        FIELD_IF(picture->turned > 0, "turned", picture->turned),
+        FIELD_IF(render_is_part(settings), "crop", crop_json(settings)),
+        FIELD_IF(options->picture.contrast > 0, "contrast", options->picture.contrast),
+        FIELD_IF(options->picture.error > 0, "error", options->picture.error),
+        FIELD_IF(options->picture.seconds > 0, "time", options->picture.seconds),
+        FIELD_IF(settings->parts > 0, "part", json_two(settings->part + 1, settings->parts)),
+        FIELD_IF(settings->parts > 0 || is_unfinished, "tile",
+                 json_two(settings->tile_width, settings->tile_height)),
+        FIELD_IF(is_unfinished, "tiles_done", picture->drawn.progress.tiles_done));
 }
 
 static void set(Provenance *provenance, StoredText kind, const char *value)

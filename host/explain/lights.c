@@ -6,10 +6,20 @@
 #include "base/text.h"
 #include "image/json_file.h"
 
-void explain_print(const ExplainReport *report, const json_t *json, const char *full,
-                   const char *brief, FILE *stream)
+#include <limits.h>
+
+#define BRIEF_DIGITS 3
+
+void explain_print(const ExplainReport *report, const json_t *json, const char *text, FILE *stream)
 {
-    json_print(json, report->is_brief ? brief : full, stream);
+    json_print_digits(json, text, report->is_brief ? BRIEF_DIGITS : INT_MAX, stream);
+}
+
+void explain_print_detail(const ExplainReport *report, const json_t *json, const char *text,
+                          FILE *stream)
+{
+    if (!report->is_brief)
+        json_print(json, text, stream);
 }
 
 void explain_print_primitive(const ExplainReport *report, const json_t *primitive, FILE *stream)
@@ -24,17 +34,16 @@ void explain_print_primitive(const ExplainReport *report, const json_t *primitiv
 static void print_received(const ExplainReport *report, const json_t *light, const Light *source,
                            bool shines, FILE *stream)
 {
-    explain_print(report, light, "; intensity {intensity .6g}; diffuse {diffuse .6g}",
-                  "; diffuse {diffuse .3g}", stream);
-    if (shines)
-        explain_print(report, light, "; shine {shine .6g}; highlight {highlight .6g}",
-                      "; highlight {highlight .3g}", stream);
+    explain_print_detail(report, light, "; intensity {intensity .6g}", stream);
+    explain_print(report, light, "; diffuse {diffuse .6g}", stream);
+    if (shines) {
+        explain_print_detail(report, light, "; shine {shine .6g}", stream);
+        explain_print(report, light, "; highlight {highlight .6g}", stream);
+    }
     if (source->color.x < 1 || source->color.y < 1 || source->color.z < 1)
-        explain_print(report, light, "; light color {color .6v}", "; light color {color .3v}",
-                      stream);
+        explain_print(report, light, "; light color {color .6v}", stream);
     if (json_object_get(light, "tint") != NULL)
-        explain_print(report, light, "; through glass of the color {tint .6v}",
-                      "; through glass of the color {tint .3v}", stream);
+        explain_print(report, light, "; through glass of the color {tint .6v}", stream);
 }
 
 static void print_light(const ExplainReport *report, const ExplainedRay *ray, size_t index,
@@ -55,16 +64,17 @@ static void print_light(const ExplainReport *report, const ExplainedRay *ray, si
     case CLRT_LIGHT_BLOCKED:
         fputs("is blocked by ", stream);
         explain_print_primitive(report, json_object_get(light, "blocker"), stream);
-        explain_print(report, light, ", {blocker_distance .6g} away", "", stream);
+        explain_print_detail(report, light, ", {blocker_distance .6g} away", stream);
         if (!is_sun)
-            explain_print(report, light, "; the light is {distance .6g} away", "", stream);
+            explain_print_detail(report, light, "; the light is {distance .6g} away", stream);
         break;
     case CLRT_LIGHT_REACHES:
-        explain_print(report, light, is_sun ? "reaches it" : "reaches it from {distance .6g} away",
-                      "reaches it", stream);
+        fputs("reaches it", stream);
+        if (!is_sun)
+            explain_print_detail(report, light, " from {distance .6g} away", stream);
         break;
     }
-    explain_print(report, light, "; cosine {cosine .6g}", "", stream);
+    explain_print_detail(report, light, "; cosine {cosine .6g}", stream);
     if (state == CLRT_LIGHT_REACHES)
         print_received(report, light, &report->scene->lights.data[index], shines, stream);
     fputs("\n", stream);
@@ -118,13 +128,11 @@ static void print_area(const ExplainReport *report, const json_t *lights, const 
     json_t *sums = JSON(FIELD("diffuse", sum->diffuse), FIELD("highlight", sum->highlight),
                         FIELD("color", json_pack("[f, f, f]", color.x, color.y, color.z)));
     if (reaching > 0)
-        explain_print(report, sums, "; diffuse {diffuse .6g}", "; diffuse {diffuse .3g}", stream);
+        explain_print(report, sums, "; diffuse {diffuse .6g}", stream);
     if (sum->highlight > 0)
-        explain_print(report, sums, "; highlight {highlight .6g}", "; highlight {highlight .3g}",
-                      stream);
+        explain_print(report, sums, "; highlight {highlight .6g}", stream);
     if (reaching > 0 && (color.x < 1 || color.y < 1 || color.z < 1))
-        explain_print(report, sums, "; light color {color .6v}", "; light color {color .3v}",
-                      stream);
+        explain_print(report, sums, "; light color {color .6v}", stream);
     json_decref(sums);
     fputs("\n", stream);
 }

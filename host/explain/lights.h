@@ -18,9 +18,12 @@ typedef struct {
     bool is_brief; // only the first sample and its important rays, with fewer facts and digits
 } ExplainReport;
 
-// Prints values of `json` by the template `full` or, in brief reports, by the template `brief`.
-void explain_print(const ExplainReport *report, const json_t *json, const char *full,
-                   const char *brief, FILE *stream);
+// Prints values of `json` by the template `text`. Brief reports have at most three digits.
+void explain_print(const ExplainReport *report, const json_t *json, const char *text, FILE *stream);
+
+// Prints nothing in brief reports.
+void explain_print_detail(const ExplainReport *report, const json_t *json, const char *text,
+                          FILE *stream);
 
 // Prints a sphere's number, or a triangle's number and file. Brief reports omit the file's folder.
 void explain_print_primitive(const ExplainReport *report, const json_t *primitive, FILE *stream);

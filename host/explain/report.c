@@ -56,14 +56,6 @@ static bool is_white(const double color[3])
     return color[0] == 1 && color[1] == 1 && color[2] == 1;
 }
 
-// Adds the color of the glass along a ray to `json`, unless this color is white.
-static json_t *with_tint(json_t *json, const double tint[3])
-{
-    if (!is_white(tint))
-        json_object_set_new(json, "tint", vector_json(tint));
-    return json;
-}
-
 static json_t *light_json(const ExplainReport *report, const ExplainedRay *ray, size_t index)
 {
     static const char *const states[] = {"behind", "reaches", "blocked", "behind_face"};
@@ -72,16 +64,15 @@ static json_t *light_json(const ExplainReport *report, const ExplainedRay *ray, 
     const Material *material = &report->scene->materials.data[ray->found.material];
     const bool blocked = light->state == CLRT_LIGHT_BLOCKED;
     json_t *blocker = blocked ? primitive_json(report->scene, light->blocker) : json_null();
-    json_t *json =
-        JSON(FIELD("state", states[light->state]), FIELD("cosine", light->cosine),
-             FIELD("distance", light->distance), FIELD("blocker", blocker),
-             FIELD("blocker_distance", blocked ? light->blocker_distance : (double)NAN),
-             FIELD("intensity", source->intensity),
-             FIELD("diffuse", light->diffuse * (double)material->kd),
-             FIELD("shine", source->intensity > 0 ? light->specular / source->intensity : 0.0),
-             FIELD("highlight", light->specular * (double)material->ks),
-             FIELD("color", color_json(source->color)));
-    return with_tint(json, light->tint);
+    return JSON(FIELD("state", states[light->state]), FIELD("cosine", light->cosine),
+                FIELD("distance", light->distance), FIELD("blocker", blocker),
+                FIELD("blocker_distance", blocked ? light->blocker_distance : (double)NAN),
+                FIELD("intensity", source->intensity),
+                FIELD("diffuse", light->diffuse * (double)material->kd),
+                FIELD("shine", source->intensity > 0 ? light->specular / source->intensity : 0.0),
+                FIELD("highlight", light->specular * (double)material->ks),
+                FIELD("color", color_json(source->color)),
+                FIELD_IF(!is_white(light->tint), "tint", vector_json(light->tint)));
 }
 
 static json_t *lights_json(const ExplainReport *report, const ExplainedRay *ray)
@@ -128,20 +119,18 @@ static json_t *sample_json(const ExplainReport *report, const ExplainedSample *s
 {
     json_t *rays = json_array();
     for (uint32_t level = 0; level < sample->found.ray_count; level++) {
-        const ExplainedRay *ray = &sample->rays[level];
-        const char *kind = ray->found.is_refracted ? "refracted" : "reflected";
-        json_t *json =
-            JSON(FIELD("kind", level == 0 ? "camera" : kind),
-                 FIELD("origin", vector_json(ray->found.origin)),
-                 FIELD("direction", vector_json(ray->found.direction)),
-                 FIELD("weight", ray->found.weight), FIELD("hit", hit_json(report, ray)));
-        if (ray->found.level != level)
-            json_object_set_new(json, "level", json_integer(ray->found.level));
-        if (ray->found.is_cut)
-            json_object_set_new(json, "is_cut", json_true());
-        if (ray->found.primitive == NOTHING && ray->found.share > 0)
-            json_object_set_new(json, "background_weight", json_real(ray->found.share));
-        json_array_append_new(rays, with_tint(json, ray->found.tint));
+        const ClrtExplainedRay *ray = &sample->rays[level].found;
+        const char *kind = ray->is_refracted ? "refracted" : "reflected";
+        const bool adds_background = ray->primitive == NOTHING && ray->share > 0;
+        json_t *json = JSON(
+            FIELD("kind", level == 0 ? "camera" : kind), FIELD("origin", vector_json(ray->origin)),
+            FIELD("direction", vector_json(ray->direction)), FIELD("weight", ray->weight),
+            FIELD("hit", hit_json(report, &sample->rays[level])),
+            FIELD_IF(ray->level != level, "level", ray->level),
+            FIELD_IF(ray->is_cut, "is_cut", ray->is_cut),
+            FIELD_IF(adds_background, "background_weight", ray->share),
+            FIELD_IF(!is_white(ray->tint), "tint", vector_json(ray->tint)));
+        json_array_append_new(rays, json);
     }
     return JSON(FIELD("rays", rays), FIELD("background_weight", sample->found.background_weight),
                 FIELD("color", vector_json(sample->found.color)));
@@ -170,18 +159,16 @@ static void print_hit(const ExplainReport *report, const ExplainedRay *ray, cons
     explain_print_primitive(report, json_object_get(hit, "primitive"), stream);
     explain_print(report, hit,
                   ", material {material}\n"
-                  "    distance   {distance .9g}, off by at most {distance_error .2g}\n"
-                  "    point      {point .6v}, normal {normal .6v}\n",
-                  ", material {material}\n"
-                  "    distance   {distance .3g}\n"
-                  "    point      {point .3v}, normal {normal .3v}\n",
+                  "    distance   {distance .9g}",
                   stream);
+    explain_print_detail(report, hit, ", off by at most {distance_error .2g}", stream);
+    explain_print(report, hit, "\n    point      {point .6v}, normal {normal .6v}\n", stream);
     explain_print_lights(report, ray, json_object_get(hit, "lights"), stream);
     if (!report->is_brief)
         print_factors(json_object_get(hit, "factors"), material->shader, stream);
     if (material->shader == SHADER_GLASS)
         return;
-    explain_print(report, hit, "    color      {color .6v}", "    color      {color .3v}", stream);
+    explain_print(report, hit, "    color      {color .6v}", stream);
     json_print(hit, ", weight {share .6g} in the sample", stream);
     if (material->reflectivity > 0)
         json_print(hit, "; reflectivity {reflectivity .6g}", stream);
@@ -191,7 +178,8 @@ static void print_hit(const ExplainReport *report, const ExplainedRay *ray, cons
 static void print_ray(const ExplainReport *report, const ExplainedRay *ray, const json_t *json,
                       FILE *stream)
 {
-    explain_print(report, json, "    from       {origin .6v} along {direction .6v}\n", "", stream);
+    explain_print_detail(report, json, "    from       {origin .6v} along {direction .6v}\n",
+                         stream);
     if (ray->found.primitive != NOTHING) {
         fputs("    meets      ", stream);
         print_hit(report, ray, json_object_get(json, "hit"), stream);
@@ -219,20 +207,18 @@ static void print_sample(const ExplainReport *report, const ExplainedSample *sam
             if (json_object_get(ray, "level") != NULL)
                 json_print(ray, ", level {level}", stream);
             if (json_object_get(ray, "tint") != NULL)
-                explain_print(report, ray, ", through glass of the color {tint .6v}",
-                              ", through glass of the color {tint .3v}", stream);
+                explain_print(report, ray, ", through glass of the color {tint .6v}", stream);
             fputs("\n", stream);
         }
         print_ray(report, &sample->rays[level], ray, stream);
     }
     if (sample->found.background_weight > least) {
         json_t *background = JSON(FIELD("color", color_json(report->scene->background)));
-        explain_print(report, background, "  the background {color .6v}",
-                      "  the background {color .3v}", stream);
+        explain_print(report, background, "  the background {color .6v}", stream);
         json_print(json, ", weight {background_weight .6g} in the sample\n", stream);
         json_decref(background);
     }
-    explain_print(report, json, "  the sample's color {color .6v}\n", "", stream);
+    explain_print_detail(report, json, "  the sample's color {color .6v}\n", stream);
 }
 
 // Traces the samples and adds their JSON to `list`. Prints all samples or, in brief reports, only
@@ -298,7 +284,6 @@ bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE 
     if (json != NULL)
         explain_print(report, json,
                       "the pixel's color {color .9v}, in 8 bits {bytes.0} {bytes.1} {bytes.2}\n",
-                      "the pixel's color {color .3v}, in 8 bits {bytes.0} {bytes.1} {bytes.2}\n",
                       stream);
     json_decref(json);
     return json != NULL;

@@ -6,6 +6,7 @@
 #include "base/text.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,7 +57,8 @@ json_t *json_of(const JsonField *fields, size_t count)
     bool ok = true;
     json_t *object = json_object();
     for (size_t i = 0; i < count; i++)
-        ok = json_object_set_new(object, fields[i].name, fields[i].value) == 0 && ok;
+        if (fields[i].name != NULL)
+            ok = json_object_set_new(object, fields[i].name, fields[i].value) == 0 && ok;
     if (ok)
         return object;
     json_decref(object);
@@ -73,7 +75,8 @@ static const json_t *find_value(const json_t *value, char *path)
 }
 
 // Prints a value in a format such as ".3f", "5.3f", ".3g", ".3g%" or, for arrays of reals, ".3v".
-static void print_value(const json_t *value, const char *format, FILE *stream)
+// Prints reals with at most `most` digits.
+static void print_value(const json_t *value, const char *format, int most, FILE *stream)
 {
     char *point, *kind;
     if (json_is_integer(value))
@@ -82,7 +85,8 @@ static void print_value(const json_t *value, const char *format, FILE *stream)
         text_print(stream, "%s", json_string_value(value));
     if (json_is_integer(value) || json_is_string(value))
         return;
-    const int width = (int)strtol(format, &point, 10), digits = (int)strtol(point + 1, &kind, 10);
+    const int width = (int)strtol(format, &point, 10), given = (int)strtol(point + 1, &kind, 10);
+    const int digits = given < most ? given : most;
     for (size_t i = 0; i < json_array_size(value); i++)
         fprintf(stream, "%s%.*g", i == 0 ? "(" : ", ", digits,
                 json_real_value(json_array_get(value, i)) + 0.0); // -0 becomes 0
@@ -96,7 +100,7 @@ static void print_value(const json_t *value, const char *format, FILE *stream)
     fputs(is_percent ? " %" : "", stream);
 }
 
-void json_print(const json_t *report, const char *text, FILE *stream)
+void json_print_digits(const json_t *report, const char *text, int most, FILE *stream)
 {
     char path[NAME_SIZE];
     if (json_is_null(report))
@@ -106,10 +110,15 @@ void json_print(const json_t *report, const char *text, FILE *stream)
         const char *format = open + 1 + length;
         fwrite(text, 1, (size_t)(open - text), stream);
         snprintf(path, sizeof path, "%.*s", (int)length, open + 1);
-        print_value(find_value(report, path), format + 1, stream);
+        print_value(find_value(report, path), format + 1, most, stream);
         text = strchr(format, '}') + 1;
     }
     fputs(text, stream);
+}
+
+void json_print(const json_t *report, const char *text, FILE *stream)
+{
+    json_print_digits(report, text, INT_MAX, stream);
 }
 
 static bool write_text(void *text, FILE *stream, Error *cause)

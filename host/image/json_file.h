@@ -39,6 +39,10 @@ typedef struct {
                      const char *: json_file_path,                                                 \
                      json_t *: json_itself)(value)})
 
+// A field that the object has only if the condition holds. Otherwise, `value` is not evaluated.
+#define FIELD_IF(condition, name, value)                                                           \
+    ((condition) ? FIELD(name, value) : (JsonField){NULL, NULL})
+
 // Returns an object with these fields, or NULL if memory runs out.
 #define JSON(...)                                                                                  \
     json_of((const JsonField[]){__VA_ARGS__},                                                      \
@@ -53,6 +57,9 @@ json_t *json_of(const JsonField *fields, size_t count);
 // and strings, {NAME .3f} or {NAME .3g} for reals, {NAME .3g%} for shares in percent, and {NAME
 // .3v} for arrays of reals. A null value prints as infinity. A null report prints nothing.
 void json_print(const json_t *report, const char *text, FILE *stream);
+
+// Prints as json_print does, but reals with at most `most` digits.
+void json_print_digits(const json_t *report, const char *text, int most, FILE *stream);
 
 // Writes `root` with sorted keys to `path` ("-": standard output), and releases `root`.
 bool json_file_write(json_t *root, const char *path, Error *error);
