@@ -13,7 +13,7 @@
 #pragma once
 
 #include "mesh/edges.h"
-#include "session/geometry.h"
+#include "session/session.h"
 
 typedef enum {
     AIM_UNTRIED, // no ray: the angles are too sharp or the triangles too small

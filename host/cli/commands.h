@@ -38,7 +38,7 @@ TracingCommand explain_pixel;
 TracingCommand check_scene;
 
 // clrt devices: lists the OpenCL devices like `clinfo -l`, as versioned JSON, or in both forms.
-ExitCode device_report_write(const Options *options, Error *error);
+ExitCode devices_print(const Options *options, Error *error);
 
 // Checks the scene's geometry for pictures and for the commands explain, warm and convert. With
 // `--bad-geometry fail`, fails if any triangle has no area. Otherwise, prints the scene's notes and

@@ -7,7 +7,6 @@
 #include "base/output_file.h"
 #include "compare/difference.h"
 #include "image/image_file.h"
-#include "image/image_read.h"
 #include "image/json_file.h"
 
 typedef struct {

@@ -5,12 +5,13 @@
 #include "cli/crash.h"
 #include "cli/options/options.h"
 #include "cli/progress.h"
-#include "cli/stack.h"
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 // Limits the number of PoCL's threads to `count`. If `count` is 0 and the user has not set PoCL's
@@ -54,7 +55,7 @@ static ExitCode perform(const Options *options, Error *error)
         puts("clrt " CLRT_VERSION);
         return EXIT_DONE;
     case ACTION_DEVICES:
-        return device_report_write(options, error);
+        return devices_print(options, error);
     case ACTION_WARM:
         return perform_traced(options, warm_kernels, error);
     case ACTION_VIEW:
@@ -107,6 +108,35 @@ static void *run(void *context)
     return NULL;
 }
 
+// RLIMIT_STACK limits the main thread's stack and is the default size of other threads' stacks.
+#define STACK_LEAST ((rlim_t)8 << 20)
+#define STACK_SIZE  ((size_t)16 << 20)
+
+static bool run_on_thread(void *(*work)(void *context), void *context)
+{
+    pthread_t thread;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, STACK_SIZE);
+    pthread_setattr_default_np(&attributes);
+    const bool ok = pthread_create(&thread, &attributes, work, context) == 0;
+    pthread_attr_destroy(&attributes);
+    if (ok)
+        pthread_join(thread, NULL);
+    return ok;
+}
+
+// Calls work(context) with a stack that is large enough for compilers, regardless of `ulimit -s`.
+// Returns when `work` has returned. If the limit of `ulimit -s` is below 8 MiB, `work` runs on a
+// new thread with a larger stack, and threads of drivers get larger stacks too.
+static void run_with_stack(void *(*work)(void *context), void *context)
+{
+    struct rlimit limit;
+    const bool is_small = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < STACK_LEAST;
+    if (!is_small || !run_on_thread(work, context))
+        work(context);
+}
+
 // Opens each closed standard stream so that reading or writing it fails. Otherwise, the next file
 // that clrt opens would become the stream.
 static void hold_closed_streams(void)
@@ -127,7 +157,7 @@ int main(int count, char **arguments)
     // Builds with sanitizers (CLRT_TIDY_EXIT) keep the crash handlers of the sanitizers.
     if (!CLRT_TIDY_EXIT)
         crash_watch();
-    stack_run(run, &line);
+    run_with_stack(run, &line);
     // Drivers and libraries take 0.1 s to free their memory. The operating system frees it at once.
     if (!CLRT_TIDY_EXIT)
         _exit((int)line.code);

@@ -13,7 +13,7 @@
 #include "device/cache_private.h"
 #include "library/clrt.h"
 #include "render/renderer.h"
-#include "session/geometry.h"
+#include "accel/scene_compile.h"
 
 typedef struct {
     ClrtSettings wanted;       // wanted.size is not used

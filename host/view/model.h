@@ -5,7 +5,7 @@
 #pragma once
 
 #include "scene/scn.h"
-#include "session/geometry.h"
+#include "session/session.h"
 
 #include <stdatomic.h>
 

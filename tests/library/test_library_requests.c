@@ -2,7 +2,7 @@
 // Tests requests beyond a plain picture: goals, crops, turns, levels, statistics, channels,
 // certainty and references. Most results must equal the program's results, bit for bit.
 #include "base/error.h"
-#include "image/image_read.h"
+#include "image/image_file.h"
 #include "library/faults.h"
 #include "library/filled.h"
 #include "library/renderer.h"

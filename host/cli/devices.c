@@ -36,7 +36,7 @@ static ExitCode write(const DeviceList *list, const Options *options, Error *err
                : EXIT_OUTPUT;
 }
 
-ExitCode device_report_write(const Options *options, Error *error)
+ExitCode devices_print(const Options *options, Error *error)
 {
     Cache cache;
     DeviceList list;
