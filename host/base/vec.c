@@ -9,32 +9,31 @@
 
 #define RADIANS_PER_DEGREE 0.017453292519943295
 
+#define TERMS 8
+
+// Returns the polynomial with these coefficients, the highest first, by Horner's method.
+static double polynomial(const double coefficients[TERMS], double x)
+{
+    double sum = coefficients[0];
+    for (int i = 1; i < TERMS; i++)
+        sum = sum * x + coefficients[i];
+    return sum;
+}
+
 static double sine_series(double x)
 {
-    const double s = x * x;
-    double sum = 1.0 / 355687428096000.0;
-    sum = sum * s - 1.0 / 1307674368000.0;
-    sum = sum * s + 1.0 / 6227020800.0;
-    sum = sum * s - 1.0 / 39916800.0;
-    sum = sum * s + 1.0 / 362880.0;
-    sum = sum * s - 1.0 / 5040.0;
-    sum = sum * s + 1.0 / 120.0;
-    sum = sum * s - 1.0 / 6.0;
-    return x + x * s * sum;
+    static const double terms[TERMS] = {
+        1.0 / 355687428096000.0, -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
+        1.0 / 362880.0,          -1.0 / 5040.0,          1.0 / 120.0,        -1.0 / 6.0};
+    return x + x * (x * x) * polynomial(terms, x * x);
 }
 
 static double cosine_series(double x)
 {
-    const double s = x * x;
-    double sum = 1.0 / 20922789888000.0;
-    sum = sum * s - 1.0 / 87178291200.0;
-    sum = sum * s + 1.0 / 479001600.0;
-    sum = sum * s - 1.0 / 3628800.0;
-    sum = sum * s + 1.0 / 40320.0;
-    sum = sum * s - 1.0 / 720.0;
-    sum = sum * s + 1.0 / 24.0;
-    sum = sum * s - 1.0 / 2.0;
-    return 1.0 + s * sum;
+    static const double terms[TERMS] = {
+        1.0 / 20922789888000.0, -1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0,
+        1.0 / 40320.0,          -1.0 / 720.0,         1.0 / 24.0,        -1.0 / 2.0};
+    return 1.0 + x * x * polynomial(terms, x * x);
 }
 
 // Returns the sine of `degrees` + 90 * `quarters`. This sum is never computed or rounded, because

@@ -63,6 +63,12 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b)
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+// The squares of the components must neither overflow nor underflow.
+static inline double vec3_length(Vec3 a)
+{
+    return sqrt(vec3_dot(a, a));
+}
+
 // Return the smaller or the larger of each pair of components. The vectors must not contain NaN.
 // fmin and fmax would be slower, because they are function calls.
 static inline Vec3 vec3_lower(Vec3 a, Vec3 b)

@@ -48,11 +48,6 @@ static Vec3 corner_of(const Triangles *triangles, uint32_t triangle, int corner)
     return point_of(triangles, triangles->corners[triangle][corner]);
 }
 
-static double length_of(Vec3 v)
-{
-    return sqrt(vec3_dot(v, v));
-}
-
 static Vec3 normal_of(const AimSource *source, uint32_t triangle)
 {
     const Vec3 a = corner_of(source->triangles, triangle, 0);
@@ -69,8 +64,8 @@ static double height_at(const Triangles *triangles, uint32_t triangle, int corne
     const Vec3 from = corner_of(triangles, triangle, (corner + 1) % 3);
     const Vec3 to = corner_of(triangles, triangle, (corner + 2) % 3);
     const Vec3 base = vec3_sub(to, from);
-    const double length = length_of(base);
-    return length > 0 ? length_of(vec3_cross(base, vec3_sub(apex, from))) / length : 0;
+    const double length = vec3_length(base);
+    return length > 0 ? vec3_length(vec3_cross(base, vec3_sub(apex, from))) / length : 0;
 }
 
 // Returns the triangle's angle at a corner. Normals are weighted by these angles, so that their sum
@@ -80,7 +75,7 @@ static double angle_at(const Triangles *triangles, uint32_t triangle, int corner
     const Vec3 apex = corner_of(triangles, triangle, corner);
     const Vec3 a = vec3_sub(corner_of(triangles, triangle, (corner + 1) % 3), apex);
     const Vec3 b = vec3_sub(corner_of(triangles, triangle, (corner + 2) % 3), apex);
-    return atan2(length_of(vec3_cross(a, b)), vec3_dot(a, b));
+    return atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b));
 }
 
 // Counts an aim and returns whether to keep it.
@@ -94,15 +89,19 @@ static void keep(AimBuilder *builder, Vec3 point, const Star *star)
     builder->aims->aims[builder->aims->count++] = (Aim){.point = point, .star = *star};
 }
 
+static Star *star_at(const AimBuilder *builder, uint32_t triangle, int corner)
+{
+    const AimSource *source = builder->source;
+    return &builder->stars[source->edges->weld.points[source->mesh->triangles[triangle][corner]]];
+}
+
 static void sum_stars(const AimBuilder *builder)
 {
     const AimSource *source = builder->source;
     for (uint32_t triangle = 0; triangle < source->mesh->triangle_count; triangle++) {
         const Vec3 normal = normal_of(source, triangle);
         for (int corner = 0; corner < 3; corner++) {
-            Star *star =
-                &builder
-                     ->stars[source->edges->weld.points[source->mesh->triangles[triangle][corner]]];
+            Star *star = star_at(builder, triangle, corner);
             const double angle = angle_at(source->triangles, triangle, corner);
             star->outward = vec3_add(star->outward, vec3_scale(normal, angle));
             star->triangle = triangle;
@@ -121,9 +120,7 @@ static void bound_stars(const AimBuilder *builder)
     for (uint32_t triangle = 0; triangle < source->mesh->triangle_count; triangle++) {
         const Vec3 normal = normal_of(source, triangle);
         for (int corner = 0; corner < 3; corner++) {
-            Star *star =
-                &builder
-                     ->stars[source->edges->weld.points[source->mesh->triangles[triangle][corner]]];
+            Star *star = star_at(builder, triangle, corner);
             star->facing = fmin(star->facing, vec3_dot(normal, star->outward));
             star->size = fmin(star->size, height_at(source->triangles, triangle, corner));
         }
@@ -195,7 +192,7 @@ static void find_sphere(Aims *aims, const Triangles *triangles)
         for (int corner = 0; corner < 3; corner++)
             bounding_box_add(&box, corner_of(triangles, triangle, corner));
     aims->center = bounding_box_center(&box);
-    aims->radius = length_of(bounding_box_sides(&box)) / 2;
+    aims->radius = vec3_length(bounding_box_sides(&box)) / 2;
 }
 
 bool aims_make(Aims *aims, const AimSource *source, size_t most, Error *error)
@@ -261,7 +258,7 @@ static double error_at(const Aim *aim, double distance)
 static bool shoot(Aim *aim, Vec3 origin, double least_facing, RayData *ray)
 {
     const Vec3 back = vec3_sub(origin, aim->point);
-    const double distance = length_of(back);
+    const double distance = vec3_length(back);
     const double error = error_at(aim, distance);
     const double facing = facing_from(aim, vec3_scale(back, 1 / distance));
     if (!(facing >= least_facing) || !(aim->star.size * facing > 4 * error))

@@ -59,11 +59,6 @@ static bool count_pinched(MeshCensus *census, const Fans *fans, Error *error)
     return ok;
 }
 
-static Vec3 corner_position(const Mesh *mesh, size_t triangle, int corner)
-{
-    return vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]);
-}
-
 // Returns six times the mesh's volume, scaled to prevent overflow. The result is positive if the
 // backs of the triangles face the inside.
 static double signed_volume(const Mesh *mesh)
@@ -71,12 +66,12 @@ static double signed_volume(const Mesh *mesh)
     double volume = 0;
     const BoundingBox box = mesh_bounds(mesh);
     const double scale = 1 / vec3_extent(bounding_box_sides(&box));
-    const Vec3 origin = corner_position(mesh, 0, 0);
+    const Vec3 origin = mesh_corner(mesh, 0, 0);
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
         Vec3 corners[3];
         for (int corner = 0; corner < 3; corner++)
             corners[corner] =
-                vec3_scale(vec3_sub(corner_position(mesh, triangle, corner), origin), scale);
+                vec3_scale(vec3_sub(mesh_corner(mesh, triangle, corner), origin), scale);
         volume += vec3_dot(corners[0], vec3_cross(corners[1], corners[2]));
     }
     return volume;

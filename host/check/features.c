@@ -12,9 +12,8 @@ typedef struct {
 static Shape shape_of(const Mesh *mesh, size_t triangle)
 {
     Shape shape;
-    for (int corner = 0; corner < 3; corner++) {
-        shape.corners[corner] = vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]);
-    }
+    for (int corner = 0; corner < 3; corner++)
+        shape.corners[corner] = mesh_corner(mesh, triangle, corner);
     return shape;
 }
 

@@ -29,11 +29,6 @@ typedef struct {
 // picture's side. The excess over 1 is larger than rounding errors.
 #define MARGIN 1.001
 
-static Vec3 seen_from(Vec3 eye, const Mesh *mesh, uint32_t vertex)
-{
-    return vec3_normalize(vec3_sub(vec3_of_doubles(mesh->positions[vertex]), eye));
-}
-
 // Returns half of a triangle's signed solid angle.
 static double half_solid_angle(Vec3 a, Vec3 b, Vec3 c)
 {
@@ -50,9 +45,10 @@ static bool mesh_contains(const Mesh *mesh, Vec3 eye)
         eye.z > high.z)
         return false;
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
-        const uint32_t *corners = mesh->triangles[triangle];
-        sum += half_solid_angle(seen_from(eye, mesh, corners[0]), seen_from(eye, mesh, corners[1]),
-                                seen_from(eye, mesh, corners[2]));
+        Vec3 seen[3];
+        for (int corner = 0; corner < 3; corner++)
+            seen[corner] = vec3_normalize(vec3_sub(mesh_corner(mesh, triangle, corner), eye));
+        sum += half_solid_angle(seen[0], seen[1], seen[2]);
     }
     return fabs(sum) > TAU / 2;
 }

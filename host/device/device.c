@@ -2,8 +2,6 @@
 // Queries the devices of all platforms of the ICD loader, and opens the chosen device.
 #include "device/device.h"
 
-#include "base/processors.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -176,11 +174,6 @@ void device_close(Device *device)
     if (device->context != NULL)
         clReleaseContext(device->context);
     *device = (Device){0};
-}
-
-uint32_t threads_allowed(uint32_t count)
-{
-    return count > 0 ? count : processors_usable();
 }
 
 bool device_thread_start(pthread_t *thread, void *(*work)(void *context), void *context)

@@ -48,7 +48,3 @@ void device_list_text(const DeviceList *list, char text[DEVICE_TEXT_SIZE]);
 // Starts a thread that may build programs. Its stack is larger than usual, because OpenCL compilers
 // recurse deeply. Returns false if the system cannot start a thread.
 bool device_thread_start(pthread_t *thread, void *(*work)(void *context), void *context);
-
-// Returns the number of threads for the host's own work. This is `count` or, if `count` is 0, the
-// number of processors that the process may use.
-uint32_t threads_allowed(uint32_t count);

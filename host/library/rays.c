@@ -5,6 +5,7 @@
 // Programs list the rays of a picture row by row, but 64 rays of a square visit fewer nodes than 64
 // rays of a row. The rays of a picture are therefore reordered into beams of 64 rays. The order
 // changes no bit of the hits.
+#include "base/processors.h"
 #include "base/thread_pool.h"
 #include "library/ray_batch.h"
 
@@ -109,8 +110,9 @@ static bool cast_batch(ClrtRenderer *renderer, ClrtError *error)
     RayBatch *batch = renderer->batch;
     const size_t count = batch->rays.count, room = batch->results.hits.room;
     const size_t most = HITS_MAX / (room > 0 ? room : 1);
-    const uint32_t threads =
-        count > LEAST_RAYS ? threads_allowed(renderer->session.settings.wanted.threads) : 1;
+    uint32_t threads = count > LEAST_RAYS ? renderer->session.settings.wanted.threads : 1;
+    if (threads == 0)
+        threads = processors_usable();
     size_t part = LEAST_RAYS;
     while (part < PART_RAYS && part < count && part < (size_t)threads * THREAD_RAYS)
         part *= 2;

@@ -23,8 +23,7 @@ void mesh_add_bounds(const Mesh *mesh, BoundingBox *box)
     BoundingBox grown = *box;
     for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++)
         for (int corner = 0; corner < 3; corner++)
-            bounding_box_add(&grown,
-                             vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]));
+            bounding_box_add(&grown, mesh_corner(mesh, triangle, corner));
     *box = grown;
 }
 

@@ -37,6 +37,11 @@ typedef struct {
     MeshFault bad_positions, bad_normals;
 } Mesh;
 
+static inline Vec3 mesh_corner(const Mesh *mesh, size_t triangle, int corner)
+{
+    return vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]);
+}
+
 // Allocates arrays for mesh->vertex_count vertices, without values. Fails if memory runs out. The
 // caller must then free the mesh.
 bool mesh_allocate_vertices(Mesh *mesh, bool has_normals, bool has_colors, Error *error);

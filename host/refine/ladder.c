@@ -258,7 +258,7 @@ static void describe(const Ladder *ladder, GoalOutcome *outcome)
     outcome->bound = sqrt(estimate.bound);
 }
 
-bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error)
+bool ladder_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error)
 {
     const StrataAim aim = {.mean_square = most * most, .samples = INFINITY};
     bool ok = true, moves = true;
@@ -286,7 +286,7 @@ static double samples_in_time(const GoalTime *time, double seconds_per_sample)
     return (left < PART_OF_LAST * time->seconds ? 1 : PART_OF_ROUND) * left / seconds_per_sample;
 }
 
-bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error)
+bool ladder_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error)
 {
     double moment = clock_seconds();
     double seconds_per_sample = (moment - time->start) / (double)ladder->samples;

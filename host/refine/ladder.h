@@ -46,7 +46,7 @@ typedef struct {
 
 // Refines until outcome->bound is at most `most`. Stops earlier if no pixel can advance, if too
 // many rounds have passed, or if the observer stops the trace.
-bool goal_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
+bool ladder_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
 
 // A time budget, on the clock of clock_seconds.
 typedef struct {
@@ -55,4 +55,4 @@ typedef struct {
 
 // Refines until about time->seconds have passed since time->start, no pixel can advance, or the
 // observer stops the trace.
-bool goal_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);
+bool ladder_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);

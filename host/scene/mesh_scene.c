@@ -31,7 +31,7 @@ static BoundingBox box_below(const Scene *scene, int axis, double most, int leas
                 below += mesh->positions[corners[corner]][axis] <= most;
             for (int corner = 0; below >= least && corner < 3; corner++)
                 if (mesh->positions[corners[corner]][axis] <= most)
-                    bounding_box_add(&box, vec3_of_doubles(mesh->positions[corners[corner]]));
+                    bounding_box_add(&box, mesh_corner(mesh, triangle, corner));
         }
     }
     return box;
@@ -117,8 +117,7 @@ static Vec3 farthest(const Framing *framing, Vec3 d)
             most)
             continue;
         for (size_t corner = 0; corner < 3 * run->mesh.triangle_count; corner++) {
-            const uint32_t *vertices = run->mesh.triangles[corner / 3];
-            const Vec3 point = vec3_of_doubles(run->mesh.positions[vertices[corner % 3]]);
+            const Vec3 point = mesh_corner(&run->mesh, corner / 3, (int)(corner % 3));
             if (vec3_dot(point, d) > most) {
                 most = vec3_dot(point, d);
                 found = point;
@@ -228,7 +227,7 @@ static LightArea light_area(Vec3 offset, StudioLights studio)
 {
     const Vec3 side = vec3_normalize(vec3_cross(vec3(0, 0, 1), offset));
     const Vec3 other = vec3_normalize(vec3_cross(offset, side));
-    const double length = LIGHT_SIDE * sqrt(vec3_dot(offset, offset));
+    const double length = LIGHT_SIDE * vec3_length(offset);
     return (LightArea){{vec3_scale(side, length), vec3_scale(other, length)},
                        studio == STUDIO_SOFT ? LIGHT_CELLS : 1};
 }
@@ -256,7 +255,7 @@ static bool add_studio(Scene *scene, StudioLights studio, Error *error)
         box = (BoundingBox){{-1, -1, -1}, {1, 1, 1}};
     const Vec3 half = vec3_scale(bounding_box_sides(&box), 0.5);
     const Vec3 center = vec3_add(box.low, half);
-    const double radius = sqrt(vec3_dot(half, half)), depth = FLOOR_RADIUS * radius;
+    const double radius = vec3_length(half), depth = FLOOR_RADIUS * radius;
     const Sphere floor = {vec3(center.x, center.y, box.low.z - depth), depth, MESH_FLOOR};
     scene->viewpoints.count = scene->spheres.count = 0;
     scene->lights.count = scene->area_lights.count = 0;

@@ -34,12 +34,6 @@ static double extent_of(const BoundingBox *box)
     return box->low.x <= box->high.x ? vec3_extent(bounding_box_sides(box)) : -1;
 }
 
-static double distance_between(Vec3 a, Vec3 b)
-{
-    const Vec3 apart = vec3_sub(a, b);
-    return sqrt(vec3_dot(apart, apart));
-}
-
 double scene_extent(const Scene *scene)
 {
     const BoundingBox box = box_of(scene);
@@ -52,7 +46,7 @@ static double distance_to_spheres(const Scene *scene, Vec3 point)
     double nearest = INFINITY;
     for (size_t i = 0; i < scene->spheres.count; i++) {
         const Sphere *sphere = &scene->spheres.data[i];
-        const double distance = distance_between(point, sphere->center);
+        const double distance = vec3_length(vec3_sub(point, sphere->center));
         nearest = fmin(nearest, fabs(distance - sphere->radius));
     }
     return nearest;
@@ -67,10 +61,9 @@ static double distance_to_triangles(const Scene *scene, Vec3 point)
         for (size_t triangle = 0; triangle < mesh->triangle_count; triangle++) {
             BoundingBox box = bounding_box_empty();
             for (int corner = 0; corner < 3; corner++)
-                bounding_box_add(
-                    &box, vec3_of_doubles(mesh->positions[mesh->triangles[triangle][corner]]));
+                bounding_box_add(&box, mesh_corner(mesh, triangle, corner));
             const Vec3 inside = vec3_lower(vec3_upper(point, box.low), box.high);
-            nearest = fmin(nearest, distance_between(point, inside));
+            nearest = fmin(nearest, vec3_length(vec3_sub(point, inside)));
         }
     }
     return nearest;
@@ -83,7 +76,7 @@ static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
 {
     if (viewpoint->height > 0)
         return viewpoint->height;
-    return fmax(distance_between(viewpoint->look_at, viewpoint->eye),
+    return fmax(vec3_length(vec3_sub(viewpoint->look_at, viewpoint->eye)),
                 fmin(distance_to_spheres(scene, viewpoint->eye),
                      distance_to_triangles(scene, viewpoint->eye)));
 }
@@ -186,7 +179,7 @@ bool normalization_is_fine(const Normalization *normalization, const Scene *scen
         const double away = vec3_extent(vec3_sub(viewpoint->eye, normalization->center));
         // A distant look-at point suffices. Otherwise reach_of visits all triangles.
         if (viewpoint->height == 0 &&
-            away <= COARSE / 2 * distance_between(viewpoint->look_at, viewpoint->eye))
+            away <= COARSE / 2 * vec3_length(vec3_sub(viewpoint->look_at, viewpoint->eye)))
             continue;
         const double reach = reach_of(scene, viewpoint);
         if (away > COARSE / 2 * reach)

@@ -170,8 +170,8 @@ static bool refine(const PictureDrawing *drawing, Ladder *ladder, double truncat
     const GoalTime time = {drawing->start, wanted->seconds};
     const double left = wanted->error * wanted->error - truncated * truncated;
     if (wanted->seconds > 0)
-        return goal_spend_time(ladder, &time, outcome, error);
-    return left <= 0 || goal_reach_error(ladder, sqrt(left), outcome, error);
+        return ladder_spend_time(ladder, &time, outcome, error);
+    return left <= 0 || ladder_reach_error(ladder, sqrt(left), outcome, error);
 }
 
 // Returns whether one more level would save more time than it costs, according to the samples so

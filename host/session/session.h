@@ -10,10 +10,10 @@
 // sources of kernels, and extra options for the compiler.
 #pragma once
 
+#include "accel/scene_compile.h"
 #include "device/cache_private.h"
 #include "library/clrt.h"
 #include "render/renderer.h"
-#include "accel/scene_compile.h"
 
 typedef struct {
     ClrtSettings wanted;       // wanted.size is not used

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 
+#include <assert.h>
 #include <ctype.h>
 #include <string.h>
 
@@ -22,6 +23,15 @@ const char *option_key(const Option *option)
 bool option_names_file(const Option *option)
 {
     return option->argument != NULL && strstr(option->argument, "FILE") != NULL;
+}
+
+bool option_is_given(const Options *options, const char *name)
+{
+    size_t row = 0;
+    while (row < option_count && strcmp(option_table[row].name, name) != 0)
+        row++;
+    assert(row < option_count);
+    return (options->given >> row & 1) != 0;
 }
 
 static bool read_integer(const char *text, int64_t low, int64_t high, int64_t *number)

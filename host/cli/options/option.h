@@ -87,6 +87,9 @@ const char *option_key(const Option *option);
 // Returns whether the option's argument is a file name.
 bool option_names_file(const Option *option);
 
+// Returns whether the command line contains the option. `name` must be in option_table.
+bool option_is_given(const Options *options, const char *name);
+
 // Parses `text` and stores the value. On failure, the message names the option or, for auto/N, the
 // environment variable.
 bool option_store(const Option *option, Options *options, const char *text, Error *error);
@@ -158,6 +161,3 @@ extern const char *const option_group_names[OPTION_GROUPS];
 // The name and the meaning of each OptionClass. Both are "" for CLASS_NONE.
 extern const char *const option_class_names[OPTION_CLASSES];
 extern const char *const option_class_meanings[OPTION_CLASSES];
-
-// Returns whether the command line contains the option. `name` must be in option_table.
-bool option_is_given(const Options *options, const char *name);

@@ -3,7 +3,6 @@
 // is a command can be written as ./NAME.
 #include "cli/options/option.h"
 
-#include <assert.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -179,15 +178,6 @@ const char *const option_class_meanings[OPTION_CLASSES] = {
     [CLASS_BOUNDED] = "the error is at most the stated bound",
     [CLASS_STATISTICAL] = "the error can be measured, but has no bound",
 };
-
-bool option_is_given(const Options *options, const char *name)
-{
-    size_t row = 0;
-    while (row < option_count && strcmp(option_table[row].name, name) != 0)
-        row++;
-    assert(row < option_count);
-    return (options->given >> row & 1) != 0;
-}
 
 const Command command_table[] = {
     {"", "SCENE", 1, 1, ACTION_VIEW, FOR_WINDOW,

@@ -140,7 +140,7 @@ static void store_sphere(float *numbers, const Model *model, const Sphere *spher
     vec3_store(numbers, offset);
     numbers[3] = (float)radius;
     memcpy(numbers + 4, material, sizeof material);
-    numbers[HEIGHT_PLACE] = (float)(sqrt(vec3_dot(offset, offset)) - radius);
+    numbers[HEIGHT_PLACE] = (float)(vec3_length(offset) - radius);
 }
 
 void sphere_view_draw(const Drawing *view, const Model *model, const Lens *lens, const Tone *tone)

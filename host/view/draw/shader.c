@@ -124,7 +124,7 @@ Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uin
                  .width = (float)width,
                  .height = (float)height};
     if (viewpoint->height > 0)
-        lens.farthest = (float)(sqrt(vec3_dot(lens.eye, lens.eye)) + BEYOND);
+        lens.farthest = (float)(vec3_length(lens.eye) + BEYOND);
     return lens;
 }
 
