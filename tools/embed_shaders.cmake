@@ -3,7 +3,7 @@
 # Usage: cmake -DFOLDER=shaders "-DNAMES=a b" -DOUTPUT=file.c -P embed_shaders.cmake
 cmake_minimum_required(VERSION 3.25)
 separate_arguments(NAMES)
-set(source "// Made by tools/embed_shaders.cmake.\n#include \"view/draw/shader.h\"\n")
+set(source "// Made by tools/embed_shaders.cmake.\n#include \"view/draw/drawing.h\"\n")
 foreach(name IN LISTS NAMES)
   file(READ "${FOLDER}/${name}.glsl" text)
   while(text MATCHES "#include \"([a-z]+).glsl\"\n")

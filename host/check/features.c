@@ -157,7 +157,7 @@ static bool has_none(const Scene *scene, const MeshObject *object, MeshFault fau
                      fault.count);
 }
 
-bool bad_geometry_none_dropped(const Scene *scene, Error *error)
+bool features_check_dropped(const Scene *scene, Error *error)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < scene->objects.count; i++) {
@@ -168,7 +168,7 @@ bool bad_geometry_none_dropped(const Scene *scene, Error *error)
     return ok;
 }
 
-bool bad_geometry_none(const Scene *scene, Error *error)
+bool features_check_areas(const Scene *scene, Error *error)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < scene->objects.count; i++) {

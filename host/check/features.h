@@ -30,7 +30,7 @@ Features features_of(const Mesh *mesh, const Normalization *normalization);
 // the first object with such triangles, its first such triangle and the count.
 
 // Fails if the reader dropped a triangle with two equal corners.
-bool bad_geometry_none_dropped(const Scene *scene, Error *error);
+bool features_check_dropped(const Scene *scene, Error *error);
 
 // Fails if any triangle, even a dropped one, has no area.
-bool bad_geometry_none(const Scene *scene, Error *error);
+bool features_check_areas(const Scene *scene, Error *error);

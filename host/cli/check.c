@@ -274,9 +274,9 @@ bool check_geometry(const Options *options, const Scene *scene, Error *error)
 {
     Error note = {0};
     if (options->bad_geometry == BAD_GEOMETRY_FAIL)
-        return bad_geometry_none(scene, error);
+        return features_check_areas(scene, error);
     print_notes(options, scene);
-    if (!bad_geometry_none_dropped(scene, &note))
+    if (!features_check_dropped(scene, &note))
         stage_note(options, "%s", note.text);
     return true;
 }

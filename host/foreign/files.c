@@ -72,7 +72,7 @@ static bool read_regular(File *file, const char *path, Error *error)
     // Rejects pipes and devices, because their data may never end.
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return error_set(error, "cannot be read: it is not a file");
-    limits_allow_file((uint64_t)status.st_size);
+    process_limits_allow_file((uint64_t)status.st_size);
     Error cause = {0};
     if (file_read(file, path, &cause))
         return true;

@@ -25,7 +25,7 @@ static bool send_model(FILE *stream, const char *name, Error *error)
     char *path = file_path_beside("./", name, error);
     if (path == NULL)
         return false;
-    limits_take_model();
+    process_limits_take_model();
     files_init(&files, path);
     return model_send(stream, &files, error);
 }
@@ -67,7 +67,7 @@ static bool send_picture(FILE *stream, char *const words[3], Error *error)
     char message[512] = "";
     if (stat(words[0], &status) != 0)
         return error_set(error, "%s", strerror(errno));
-    limits_take_picture((uint64_t)status.st_size);
+    process_limits_take_picture((uint64_t)status.st_size);
     void *module = dlopen(words[2], RTLD_NOW | RTLD_LOCAL);
     ImageModuleRead *read = NULL;
     if (module != NULL)
@@ -95,7 +95,7 @@ static FILE *take_output(void)
 int main(int count, char **arguments)
 {
     Error error = {0};
-    limits_take();
+    process_limits_take();
     FILE *stream = take_output();
     if (stream == NULL || (count != 2 && count != 4))
         return EXIT_FAILURE;

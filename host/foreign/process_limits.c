@@ -55,7 +55,7 @@ static void raise_limit(__rlimit_resource_t resource, uint64_t more)
     limit(resource, now.rlim_cur + (more < left ? more : left), now.rlim_max);
 }
 
-void limits_take(void)
+void process_limits_take(void)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
@@ -88,7 +88,7 @@ static rlim_t smaller(rlim_t a, rlim_t b)
 
 // Allows at most 3/4 of the machine's memory in addition to the memory that is already mapped,
 // because other processes need memory too.
-void limits_take_model(void)
+void process_limits_take_model(void)
 {
     const rlim_t machine = (rlim_t)sysconf(_SC_PHYS_PAGES) * (rlim_t)sysconf(_SC_PAGESIZE);
     const rlim_t most = smaller(machine / 4 * 3, MEMORY_MOST), mapped = mapped_memory();
@@ -96,7 +96,7 @@ void limits_take_model(void)
     limit(RLIMIT_AS, mapped + smaller(MEMORY_LEAST, most), mapped + most);
 }
 
-void limits_allow_file(uint64_t bytes)
+void process_limits_allow_file(uint64_t bytes)
 {
     raise_limit(RLIMIT_CPU, bytes / BYTES_PER_SECOND);
     raise_limit(RLIMIT_AS, bytes < MEMORY_MOST ? bytes * MEMORY_FACTOR : MEMORY_MOST);
@@ -104,7 +104,7 @@ void limits_allow_file(uint64_t bytes)
 
 // Allows memory for the most values that clrt accepts from the file, as much again for the decoder,
 // MEMORY_PER_THREAD for each thread, and MEMORY_LEAST.
-void limits_take_picture(uint64_t bytes)
+void process_limits_take_picture(uint64_t bytes)
 {
     const rlim_t most = mapped_memory() + 2 * sizeof(float) * stored_values_most(bytes) +
                         processors_present() * MEMORY_PER_THREAD + MEMORY_LEAST;

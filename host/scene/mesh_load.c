@@ -105,17 +105,17 @@ static bool add_model(Scene *scene, ForeignModel *model, const char *path,
            add_parts(scene, model, &here, first_material, error);
 }
 
-void foreign_files_free(ForeignFiles *files)
+void mesh_load_free_kept(KeptFiles *files)
 {
     for (size_t i = 0; i < files->files.count; i++) {
         free(files->files.data[i].path);
         file_free(&files->files.data[i].stream);
     }
     free(files->files.memory);
-    *files = (ForeignFiles){0};
+    *files = (KeptFiles){0};
 }
 
-static const File *kept_stream(const ForeignFiles *kept, const char *path)
+static const File *kept_stream(const KeptFiles *kept, const char *path)
 {
     for (size_t i = 0; kept != NULL && i < kept->files.count; i++)
         if (strcmp(kept->files.data[i].path, path) == 0)
@@ -125,11 +125,11 @@ static const File *kept_stream(const ForeignFiles *kept, const char *path)
 
 // Keeps clrt-foreign's output for later statements with the same path. Frees the output if `kept`
 // is NULL or full.
-static void keep_or_free(ForeignFiles *kept, const char *path, File *stream)
+static void keep_or_free(KeptFiles *kept, const char *path, File *stream)
 {
     Error unused = {0};
     const bool fits = kept != NULL && stream->size <= FOREIGN_KEPT_MOST - kept->size;
-    const ForeignFile file = {fits ? text_copy(path, &unused) : NULL, *stream};
+    const KeptFile file = {fits ? text_copy(path, &unused) : NULL, *stream};
     if (file.path != NULL && array_push(&kept->files, file, &unused)) {
         kept->size += stream->size;
         return;

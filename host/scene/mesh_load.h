@@ -16,13 +16,13 @@
 typedef struct {
     char *path;
     File stream;
-} ForeignFile;
+} KeptFile;
 typedef struct {
-    ARRAY(ForeignFile) files;
+    ARRAY(KeptFile) files;
     size_t size;
-} ForeignFiles;
+} KeptFiles;
 
-void foreign_files_free(ForeignFiles *files);
+void mesh_load_free_kept(KeptFiles *files);
 
 typedef struct {
     MeshObject object;         // properties of the file's objects, without meshes
@@ -33,7 +33,7 @@ typedef struct {
     uint32_t colored_material; // the material of meshes whose files define colors, but no material
     bool is_plain_ply;         // for `ply_file`, which reads only PLY and has no transforms
     PlyParse *parse;           // the reader of PLY files
-    ForeignFiles *kept;        // outputs for other formats; borrowed; NULL keeps none
+    KeptFiles *kept;           // outputs for other formats; borrowed; NULL keeps none
 } MeshLoadOptions;
 
 // Adds an object with the mesh of `file`, the contents of the PLY file at `path`. Adds `path` to

@@ -291,12 +291,12 @@ static bool parse(Parser *parser, const char *text, size_t size, const char *nam
     parser->material = material_own;
     parser->mesh.crease_degrees = NO_CREASE;
     parser->up = vec3(0, 0, 1);
-    ForeignFiles kept = {0};
+    KeptFiles kept = {0};
     parser->mesh.kept = &kept;
     bool ok = scene_init(parser->scene, parser->error);
     scene_hash_input(parser->scene, text, size);
     ok = ok && read_statements(parser) && scene_complete(parser->scene, parser->error);
-    foreign_files_free(&kept);
+    mesh_load_free_kept(&kept);
     if (!ok)
         scene_free(parser->scene);
     return ok;

@@ -20,7 +20,7 @@ static int status_of(void (*work)(int end), void *report, size_t size)
     assert_int_equal(pipe2(ends, 0), 0);
     const pid_t id = fork();
     if (id == 0) {
-        dup2(ends[1], STDOUT_FILENO); // limits_take closes other files
+        dup2(ends[1], STDOUT_FILENO); // process_limits_take closes other files
         work(STDOUT_FILENO);
         _exit(0);
     }
@@ -38,7 +38,7 @@ static void leave_a_child(int end)
     if (fork() != 0)
         for (;;)
             pause();
-    limits_take();
+    process_limits_take();
     if (write(end, "", 1) == 1)
         kill(parent, SIGKILL);
     sleep(60);
@@ -59,10 +59,10 @@ static void report_limits(int end)
     static const uint64_t sizes[3] = {0, 10000000, 1000000000000};
     unsigned seconds[4];
     struct rlimit limit;
-    limits_take();
-    limits_take_model();
+    process_limits_take();
+    process_limits_take_model();
     for (int i = 0; i < 3; i++) {
-        limits_allow_file(sizes[i]);
+        process_limits_allow_file(sizes[i]);
         getrlimit(RLIMIT_CPU, &limit);
         seconds[i] = (unsigned)limit.rlim_cur;
     }
@@ -90,8 +90,8 @@ static void *do_nothing(void *context)
 static void start_thread(int end)
 {
     pthread_t thread;
-    limits_take();
-    limits_take_model();
+    process_limits_take();
+    process_limits_take_model();
     const int user = geteuid() == 0 ? setuid(65534) : 0;
     const int fault = user == 0 ? pthread_create(&thread, NULL, do_nothing, NULL) : EAGAIN;
     if (write(end, &fault, sizeof fault) != sizeof fault)
@@ -109,7 +109,7 @@ TEST(a_child_that_reads_a_model_starts_no_threads)
 static void burn(int end)
 {
     struct rlimit limit;
-    limits_take();
+    process_limits_take();
     getrlimit(RLIMIT_CPU, &limit);
     limit.rlim_cur /= 8;
     setrlimit(RLIMIT_CPU, &limit);

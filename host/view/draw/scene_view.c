@@ -191,7 +191,7 @@ void line_view_draw(const LineView *view, const Lens *lens, const float color[3]
 {
     drawing_use(&view->drawing);
     lens_apply(lens, view->drawing.program);
-    shader_set_vector(view->drawing.program, "paint", color);
+    drawing_set_vector(view->drawing.program, "paint", color);
     if (view->is_diagonal)
         glDrawArraysInstanced(GL_LINES, EDGE_VERTICES, 2, (GLsizei)view->count);
     else

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/array.h"
-#include "view/draw/shader.h"
+#include "view/draw/drawing.h"
 #include "view/model.h"
 
 bool triangle_view_open(Drawing *view, Error *error);

@@ -4,7 +4,7 @@
 
 #include "base/array.h"
 #include "base/file.h"
-#include "view/draw/shader.h"
+#include "view/draw/drawing.h"
 
 #include <stb/stb_truetype.h>
 

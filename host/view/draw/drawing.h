@@ -44,7 +44,7 @@ void drawing_use(const Drawing *drawing);
 void drawing_fill(const Drawing *drawing, int buffer, const void *bytes, size_t size);
 
 // Sets a uniform of `program`, which must be current. Ignores names that the program does not use.
-void shader_set_vector(GLuint program, const char *name, const float v[3]);
+void drawing_set_vector(GLuint program, const char *name, const float v[3]);
 
 // The following declarations convert the scene's lights and materials to the uniforms of
 // shaders/light.glsl.

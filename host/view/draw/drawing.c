@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compiles shaders, and sets the uniforms of lights and cameras. The shaders use GLSL 1.40, which
 // OpenGL 3.1 to 4.6 accept in all profiles.
-#include "view/draw/shader.h"
+#include "view/draw/drawing.h"
 
 #include <string.h>
 
@@ -105,7 +105,7 @@ static void set_integer(GLuint program, const char *name, int value)
     glUniform1i(glGetUniformLocation(program, name), value);
 }
 
-void shader_set_vector(GLuint program, const char *name, const float v[3])
+void drawing_set_vector(GLuint program, const char *name, const float v[3])
 {
     glUniform3fv(glGetUniformLocation(program, name), 1, v);
 }
@@ -130,10 +130,10 @@ Lens lens_of(const Viewpoint *viewpoint, const Normalization *normalization, uin
 
 void lens_apply(const Lens *lens, GLuint program)
 {
-    shader_set_vector(program, "eye", lens->camera.eye);
-    shader_set_vector(program, "forward", lens->camera.forward);
-    shader_set_vector(program, "right_step", lens->camera.right_step);
-    shader_set_vector(program, "down_step", lens->camera.down_step);
+    drawing_set_vector(program, "eye", lens->camera.eye);
+    drawing_set_vector(program, "forward", lens->camera.forward);
+    drawing_set_vector(program, "right_step", lens->camera.right_step);
+    drawing_set_vector(program, "down_step", lens->camera.down_step);
     set_number(program, "farthest", (double)lens->farthest);
     glUniform2f(glGetUniformLocation(program, "size"), lens->width, lens->height);
 }
@@ -184,7 +184,7 @@ void light_apply(const Scene *scene, const Normalization *normalization, const T
     glUniform4fv(glGetUniformLocation(program, "lights"), count, lights[0]);
     glUniform3fv(glGetUniformLocation(program, "light_colors"), count, colors[0]);
     set_integer(program, "light_count", count);
-    shader_set_vector(program, "background", background);
+    drawing_set_vector(program, "background", background);
     set_number(program, "ambient", scene->ambient);
     set_number(program, "gain", tone->gain);
     set_integer(program, "is_srgb", tone->is_srgb);
