@@ -191,8 +191,8 @@ static ExitCode check_files(Picture *picture, Error *error)
                                                                                  : EXIT_SCENE;
 }
 
-// Fails if a picture that is drawn in parts has too many tiles. EXR files number its tiles by 31
-// bits, and the framebuffer of the only part of N = 1 has all tiles, one below another.
+// Fails if a picture that is drawn in parts has too many tiles. EXR files number tiles by 31 bits.
+// If there is only one part, its framebuffer has all tiles, one below another.
 static bool check_tiles(const RenderSettings *settings, Error *error)
 {
     RenderSettings whole = *settings;
