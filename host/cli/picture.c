@@ -291,7 +291,7 @@ static ExitCode finish(Picture *picture, Error *error)
         return picture_fail_stopped(picture, error);
     if (!report_print_hash(picture->options, picture->pixel_hash, error))
         return EXIT_FAULTS;
-    return picture->drawn.goal_missed ? picture_fail_goal(picture, error) : EXIT_DONE;
+    return picture->drawn.facts.goal_missed ? picture_fail_goal(picture, error) : EXIT_DONE;
 }
 
 static ExitCode make_frame(Picture *picture, uint32_t number, Error *error)

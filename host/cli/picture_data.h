@@ -32,7 +32,7 @@ typedef struct {
     int stopped_by;       // the signal that stopped the picture, or 0
     double start, moment; // start of the command; end of the previous frame, initially `start`
 
-    // For reports.
+    // The following members are for reports.
     const SceneForm *form; // the scene in the layout of the picture's kernels
     PictureResult drawn;
     bool complete; // all colors and channels are drawn

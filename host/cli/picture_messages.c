@@ -65,7 +65,7 @@ ExitCode picture_fail_goal(const Picture *picture, Error *error)
                   picture->repetition_seconds[0]);
     else
         error_set(error, "the error may be %.2g %%, more than --error allows: give a larger error",
-                  100 * fmax(picture->drawn.bound, picture->drawn.truncated));
+                  100 * fmax(picture->drawn.facts.error_bound, picture->drawn.facts.truncation));
     return EXIT_FAULTS;
 }
 

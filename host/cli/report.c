@@ -72,7 +72,7 @@ static json_t *settings_json(const Picture *picture)
     return JSON(FIELD("view", picture->view), FIELD("width", render_whole_width(settings)),
                 FIELD("height", render_whole_height(settings)), FIELD("crop", crop_json(settings)),
                 FIELD("samples", settings->samples), FIELD("max_level", settings->max_level),
-                FIELD("truncation_bound", picture->drawn.truncated),
+                FIELD("truncation_bound", picture->drawn.facts.truncation),
                 FIELD("tile", json_two(settings->tile_width, settings->tile_height)),
                 FIELD("work_group", json_two(group[0], group[1])),
                 FIELD("specialized", picture->drawn.is_special),
@@ -93,11 +93,13 @@ static json_t *tiles_json(const Picture *picture)
 
 static json_t *samples_json(const PictureResult *drawn, double contrast)
 {
-    return JSON(
-        FIELD("total", drawn->samples), FIELD("per_pixel", ratio(drawn->samples, drawn->pixels)),
-        FIELD("contrast", contrast), FIELD("error_estimate", drawn->estimate),
-        FIELD("error_bound", drawn->bound), FIELD("goal_reached", (bool)!drawn->goal_missed),
-        FIELD("smallest_feature", drawn->feature));
+    const ClrtResult *facts = &drawn->facts;
+    return JSON(FIELD("total", facts->sample_count),
+                FIELD("per_pixel", ratio(facts->sample_count, drawn->pixels)),
+                FIELD("contrast", contrast), FIELD("error_estimate", facts->error),
+                FIELD("error_bound", facts->error_bound),
+                FIELD("goal_reached", (bool)!facts->goal_missed),
+                FIELD("smallest_feature", facts->smallest_feature));
 }
 
 static json_t *rays_json(const uint64_t *tallies)
@@ -170,7 +172,7 @@ static json_t *report_json(const Picture *picture)
         FIELD("bytes",
               JSON(FIELD("uploaded", picture->drawn.upload_size), FIELD("peak_memory", peak))),
         FIELD("scene", scene_json(picture)), FIELD("bvh", tree_json(picture)),
-        FIELD("settings", settings_json(picture)), FIELD("cached", picture->drawn.was_compiled),
+        FIELD("settings", settings_json(picture)), FIELD("cached", picture->drawn.facts.cached),
         FIELD("tiles", tiles_json(picture)),
         FIELD("samples", samples_json(&picture->drawn, picture->options->picture.contrast)),
         FIELD("rays", rays_json(tallies)), FIELD("tests", tests_json(tallies)),
@@ -207,7 +209,7 @@ void report_write_text(const Picture *picture, FILE *stream)
                "smallest disk found with a probability of 95 %: {samples.smallest_feature .2f} "
                "pixels wide\n",
                stream);
-    if (picture->drawn.estimate > 0)
+    if (picture->drawn.facts.error > 0)
         print_error(picture, json, stream);
     else if (picture->request.level_bound > 0)
         json_print(json,
@@ -241,7 +243,7 @@ void report_write_setup(const Picture *picture, FILE *stream)
     json_print(json, "kernels: {settings.kernel}, {settings.nodes} nodes, {settings.precision}, ",
                stream);
     fputs(picture->drawn.is_special ? "specialized" : "general", stream);
-    fputs(picture->drawn.was_compiled ? ", cached" : ", compiled", stream);
+    fputs(picture->drawn.facts.cached ? ", cached" : ", compiled", stream);
     json_print(json, ", ready in {seconds.kernel_build .3f} s; uploaded {bytes.uploaded} bytes\n",
                stream);
     json_decref(json);

@@ -97,7 +97,7 @@ static bool has_denormals(const float operands[3], uint32_t result)
            is_denormal(operands[0] * operands[1]) || is_denormal(value_of(result));
 }
 
-// Whether the device promises to keep denormal numbers, and to round quotients and roots correctly.
+// The device's promises: to keep denormal numbers, and to round quotients and roots correctly.
 typedef struct {
     bool denormals, quotients;
 } Promise;

@@ -98,9 +98,10 @@ static bool draw_reference(Drawing *drawing, ClrtError *error)
                (size_t)frame->width * frame->height * sizeof *frame->pixels);
     SessionPicture *request = &drawing->request;
     request->settings.max_level = request->reference_level;
-    drawing->drawn.estimate = reference.own_error;
-    drawing->drawn.truncated = truncation_bound(drawing->scene, request->reference_level);
-    drawing->drawn.samples = (uint64_t)frame->width * frame->height * request->reference_samples;
+    drawing->drawn.facts.error = reference.own_error;
+    drawing->drawn.facts.truncation = truncation_bound(drawing->scene, request->reference_level);
+    drawing->drawn.facts.sample_count =
+        (uint64_t)frame->width * frame->height * request->reference_samples;
     drawing->seconds = clock_seconds() - start;
     framebuffer_free(&reference.picture);
     return ok && check_stopped(drawing, error);
@@ -111,31 +112,23 @@ static void fill_result(const Drawing *drawing)
     const RenderSettings *settings = &drawing->request.settings;
     const PictureResult *drawn = &drawing->drawn;
     const uint64_t *tallies = drawn->progress.tallies, *marks = drawn->certainty.counts;
-    const ClrtResult filled = {
-        .width = settings->width,
-        .height = settings->height,
-        .samples = settings->samples,
-        .max_level = settings->max_level,
-        .truncation = drawn->truncated,
-        .goal_missed = drawn->goal_missed,
-        .error = drawn->estimate,
-        .error_bound = drawn->bound,
-        .sample_count = drawn->samples,
-        .smallest_feature = drawn->feature,
-        .pixels_open = marks[CERTAINTY_OPEN],
-        .pixels_repaired = marks[CERTAINTY_REPAIRED],
-        .pixels_certified = marks[CERTAINTY_CERTIFIED],
-        .seconds = drawing->seconds,
-        .cached = drawn->was_compiled,
-        .camera_rays = tallies[TALLY_CAMERA_RAYS],
-        .shadow_rays = tallies[TALLY_SHADOW_RAYS],
-        .reflected_rays = tallies[TALLY_REFLECTED_RAYS],
-        .camera_hits = tallies[TALLY_CAMERA_HITS],
-        .shaded_points = tallies[TALLY_SHADED_POINTS],
-        .triangle_tests = tallies[TALLY_TRIANGLE_TESTS],
-        .box_tests = tallies[TALLY_BOX_TESTS],
-        .sphere_tests = tallies[TALLY_SPHERE_TESTS],
-    };
+    ClrtResult filled = drawn->facts;
+    filled.width = settings->width;
+    filled.height = settings->height;
+    filled.samples = settings->samples;
+    filled.max_level = settings->max_level;
+    filled.pixels_open = marks[CERTAINTY_OPEN];
+    filled.pixels_repaired = marks[CERTAINTY_REPAIRED];
+    filled.pixels_certified = marks[CERTAINTY_CERTIFIED];
+    filled.seconds = drawing->seconds;
+    filled.camera_rays = tallies[TALLY_CAMERA_RAYS];
+    filled.shadow_rays = tallies[TALLY_SHADOW_RAYS];
+    filled.reflected_rays = tallies[TALLY_REFLECTED_RAYS];
+    filled.camera_hits = tallies[TALLY_CAMERA_HITS];
+    filled.shaded_points = tallies[TALLY_SHADED_POINTS];
+    filled.triangle_tests = tallies[TALLY_TRIANGLE_TESTS];
+    filled.box_tests = tallies[TALLY_BOX_TESTS];
+    filled.sphere_tests = tallies[TALLY_SPHERE_TESTS];
     if (drawing->wanted.result != NULL)
         fill_struct(NULL, "the result", drawing->wanted.result, &filled, sizeof filled);
 }

@@ -11,7 +11,7 @@ typedef enum {
     NORMALS_SMOOTH // compute the normals that the file lacks
 } Normals;
 
-// Whether the lights around a lone mesh are points or have areas.
+// The lights around a lone mesh: points, or areas.
 typedef enum { STUDIO_HARD, STUDIO_SOFT } StudioLights;
 
 // The options of scn_load. {0} suits most callers. In scene text, statements choose the up axis,

@@ -83,10 +83,10 @@ static bool open_renderer(Session *session, const SessionPicture *request, Rende
     result->upload_size = renderer->scene->size;
     result->upload_seconds = renderer->scene->seconds;
     result->build_seconds = renderer->kernel->seconds;
-    result->was_compiled = renderer->kernel->was_compiled;
+    result->facts.cached = renderer->kernel->was_compiled;
     result->group[0] = renderer->kernel->launch.group[0];
     result->group[1] = renderer->kernel->launch.group[1];
-    result->truncated = request->truncated;
+    result->facts.truncation = request->truncated;
     return true;
 }
 
@@ -104,7 +104,7 @@ static void measure_truncation(const PictureDrawing *drawing, uint64_t samples)
 {
     const Renderer *renderer = &drawing->renderer;
     if (renderer->scene->traits.glass && renderer->settings.max_level > 0 && samples > 0)
-        drawing->result->truncated = renderer_truncation(renderer, samples);
+        drawing->result->facts.truncation = renderer_truncation(renderer, samples);
 }
 
 // Returns the smallest feature. In refined pixels, only the samples of the first lines count,
@@ -153,10 +153,10 @@ static bool draw_adaptively(PictureDrawing *drawing, Error *error)
     measure_truncation(drawing, adaptive.samples);
     ok = ok && adaptive_refine(&adaptive, (float)drawing->request->wanted.contrast, error);
     if (ok)
-        result->feature = adaptive_feature(&adaptive, result->pixels);
+        result->facts.smallest_feature = adaptive_feature(&adaptive, result->pixels);
     for (size_t i = 0; ok && result->pixel_samples != NULL && i < result->pixels; i++)
         result->pixel_samples[i] = adaptive_pixel_samples(&adaptive, i);
-    result->samples = adaptive.samples;
+    result->facts.sample_count = adaptive.samples;
     adaptive_close(&adaptive);
     return ok;
 }
@@ -181,7 +181,7 @@ static bool needs_level(const PictureDrawing *drawing, const Ladder *ladder)
     const SessionPicture *request = drawing->request;
     return request->level_bound > 0 && request->wanted.error > 0 &&
            request->settings.max_level < GLASS_LEVELS &&
-           drawing->result->truncated > TRUNCATED_MOST * request->wanted.error &&
+           drawing->result->facts.truncation > TRUNCATED_MOST * request->wanted.error &&
            sampler_is_whole(ladder->setup.renderer);
 }
 
@@ -212,13 +212,13 @@ static bool draw_for_goal(PictureDrawing *drawing, Error *error)
     const RefineSetup setup = refine_setup(drawing, &drawing->renderer, &camera);
     if (!open_ladder(drawing, &setup, &ladder, error))
         return false;
-    const double truncated = drawing->request->includes_truncated ? result->truncated : 0;
+    const double truncated = drawing->request->includes_truncated ? result->facts.truncation : 0;
     const bool ok = refine(drawing, &ladder, truncated, &outcome, error);
-    result->estimate = hypot(outcome.estimate, truncated);
-    result->bound = hypot(outcome.bound, truncated);
-    result->goal_missed = !outcome.reached;
-    result->samples = ladder.samples;
-    result->feature = ladder_feature(&ladder);
+    result->facts.error = hypot(outcome.estimate, truncated);
+    result->facts.error_bound = hypot(outcome.bound, truncated);
+    result->facts.goal_missed = !outcome.reached;
+    result->facts.sample_count = ladder.samples;
+    result->facts.smallest_feature = ladder_feature(&ladder);
     for (size_t i = 0; result->pixel_samples != NULL && i < ladder.statistics.pixels; i++)
         result->pixel_samples[i] = ladder_pixel_samples(&ladder, i);
     ladder_close(&ladder);
@@ -258,9 +258,9 @@ static bool draw_evenly(PictureDrawing *drawing, Error *error)
         result->pixels += (uint64_t)tile.width * tile.height;
     }
     const SampleShare all = {settings->samples * settings->samples, 1};
-    result->samples = result->pixels * all.samples;
-    result->feature = feature_smallest(&all, 1);
-    measure_truncation(drawing, result->samples);
+    result->facts.sample_count = result->pixels * all.samples;
+    result->facts.smallest_feature = feature_smallest(&all, 1);
+    measure_truncation(drawing, result->facts.sample_count);
     return true;
 }
 

@@ -31,22 +31,19 @@ typedef struct {
 
 typedef struct {
     // The following members are set by session_prepare_picture and session_draw_picture.
-    bool is_special;   // the kernels are specialized for the scene
-    bool was_compiled; // an earlier process compiled the kernels
+    bool is_special; // the kernels are specialized for the scene
     size_t upload_size;
     double upload_seconds, build_seconds;
     uint32_t group[2]; // size of the work-groups
-    double truncated;  // SessionPicture::truncated; with glass, measured by session_draw_picture
+    // session_prepare_picture sets facts.cached and facts.truncation. session_draw_picture also
+    // sets the members about the goal, the samples and the smallest feature. With glass, it
+    // measures facts.truncation. The errors include facts.truncation if
+    // SessionPicture::includes_truncated.
+    ClrtResult facts;
     // The following members are set by session_draw_picture.
     RenderProgress progress;
     bool is_complete;
-    bool goal_missed;
-    double estimate;  // the RMSE, estimated for error and time goals; includes `truncated` if
-                      // SessionPicture::includes_truncated
-    double bound;     // upper bound on the RMSE with 95 % confidence
-    double feature;   // diameter of the smallest feature (session/feature.h)
-    uint64_t pixels;  // drawn by this call
-    uint64_t samples; // in these pixels
+    uint64_t pixels;         // drawn by this call
     uint32_t *pixel_samples; // by pixel; NULL unless the request has both a goal and channels
     // The following member is set by session_certify_picture.
     CertaintyMap certainty; // empty unless a channel needs it

@@ -82,8 +82,8 @@ static bool draw_colors(Pipeline *pipeline, Framebuffer *framebuffer, Error *err
     const bool ok = session_draw_picture(pipeline->session, &pipeline->picture, NULL, framebuffer,
                                          &pipeline->result, error);
     if (ok && request->sample_count != NULL && goal_is_given(&pipeline->picture.wanted))
-        *request->sample_count = pipeline->result.samples;
-    return ok && (!pipeline->result.goal_missed || error_set(error, "the goal is missed"));
+        *request->sample_count = pipeline->result.facts.sample_count;
+    return ok && (!pipeline->result.facts.goal_missed || error_set(error, "the goal is missed"));
 }
 
 static bool draw_layers(Pipeline *pipeline, Error *error)
