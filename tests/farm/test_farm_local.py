@@ -63,6 +63,14 @@ class Tool(unittest.TestCase):
         self.assertEqual(self.bytes_of("it's 1.exr"), self.bytes_of("whole.exr"))
         self.assertEqual((folder / "part.1.exr").stat().st_mtime_ns, kept)
 
+    def test_a_missing_scheduler_is_one_message(self):
+        (self.work / "bin/python3").symlink_to(sys.executable)
+        for engine, program in ("slurm", "sbatch"), ("parallel=a", "parallel"):
+            (self.work / "bin" / program).unlink(missing_ok=True)
+            told = self.farm("-o", "a.exr", "--parts", "2", "--on", engine, code=1, PATH=f"{self.work}/bin")
+            self.assertEqual(told, f"tools/farm: {program} is not installed on this machine: install it, or "
+                                   "give --on local\n")
+
     def test_another_command_does_not_mix_its_parts_in(self):
         self.farm("-o", "a.exr", "--parts", "2", "--on", "local")
         for more in ["--parts", "3"], ["--parts", "2", "--aa"]:

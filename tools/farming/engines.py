@@ -2,7 +2,9 @@
 """Runs stages one after another."""
 
 import collections
+import pathlib
 import shlex
+import shutil
 import subprocess
 import sys
 
@@ -79,8 +81,17 @@ def run_local(folder, stage):
     return 0
 
 
+def require(program):
+    """Exits with a message if the program is not installed."""
+    if shutil.which(program) is None:
+        sys.exit(f"tools/{pathlib.Path(sys.argv[0]).name}: {program} is not installed on this machine: "
+                 "install it, or give --on local")
+
+
 def run(engine, folder, stages):
     """Returns the exit status. With Slurm, returns once all stages are submitted."""
+    if engine != "local":
+        require("sbatch" if engine == "slurm" else "parallel")
     if engine == "slurm":
         return run_slurm(folder, stages)
     hosts = engine.removeprefix("parallel=")
