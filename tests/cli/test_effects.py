@@ -18,6 +18,9 @@ from work import CLRT, ROOT, SCENE, main
 PLAIN = [SCENE, "-s", "24x16", "-o", "a.pfm"]
 # With specialize=auto, the kernel cache would decide whether the kernels are specialized.
 PICTURE = PLAIN + ["--json=a.json", "--tune", "specialize=never"]
+# The special kernels of a single ball compile fast.
+BALL = [str(ROOT / "tests/cli/sphere.scn"), "-s", "24x16", "-o", "a.pfm", "--json=a.json", "--tune",
+        "specialize=always", "--tune"]
 FLAT = "flat.ply"
 CHECK = ["check", FLAT]
 MESH = [FLAT, "-s", "24x16", "-o", "a.pfm"]
@@ -47,8 +50,8 @@ TRIALS = {
     "error": (PLAIN, PLAIN + ["--error", "0.1%"]),
     "time": (PLAIN, PLAIN + ["--time", "0.1"]),
     "precision": (PLAIN, PLAIN + ["--precision", "fp64"]),
-    "tune": (PICTURE + ["--tune", "kernel=wide:8"], PICTURE + ["--tune", "kernel=wide:4"]),
-    "tune kernel": (PICTURE + ["--tune", "kernel=packet"], PICTURE + ["--tune", "kernel=wide:8"]),
+    "tune": (BALL + ["kernel=wide:8"], BALL + ["kernel=wide:4"]),
+    "tune kernel": (PICTURE + ["--tune", "kernel=packet"], PICTURE + ["--tune", "kernel=pair"]),
     "tune tile": (PICTURE, PICTURE + ["--tune", "tile=16x8"]),
     "tune group": (PICTURE, PICTURE + ["--tune", "group=4x2"]),
     "tune specialize": (PICTURE, PICTURE + ["--tune", "specialize=always"]),
