@@ -6,7 +6,7 @@
 
 // The arguments of trace_rays.
 typedef struct {
-    global const RayData *rays;
+    global const RayBlock *blocks;
     uint count, kinds;
     HitLists lists;
 } RayArray;
@@ -26,22 +26,39 @@ static inline void cross_own_spheres(const Tracer *tracer, const Ray *ray, Mask 
 }
 #endif
 
+// Reads the numbers of CLRT_LANES consecutive rays.
+static inline UInt read_words(global const void *words)
+{
+#if CLRT_LANES == 1
+    return *(global const uint *)words;
+#else
+    return FOR_LANES(vload)(0, (global const uint *)words);
+#endif
+}
+
+static inline Real3 read_real3(global const float components[3][RAY_BLOCK], uint start)
+{
+    return real3_of(stored_real(read_words(components[0] + start)),
+                    stored_real(read_words(components[1] + start)),
+                    stored_real(read_words(components[2] + start)));
+}
+
 // Reads CLRT_LANES rays from index `first` on, one per lane. Lanes past the array's end are
 // inactive, and so are rays with a limit below 0. *starts receives the lanes whose rays start on a
 // primitive. If all hits count, *starts is 0, and these rays only skip the primitive.
 static inline Ray ray_at(const Tracer *tracer, const RayArray *array, uint first, Hit *hit,
                          Mask *starts)
 {
+    global const RayBlock *block = array->blocks + first / RAY_BLOCK;
+    const uint start = first % RAY_BLOCK;
     const UInt place = first + LANE_Y * PACKET_WIDTH + LANE_X;
-    const Record record =
-        record_at(array->rays, min(place, (UInt)(array->count - 1)) * WORDS(RayData));
-    const UInt own = record_word(&record, 7), index = record_word(&record, 8);
+    const UInt own = read_words(block->own + start), index = read_words(block->own_index + start);
     const Mask leaves =
         CLRT_ALL_HITS ? (Mask)(0) : index != NOTHING && own >= tracer->frame->sphere_count;
     *starts = index != NOTHING;
-    *hit = (Hit){record_real(&record, 3), NOTHING, NOTHING};
-    Ray ray = {record_real3(&record, 0, 1),
-               record_real3(&record, 4, 1),
+    *hit = (Hit){stored_real(read_words(block->limit + start)), NOTHING, NOTHING};
+    Ray ray = {read_real3(block->origin, start),
+               read_real3(block->direction, start),
                own,
                leaves ? index : (UInt)(NOTHING),
                RAY_CAMERA,
@@ -118,10 +135,10 @@ static inline void clear_lists(const HitLists *lists, uint first, uint end)
 // RAY_ANY_HIT. If rays start on primitives, `kinds` has RAY_ON_SURFACE. A work-item
 // takes BLOCK * BLOCK consecutive rays, regardless of the number of lanes. If many work-items had
 // no rays, PoCL would give all rays to one thread.
-kernel void trace_rays(TRACER_ARGUMENTS, global const RayData *rays, uint count, uint kinds,
+kernel void trace_rays(TRACER_ARGUMENTS, global const RayBlock *blocks, uint count, uint kinds,
                        uint room, global HitData *hits, global uint *counts)
 {
-    const RayArray array = {rays, count, kinds, {hits, counts, room}};
+    const RayArray array = {blocks, count, kinds, {hits, counts, room}};
     uint first = BLOCK * BLOCK * (uint)get_global_id(0);
     const uint end = min(first + BLOCK * BLOCK, count);
     Tally tally = {0};

@@ -253,9 +253,21 @@ static double error_at(const Aim *aim, double distance)
     return LENGTH_ERROR * distance + COORDINATE_ERROR * vec3_extent(aim->point);
 }
 
-// Makes a ray from `origin` to the aim and sets the aim's tolerance. Returns false if a triangle
+static void store_ray(RayBlock *block, size_t at, Vec3 origin, Vec3 direction)
+{
+    block->origin[0][at] = (float)origin.x;
+    block->origin[1][at] = (float)origin.y;
+    block->origin[2][at] = (float)origin.z;
+    block->direction[0][at] = (float)direction.x;
+    block->direction[1][at] = (float)direction.y;
+    block->direction[2][at] = (float)direction.z;
+    block->limit[at] = INFINITY;
+    block->own[at] = block->own_index[at] = NOTHING;
+}
+
+// Stores a ray from `origin` to the aim, and sets the aim's tolerance. Returns false if a triangle
 // around the aim may face away from `origin`, or if rounding could make the ray miss the triangles.
-static bool shoot(Aim *aim, Vec3 origin, double least_facing, RayData *ray)
+static bool shoot(Aim *aim, Vec3 origin, double least_facing, RayBlock *blocks, size_t number)
 {
     const Vec3 back = vec3_sub(origin, aim->point);
     const double distance = vec3_length(back);
@@ -263,12 +275,7 @@ static bool shoot(Aim *aim, Vec3 origin, double least_facing, RayData *ray)
     const double facing = facing_from(aim, vec3_scale(back, 1 / distance));
     if (!(facing >= least_facing) || !(aim->star.size * facing > 4 * error))
         return false;
-    const Vec3 direction = vec3_scale(back, -1);
-    *ray = (RayData){.origin = {(float)origin.x, (float)origin.y, (float)origin.z},
-                     .limit = INFINITY,
-                     .direction = {(float)direction.x, (float)direction.y, (float)direction.z},
-                     .own = NOTHING,
-                     .own_index = NOTHING};
+    store_ray(&blocks[number / RAY_BLOCK], number % RAY_BLOCK, origin, vec3_scale(back, -1));
     aim->tolerance = (float)(4 * error / (facing * distance));
     return true;
 }
@@ -290,7 +297,7 @@ static uint32_t best_eye(const Aim *aim, const Vec3 eyes[EYES])
     return best;
 }
 
-size_t aims_shoot_from_afar(Aims *aims, RayData *rays, uint32_t *targets)
+size_t aims_shoot_from_afar(Aims *aims, RayBlock *blocks, uint32_t *targets)
 {
     Vec3 eyes[EYES];
     size_t count = 0;
@@ -298,13 +305,13 @@ size_t aims_shoot_from_afar(Aims *aims, RayData *rays, uint32_t *targets)
         eyes[eye] = rounded(eye_at(aims, eye));
     for (size_t i = 0; i < aims->count; i++) {
         Aim *aim = &aims->aims[i];
-        if (shoot(aim, eyes[best_eye(aim, eyes)], FACING_FROM_AFAR, &rays[count]))
+        if (shoot(aim, eyes[best_eye(aim, eyes)], FACING_FROM_AFAR, blocks, count))
             targets[count++] = (uint32_t)i;
     }
     return count;
 }
 
-size_t aims_shoot_from_close(Aims *aims, RayData *rays, uint32_t *targets)
+size_t aims_shoot_from_close(Aims *aims, RayBlock *blocks, uint32_t *targets)
 {
     size_t count = 0;
     for (size_t i = 0; i < aims->count; i++) {
@@ -312,7 +319,7 @@ size_t aims_shoot_from_close(Aims *aims, RayData *rays, uint32_t *targets)
         const Vec3 origin =
             rounded(vec3_add(aim->point, vec3_scale(aim->star.outward, aim->star.size)));
         if ((aim->state == AIM_UNTRIED || aim->state == AIM_HIDDEN) &&
-            shoot(aim, origin, FACING_FROM_CLOSE, &rays[count]))
+            shoot(aim, origin, FACING_FROM_CLOSE, blocks, count))
             targets[count++] = (uint32_t)i;
     }
     return count;

@@ -60,8 +60,8 @@ void aims_free(Aims *aims);
 // Both functions store rays that reach their aims at t = 1, and store the index of each ray's aim
 // in `targets`. They return the number of rays, which is at most aims->count. aims_shoot_from_close
 // skips aims that are reached or leaked.
-size_t aims_shoot_from_afar(Aims *aims, RayData *rays, uint32_t *targets);
-size_t aims_shoot_from_close(Aims *aims, RayData *rays, uint32_t *targets);
+size_t aims_shoot_from_afar(Aims *aims, RayBlock *blocks, uint32_t *targets);
+size_t aims_shoot_from_close(Aims *aims, RayBlock *blocks, uint32_t *targets);
 
 // Sets the state of each aim in `targets` from the hit of its ray.
 void aims_judge(Aims *aims, const uint32_t *targets, const HitData *hits, size_t count);

@@ -9,6 +9,7 @@
 #include "session/ray_caster.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 bool check_measure(Check *check, Error *error)
 {
@@ -38,44 +39,45 @@ static bool make_aims(StagedMesh *staged, const Mesh *mesh, bool is_inside_out, 
 }
 
 typedef struct {
-    RayData *rays;
+    RayBlock *blocks;
     uint32_t *targets;
     HitData *hits;
 } RayBatch;
 
 static bool make_batch(RayBatch *batch, size_t count, Error *error)
 {
-    *batch = (RayBatch){memory_raw(count, sizeof *batch->rays, error),
+    *batch = (RayBatch){memory_raw(count / RAY_BLOCK + 1, sizeof *batch->blocks, error),
                         memory_raw(count, sizeof *batch->targets, error),
                         memory_raw(count, sizeof *batch->hits, error)};
-    return batch->rays != NULL && batch->targets != NULL && batch->hits != NULL;
+    return batch->blocks != NULL && batch->targets != NULL && batch->hits != NULL;
 }
 
-static bool trace_aims(StagedMesh *staged, MeshCensus *census, const RayCaster *caster,
-                       Error *error)
+static bool trace_aims(StagedMesh *staged, MeshCensus *census, RayCaster *caster, Error *error)
 {
     Aims *aims = &staged->aims;
-    size_t (*const make_rays[2])(Aims *, RayData *, uint32_t *) = {aims_shoot_from_afar,
-                                                                   aims_shoot_from_close};
+    size_t (*const make_rays[2])(Aims *, RayBlock *, uint32_t *) = {aims_shoot_from_afar,
+                                                                    aims_shoot_from_close};
     RayBatch batch;
     bool ok = make_batch(&batch, aims->count, error);
     for (int from = 0; ok && from < 2; from++) {
-        const size_t rays = make_rays[from](aims, batch.rays, batch.targets);
+        const size_t rays = make_rays[from](aims, batch.blocks, batch.targets);
         for (size_t first = 0; ok && first < rays; first += CAST_RAYS) {
             const RayCast cast = {
                 .query = RAYS_NEAREST,
                 .scene = &staged->form.buffers,
-                .rays = batch.rays + first,
                 .count = (cl_uint)(rays - first < CAST_RAYS ? rays - first : CAST_RAYS),
-                .room = 1,
-                .hits = batch.hits + first};
+                .room = 1};
+            memcpy(caster->blocks.data, batch.blocks + first / RAY_BLOCK,
+                   range_count(cast.count, RAY_BLOCK) * sizeof *batch.blocks);
             ok = ray_caster_cast(caster, &cast, error);
+            if (ok)
+                memcpy(batch.hits + first, caster->hits.data, cast.count * sizeof *batch.hits);
         }
         if (ok)
             aims_judge(aims, batch.targets, batch.hits, rays);
         census->facts.ray_count += rays;
     }
-    free(batch.rays);
+    free(batch.blocks);
     free(batch.targets);
     free(batch.hits);
     return ok;

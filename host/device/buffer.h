@@ -18,3 +18,24 @@ bool buffer_read(const Device *device, cl_mem buffer, void *target, size_t size,
 
 // Releases the buffer, unless it is NULL, and sets it to NULL.
 void buffer_release(cl_mem *buffer);
+
+// An array that the host and a device use in turn. If the device shares the host's memory, the
+// array is the mapped buffer, so nothing is copied. Otherwise, the host has its own array.
+typedef struct {
+    const Device *device;
+    cl_mem buffer; // for kernels; NULL if the array does not exist
+    void *data;    // for the host
+    size_t size;   // bytes
+} SharedArray;
+
+// Makes an uninitialized array, which the host may use. The device must outlive it.
+bool shared_array_make(SharedArray *array, const Device *device, size_t size, Error *error);
+void shared_array_free(SharedArray *array);
+
+// Passes the array to the device, which can rely on the first `used` bytes. The host must not use
+// the array until shared_array_receive.
+bool shared_array_send(const SharedArray *array, size_t used, Error *error);
+
+// Waits for the device, and passes the array to the host, which can rely on the first `used` bytes.
+// `data` may change. After a failure, the array may not exist any more.
+bool shared_array_receive(SharedArray *array, size_t used, Error *error);

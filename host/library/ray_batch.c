@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Callers pass rays and read hits in fp64 and in scene coordinates. The device receives rays and
-// returns hits in float and in normalized coordinates. A ray's direction is scaled by a power of
+// Callers pass rays in fp64 and in scene coordinates. The device receives them in float and in
+// normalized coordinates. A ray's direction is scaled by a power of
 // two so that its largest component is in [1, 2). The device's t then stays in the range of floats.
 // An origin is far if the magnitude of a coordinate exceeds the side of a cube around the scene.
 // Rounding such an origin to float would move the ray too far, so the origin first advances to the
@@ -13,16 +13,7 @@
 // every batch.
 #include "library/ray_batch.h"
 
-#include "base/thread_pool.h"
-
-#include <math.h>
 #include <string.h>
-
-// The number of consecutive entries that a thread converts.
-#define RANGE_ENTRIES 1024
-
-// With the compiler's own choices, storing all results made calls up to 19 % slower.
-#define INLINED static inline __attribute__((always_inline))
 
 // The smallest value of RayBatch::cube. All triangles are within [-1, 1] on each axis.
 #define LEAST_CUBE 2.0
@@ -34,37 +25,6 @@
 // rays that miss the cube around the scene start there, because the limits of spheres (normalize.h)
 // keep every cube within this distance.
 #define FARTHEST 0x1p45
-
-static Vec3 given_vector(const double *vectors, size_t stride, size_t index)
-{
-    const size_t bytes = index * (stride != 0 ? stride : 3 * sizeof(double));
-    return vec3_of_doubles((const double *)(const void *)((const char *)vectors + bytes));
-}
-
-GivenRay given_ray(const ClrtRays *rays, size_t index)
-{
-    return (GivenRay){given_vector(rays->origins, rays->origin_stride, index),
-                      rays->directions != NULL
-                          ? given_vector(rays->directions, rays->direction_stride, index)
-                          : vec3(0, 0, 1),
-                      rays->nears != NULL ? rays->nears[index] : 0,
-                      rays->fars != NULL ? rays->fars[index] : INFINITY,
-                      rays->starts != NULL ? rays->starts[index] : CLRT_NOTHING};
-}
-
-typedef struct {
-    Vec3 at[3], normal;
-} Face;
-
-static inline Face face_of(const RayScene *scene, uint32_t id)
-{
-    const Triangles *triangles = &scene->form.stages.triangles;
-    const size_t triangle = id - scene->form.flat.sphere_count;
-    const Vec3 a = vec3_of_floats(triangles_corner(triangles, triangle, 0));
-    const Vec3 b = vec3_of_floats(triangles_corner(triangles, triangle, 1));
-    const Vec3 c = vec3_of_floats(triangles_corner(triangles, triangle, 2));
-    return (Face){{a, b, c}, vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)))};
-}
 
 static double entry_of_axis(double cube, double origin, double direction)
 {
@@ -91,14 +51,14 @@ static double cube_around(const FlatScene *flat)
 }
 
 // Returns the sum of the components' magnitudes, which is NaN if a component is NaN.
-static double sum_of(Vec3 v)
+INLINED double sum_of(Vec3 v)
 {
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
 // Returns the power of two that scales a size from [1e-300, 1e300] into [1, 2). The bit operations
 // replace ilogb and scalbn. With fmax, these functions took 15 % of a batch's processor time.
-static double power_to_one(double size)
+INLINED double power_to_one(double size)
 {
     uint64_t bits;
     double power;
@@ -108,48 +68,122 @@ static double power_to_one(double size)
     return power;
 }
 
-static Vec3 point_at(Vec3 origin, Vec3 direction, double t)
+typedef struct {
+    double x[RAY_BLOCK], y[RAY_BLOCK], z[RAY_BLOCK];
+} Vectors;
+
+// The rays of a block in fp64, by component. The compiler turns loops over a block into vector
+// code.
+typedef struct {
+    Vectors origin, direction;
+    Vectors from; // where the device's rays start
+    double near[RAY_BLOCK], limit[RAY_BLOCK];
+} WideRays;
+
+INLINED Vec3 vector_of(const Vectors *vectors, size_t i)
 {
-    return vec3_add(origin, vec3_scale(direction, t));
+    return vec3(vectors->x[i], vectors->y[i], vectors->z[i]);
 }
 
-// Stores a ray's direction, limit and scale. Returns the ray's start in normalized coordinates. The
-// start is the point at `near` or, if this point is far, a point further along the ray at the cube
-// around the scene. A ray that can hit nothing gets a limit below 0. A ray whose numbers are not
-// usable also gets an infinite doubt.
-static Vec3 convert_line(RayBatch *batch, size_t entry, const GivenRay *given)
+INLINED void set_vector(Vectors *vectors, size_t i, Vec3 v)
 {
-    const Normalization *frame = &batch->scene->frame;
-    const double largest = vec3_extent(given->direction);
-    const bool is_usable = largest >= 1e-300 && sum_of(given->direction) <= 1e300;
-    const double shrink = is_usable ? power_to_one(largest) : 0, unit = shrink * batch->unit;
-    const Vec3 direction = vec3_scale(given->direction, shrink);
-    // Calling normalize_point would make calls for camera rays 4 % slower.
-    const Vec3 origin = vec3_scale(vec3_sub(given->origin, frame->center), frame->scale);
-    double start = given->near != 0 ? given->near / unit : 0;
-    Vec3 from = start != 0 ? point_at(origin, direction, start) : origin;
-    if (vec3_extent(from) > 2 * batch->cube) {
-        start = fmax(start, cube_entry(batch->cube, origin, direction));
-        from = point_at(origin, direction, start);
+    vectors->x[i] = v.x;
+    vectors->y[i] = v.y;
+    vectors->z[i] = v.z;
+}
+
+INLINED void round_vector(float components[3][RAY_BLOCK], size_t i, Vec3 v)
+{
+    components[0][i] = (float)v.x;
+    components[1][i] = (float)v.y;
+    components[2][i] = (float)v.z;
+}
+
+INLINED void read_rays(const RayBatch *batch, size_t first, WideRays *rays)
+{
+    for (size_t i = 0; i < RAY_BLOCK; i++) {
+        const GivenRay given = given_ray(&batch->rays, ray_of(batch, first + i));
+        set_vector(&rays->origin, i, given.origin);
+        set_vector(&rays->direction, i, given.direction);
+        rays->near[i] = given.near;
+        rays->limit[i] = given.far;
     }
-    const double limit = given->far != INFINITY ? given->far / unit - start : INFINITY;
-    const bool is_ray = is_usable && given->near > -INFINITY && sum_of(from) < FARTHEST;
-    RayData *ray = &batch->data[entry];
-    ray->doubt = is_ray ? 0 : INFINITY;
-    ray->limit = !is_ray || !(limit >= 0) ? -1 : limit < 0x1p127 ? (float)limit : INFINITY;
-    vec3_store(ray->direction, direction);
-    batch->scales[entry] = (RayScale){start, unit};
-    return from;
+}
+
+// Scales the directions, normalizes the origins, and stores the units. If a direction is not
+// usable, the origin becomes NaN.
+INLINED void normalize_rays(const RayBatch *batch, WideRays *rays, double units[RAY_BLOCK])
+{
+    const Normalization frame = batch->scene->frame;
+    const double scene_unit = batch->unit;
+    for (size_t i = 0; i < RAY_BLOCK; i++) {
+        const Vec3 direction = vector_of(&rays->direction, i);
+        const double largest = vec3_extent(direction);
+        const bool is_usable = (largest >= 1e-300) & (sum_of(direction) <= 1e300);
+        const double shrink = power_to_one(largest), scale = is_usable ? frame.scale : NAN;
+        const Vec3 origin = vec3_scale(vec3_sub(vector_of(&rays->origin, i), frame.center), scale);
+        units[i] = shrink * scene_unit;
+        set_vector(&rays->direction, i, vec3_scale(direction, shrink));
+        set_vector(&rays->origin, i, origin);
+        set_vector(&rays->from, i, origin);
+    }
+}
+
+// Moves the starts of rays to the points at `near`. Far starts move further along the ray, to the
+// cube around the scene.
+INLINED void start_rays(const RayBatch *batch, WideRays *rays, double starts[RAY_BLOCK],
+                        const double units[RAY_BLOCK])
+{
+    const double farthest = 2 * batch->cube;
+    memset(starts, 0, RAY_BLOCK * sizeof *starts);
+    for (size_t i = 0; batch->rays.nears != NULL && i < RAY_BLOCK; i++)
+        if (rays->near[i] != 0) {
+            starts[i] = rays->near[i] / units[i];
+            set_vector(
+                &rays->from, i,
+                point_at(vector_of(&rays->origin, i), vector_of(&rays->direction, i), starts[i]));
+        }
+    uint64_t is_far = 0;
+    for (size_t i = 0; i < RAY_BLOCK; i++)
+        is_far |= vec3_extent(vector_of(&rays->from, i)) > farthest ? 1 : 0;
+    for (size_t i = 0; is_far && i < RAY_BLOCK; i++)
+        if (vec3_extent(vector_of(&rays->from, i)) > farthest && rays->near[i] > -INFINITY) {
+            const Vec3 origin = vector_of(&rays->origin, i);
+            const Vec3 direction = vector_of(&rays->direction, i);
+            starts[i] = fmax(starts[i], cube_entry(batch->cube, origin, direction));
+            set_vector(&rays->from, i, point_at(origin, direction, starts[i]));
+        }
+    for (size_t i = 0; batch->rays.fars != NULL && i < RAY_BLOCK; i++)
+        if (rays->limit[i] != INFINITY)
+            rays->limit[i] = rays->limit[i] / units[i] - starts[i];
+}
+
+// Rounds the rays. A ray that can hit nothing gets a limit below 0.
+INLINED void round_rays(const WideRays *rays, RayBlock *block)
+{
+    for (size_t i = 0; i < RAY_BLOCK; i++) {
+        const Vec3 from = vector_of(&rays->from, i);
+        const double limit = rays->limit[i];
+        const bool is_ray = (sum_of(from) < FARTHEST) & (limit >= 0);
+        const double clamped = limit < 0x1p127 ? limit : INFINITY;
+        round_vector(block->origin, i, from);
+        round_vector(block->direction, i, vector_of(&rays->direction, i));
+        block->limit[i] = (float)(is_ray ? clamped : -1.0);
+    }
+    memset(block->own, -1, sizeof block->own);
+    memset(block->own_index, -1, sizeof block->own_index);
 }
 
 // Returns a bound on the distance of a ray's stored origin from its exact start. `off` is the
 // distance by which the start was moved. Errors of fp64 arithmetic are at most 2^-52 of the
-// coordinates of the given origin and of the start. Rounding to float adds 2^-24 of the start.
-static float doubt_of(const RayBatch *batch, const GivenRay *given, Vec3 start, double off)
+// coordinates of the given origin and of the start. Rounding to float adds 2^-24 of the start. The
+// bound is infinite if the ray's numbers are not usable.
+static float doubt_of(const WideRays *rays, size_t i, double off)
 {
-    const double size = sum_of(start);
-    const double whole = size + sum_of(normalize_point(&batch->scene->frame, given->origin));
-    return (float)(0x1p-50 * whole + 1.01 * off + 1.01 * 0x1p-24 * size);
+    const double size = sum_of(vector_of(&rays->from, i));
+    const double whole = size + sum_of(vector_of(&rays->origin, i));
+    const double doubt = 0x1p-50 * whole + 1.01 * off + 1.01 * 0x1p-24 * size;
+    return size < FARTHEST ? (float)doubt : INFINITY;
 }
 
 static uint64_t primitive_count(const RayScene *scene)
@@ -166,43 +200,58 @@ static double move_to_plane(const RayBatch *batch, uint32_t id, Vec3 *start)
     return fabs(off);
 }
 
-// Converts a ray. If near is not 0, the ray only skips the primitive in `starts`. If this primitive
-// does not exist, the ray's element of `offs` is INFINITY.
-static void convert(RayBatch *batch, size_t entry)
+// Lets a ray skip the primitive `own`, and lets it start there if near is 0. Returns the distance
+// by which the ray's start moves, or INFINITY if the primitive does not exist.
+static double leave_primitive(const RayBatch *batch, uint32_t own, WideRays *rays, size_t i,
+                              RayBlock *block)
 {
-    RayData *ray = &batch->data[entry];
     const RayScene *scene = batch->scene;
     const uint32_t spheres = scene->form.flat.sphere_count;
-    const GivenRay given = given_ray(&batch->rays, batch->first + batch->order[entry]);
-    Vec3 start = convert_line(batch, entry, &given);
-    double off = 0;
-    ray->own = given.own;
-    ray->own_index = NOTHING;
-    if (given.own != NOTHING && given.own >= primitive_count(scene))
-        off = INFINITY;
-    else if (given.own != NOTHING && given.near == 0)
-        ray->own_index = given.own < spheres ? given.own : scene->places[given.own - spheres].index;
-    if (ray->own_index != NOTHING && given.own >= spheres && ray->limit >= 0)
-        off = move_to_plane(batch, given.own, &start);
-    vec3_store(ray->origin, start);
-    // Without doubts, which no other query needs, calls for camera rays take 1 to 3 % less time.
-    if (batch->cast.query == RAYS_CERTAIN)
-        ray->doubt += doubt_of(batch, &given, start, off);
-    if (batch->rays.starts != NULL)
-        batch->offs[entry] = off;
+    block->own[i] = own;
+    if (own == NOTHING)
+        return 0;
+    if (own >= primitive_count(scene))
+        return INFINITY;
+    if (rays->near[i] != 0)
+        return 0;
+    block->own_index[i] = own < spheres ? own : scene->places[own - spheres].index;
+    if (own < spheres || block->limit[i] < 0)
+        return 0;
+    Vec3 start = vector_of(&rays->from, i);
+    const double off = move_to_plane(batch, own, &start);
+    set_vector(&rays->from, i, start);
+    round_vector(block->origin, i, start);
+    return off;
 }
 
-static void convert_range(void *context, uint32_t first, uint32_t end)
+INLINED void convert(RayBatch *batch, size_t first)
 {
-    for (uint32_t entry = first; entry < end; entry++)
+    WideRays rays;
+    RayBlock *block = (RayBlock *)batch->caster->blocks.data + first / RAY_BLOCK;
+    double *units = batch->units + first;
+    read_rays(batch, first, &rays);
+    normalize_rays(batch, &rays, units);
+    start_rays(batch, &rays, batch->starts + first, units);
+    round_rays(&rays, block);
+    const uint32_t *owns = batch->rays.starts;
+    for (size_t i = 0; owns != NULL && i < RAY_BLOCK; i++)
+        batch->offs[first + i] =
+            leave_primitive(batch, owns[ray_of(batch, first + i)], &rays, i, block);
+    for (size_t i = 0; batch->cast.query == RAYS_CERTAIN && i < RAY_BLOCK; i++)
+        block->doubt[i] = doubt_of(&rays, i, owns != NULL ? batch->offs[first + i] : 0);
+}
+
+FOR_AVX2_TOO static void convert_range(void *context, uint32_t first, uint32_t end)
+{
+    for (uint32_t entry = first; entry < end; entry += RAY_BLOCK)
         convert(context, entry);
 }
 
 static bool check_start(const RayBatch *batch, size_t entry, ClrtError *error)
 {
     const double off = batch->offs[entry];
-    const size_t number = batch->first + batch->order[entry];
-    const uint32_t own = batch->data[entry].own;
+    const size_t number = ray_of(batch, entry);
+    const uint32_t own = batch->rays.starts[number];
     if (off == INFINITY)
         return check_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu", number,
                           own, (unsigned long long)primitive_count(batch->scene));
@@ -222,123 +271,4 @@ bool ray_batch_convert(RayBatch *batch, ClrtError *error)
     for (size_t entry = 0; ok && batch->rays.starts != NULL && entry < batch->cast.count; entry++)
         ok = check_start(batch, entry, error);
     return ok;
-}
-
-// Stores the barycentric weights of the second and third corner at the point where the ray's line
-// crosses the triangle's plane (Moeller and Trumbore, JGT 2(1) 1997). Rounding can put the point
-// outside the triangle, so the weights are clamped.
-INLINED void weights_at(double weights[2], const Face *face, Vec3 origin, Vec3 direction)
-{
-    const Vec3 ab = vec3_sub(face->at[1], face->at[0]), ac = vec3_sub(face->at[2], face->at[0]);
-    const Vec3 from = vec3_sub(origin, face->at[0]), across = vec3_cross(direction, ac);
-    const double determinant = vec3_dot(ab, across);
-    if (determinant == 0)
-        return;
-    const double second = vec3_dot(from, across) / determinant;
-    const double third = vec3_dot(direction, vec3_cross(from, ab)) / determinant;
-    weights[0] = fmin(fmax(second, 0), 1);
-    weights[1] = fmin(fmax(third, 0), 1 - weights[0]);
-}
-
-static Vec3 sphere_normal(const SphereData *sphere, Vec3 point)
-{
-    const Vec3 center =
-        vec3_add(vec3_of_floats(sphere->center), vec3_of_floats(sphere->center_low));
-    return vec3_normalize(vec3_sub(point, center));
-}
-
-// Stores the results that need the surface. `to` is the hit's place in the caller's arrays.
-INLINED void store_surface(const RayBatch *batch, const ClrtHits *hits, size_t entry, HitData hit,
-                           size_t to)
-{
-    const RayData *ray = &batch->data[entry];
-    const FlatScene *flat = &batch->scene->form.flat;
-    const Vec3 origin = vec3_of_floats(ray->origin), direction = vec3_of_floats(ray->direction);
-    double weights[2] = {0, 0};
-    Vec3 normal = {0, 0, 0};
-    if (hit.id != NOTHING && hit.id < flat->sphere_count) {
-        normal = sphere_normal(&flat->spheres[hit.id], point_at(origin, direction, (double)hit.t));
-    } else if (hit.id != NOTHING) {
-        const Face face = face_of(batch->scene, hit.id);
-        weights_at(weights, &face, origin, direction);
-        normal = face.normal;
-    }
-    if (hits->weights != NULL)
-        memcpy(hits->weights + 2 * to, weights, sizeof weights);
-    if (hits->normals != NULL)
-        vec3_store_doubles(hits->normals + 3 * to, normal);
-    if (hits->fronts != NULL)
-        hits->fronts[to] = hit.id != NOTHING && vec3_dot(normal, direction) <= 0;
-}
-
-INLINED void store_place(const RayBatch *batch, const ClrtHits *hits, HitData hit, size_t to)
-{
-    static const TrianglePlace nowhere = {NOTHING, NOTHING, NOTHING};
-    const uint32_t spheres = batch->scene->form.flat.sphere_count;
-    const TrianglePlace *place =
-        hit.id != NOTHING && hit.id >= spheres ? &batch->scene->places[hit.id - spheres] : &nowhere;
-    if (hits->meshes != NULL)
-        hits->meshes[to] = place->mesh;
-    if (hits->triangles != NULL)
-        hits->triangles[to] = place->number;
-}
-
-// Stores the results for which the caller has arrays in `hits`, and the flags unless they are NULL.
-// Without the early return, loops that store nothing would take 7 % of a call for camera rays.
-INLINED void store(const RayBatch *batch, ClrtHits hits, uint8_t *flags, uint32_t first,
-                   uint32_t end)
-{
-    const bool is_nearest = batch->cast.query == RAYS_NEAREST;
-    const size_t room = batch->results.hits.room;
-    const bool has_surface = hits.weights != NULL || hits.normals != NULL || hits.fronts != NULL;
-    const bool has_place = hits.meshes != NULL || hits.triangles != NULL;
-    if (flags == NULL && hits.counts == NULL && hits.distances == NULL && hits.primitives == NULL &&
-        !has_place && !has_surface)
-        return;
-    for (size_t entry = first; entry < end; entry++) {
-        const size_t ray = batch->first + batch->order[entry];
-        const HitData *found = batch->found + entry * room;
-        if (flags != NULL)
-            flags[ray] = is_nearest ? found->id != NOTHING : (batch->counts[entry] & 1) != 0;
-        if (hits.counts != NULL)
-            hits.counts[ray] = batch->counts[entry];
-        for (size_t i = 0; i < room; i++) {
-            const RayScale *scale = &batch->scales[entry];
-            const HitData hit = found[i];
-            const size_t to = ray * room + i;
-            if (hits.distances != NULL)
-                hits.distances[to] =
-                    hit.id == NOTHING ? INFINITY : (scale->start + (double)hit.t) * scale->unit;
-            if (hits.primitives != NULL)
-                hits.primitives[to] = hit.id;
-            if (has_place)
-                store_place(batch, &hits, hit, to);
-            if (has_surface)
-                store_surface(batch, &hits, entry, hit, to);
-        }
-    }
-}
-
-// Separate loops take half as long as a single loop that fills all arrays.
-static void store_range(void *context, uint32_t first, uint32_t end)
-{
-    const RayBatch *batch = context;
-    const ClrtHits *hits = &batch->results.hits;
-    const bool is_certain = batch->cast.query == RAYS_CERTAIN;
-    store(batch, (ClrtHits){.counts = hits->counts},
-          is_certain ? hits->certain : batch->results.flags, first, end);
-    if (is_certain)
-        return;
-    store(batch, (ClrtHits){.distances = hits->distances}, NULL, first, end);
-    store(batch, (ClrtHits){.primitives = hits->primitives}, NULL, first, end);
-    store(batch, (ClrtHits){.meshes = hits->meshes, .triangles = hits->triangles}, NULL, first,
-          end);
-    store(batch,
-          (ClrtHits){.weights = hits->weights, .normals = hits->normals, .fronts = hits->fronts},
-          NULL, first, end);
-}
-
-void ray_batch_store(RayBatch *batch)
-{
-    thread_pool_share(batch->pool, batch->cast.count, RANGE_ENTRIES, store_range, batch);
 }

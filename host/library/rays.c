@@ -6,8 +6,7 @@
 // rays of a row. The rays of a picture are therefore reordered into beams of 64 rays. The order
 // changes no bit of the hits.
 #include "base/processors.h"
-#include "base/thread_pool.h"
-#include "library/ray_batch.h"
+#include "library/ray_results.h"
 
 // A part has at least LEAST_RAYS rays, and about THREAD_RAYS for each thread. With fewer rays per
 // thread, the threads of a part would mostly wait for each other. With more rays per thread, their
@@ -44,13 +43,16 @@ static size_t grid_width(const ClrtRays *rays)
     return is_grid ? width : 0;
 }
 
-// Fills batch->order for a part. In a grid with rows of `width` rays, consecutive entries form
-// blocks of 64 rays, or less at the right edge. If the last rows are too few for blocks, they come
-// last in ascending order. If `width` is 0, all numbers ascend.
-static void fill_order(RayBatch *batch, size_t width)
+// Orders the rays of a part. In a grid with rows of `width` rays, consecutive entries form blocks
+// of 64 rays, or less at the right edge. If the last rows are too few for blocks, they come last in
+// ascending order. If `width` is 0, the order stays as given.
+static void order_rays(RayBatch *batch, size_t width)
 {
     const size_t count = batch->cast.count;
-    size_t filled = 0, height = width > 0 ? BLOCK_ROWS : 0;
+    size_t filled = 0, height = BLOCK_ROWS;
+    batch->is_ordered = width > 0;
+    if (!batch->is_ordered)
+        return;
     while (height * width > count)
         height /= 2;
     const size_t side = height > 0 ? BEAM_RAYS / height : 0;
@@ -78,7 +80,7 @@ static bool cast(ClrtRenderer *renderer, RayQuery query, ClrtError *error)
         return false;
     if (!ray_caster_cast(&renderer->caster, &batch->cast, &cause))
         return check_fail_for(error, CLRT_DEVICE, &cause);
-    ray_batch_store(batch);
+    ray_results_store(batch);
     return true;
 }
 
@@ -93,7 +95,7 @@ static bool cast_parts(ClrtRenderer *renderer, size_t most, ClrtError *error)
         batch->first = done * most;
         const size_t left = rays->count - batch->first;
         batch->cast.count = (cl_uint)(left < most ? left : most);
-        fill_order(batch, width);
+        order_rays(batch, width);
         if (!cast(renderer, results->query, error) ||
             (results->hits.certain != NULL && !cast(renderer, RAYS_CERTAIN, error)))
             return false;
@@ -120,10 +122,8 @@ static bool cast_batch(ClrtRenderer *renderer, ClrtError *error)
     const bool starts = is_nearest && batch->rays.starts != NULL;
     const bool any = is_nearest && batch->results.flags != NULL;
     batch->cast = (RayCast){.kinds = (starts ? RAY_ON_SURFACE : 0) | (any ? RAY_ANY_HIT : 0),
-                            .room = (cl_uint)room,
-                            .rays = batch->data,
-                            .hits = batch->found,
-                            .counts = batch->counts};
+                            .room = (cl_uint)room};
+    batch->caster = &renderer->caster;
     batch->pool = thread_pool_open(threads);
     const bool ok = cast_parts(renderer, most < part ? most : part, error);
     thread_pool_close(batch->pool);

@@ -3,7 +3,6 @@
 // each size.
 #include "session/ray_caster.h"
 
-#include "device/buffer.h"
 #include "render/certifier.h"
 
 #include <stdlib.h>
@@ -19,15 +18,15 @@ static const KernelEntry entries[RAY_QUERIES] = {
                   .dimensions = 1},
     [RAYS_CERTAIN] = {"certify_rays", certify_rays_source, NULL, ARGUMENTS, .dimensions = 1}};
 
-// Makes the buffers that do not exist. An earlier call may have failed after it made some of them.
-static bool make_buffers(RayCaster *caster, const Device *device, Error *error)
+// Makes the arrays that do not exist. An earlier call may have failed after it made some of them.
+static bool make_arrays(RayCaster *caster, const Device *device, Error *error)
 {
-    static const size_t sizes[] = {CAST_RAYS * sizeof(RayData), HITS_MAX * sizeof(HitData),
-                                   CAST_RAYS * sizeof(uint32_t)};
-    cl_mem *const buffers[] = {&caster->rays, &caster->hits, &caster->counts};
+    static const size_t sizes[] = {CAST_RAYS / RAY_BLOCK * sizeof(RayBlock),
+                                   HITS_MAX * sizeof(HitData), CAST_RAYS * sizeof(uint32_t)};
+    SharedArray *const arrays[] = {&caster->blocks, &caster->hits, &caster->counts};
     bool ok = true;
     for (int i = 0; ok && i < 3; i++)
-        ok = *buffers[i] != NULL || buffer_make(device, sizes[i], buffers[i], error);
+        ok = arrays[i]->buffer != NULL || shared_array_make(arrays[i], device, sizes[i], error);
     return ok;
 }
 
@@ -42,7 +41,7 @@ bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, bool h
     traits.spheres = has_spheres;
     if (query == RAYS_CERTAIN && !certifier_check_device(&session->device, error))
         return false;
-    if (!make_buffers(caster, &session->device, error))
+    if (!make_arrays(caster, &session->device, error))
         return false;
     caster->kernels[query] = session_kernel(session, &use, &traits, error);
     return caster->kernels[query] != NULL;
@@ -51,9 +50,9 @@ bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, bool h
 void ray_caster_close(RayCaster *caster)
 {
     ray_caster_free_scenes(caster);
-    buffer_release(&caster->rays);
-    buffer_release(&caster->hits);
-    buffer_release(&caster->counts);
+    shared_array_free(&caster->blocks);
+    shared_array_free(&caster->hits);
+    shared_array_free(&caster->counts);
     *caster = (RayCaster){0};
 }
 
@@ -138,28 +137,26 @@ static bool launch(const RayCaster *caster, const RayCast *cast, Error *error)
     const KernelRun run = {.queue = kernel->device->queue,
                            .frame = &cast->scene->frame,
                            .scene = cast->scene->arrays,
-                           .arguments = {&caster->rays, &cast->count, &cast->kinds, &cast->room,
-                                         &caster->hits, &caster->counts},
+                           .arguments = {&caster->blocks.buffer, &cast->count, &cast->kinds,
+                                         &cast->room, &caster->hits.buffer, &caster->counts.buffer},
                            .items = {(cast->count + rays - 1) / rays, 1}};
     return kernel_run(kernel, &run, error);
 }
 
-// The write and the launch return at once, and the reads wait for the device.
-bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, Error *error)
+// Only the first call of shared_array_receive waits for the device.
+bool ray_caster_cast(RayCaster *caster, const RayCast *cast, Error *error)
 {
-    const Device *device = caster->kernels[cast->query]->device;
-    const size_t hits = (size_t)cast->count * cast->room * sizeof *cast->hits;
-    const bool ok =
-        cl_succeeded(clEnqueueWriteBuffer(device->queue, caster->rays, CL_FALSE, 0,
-                                          cast->count * sizeof *cast->rays, cast->rays, 0, NULL,
-                                          NULL),
-                     "write rays", error) &&
-        launch(caster, cast, error) &&
-        (cast->query == RAYS_CERTAIN || hits == 0 ||
-         buffer_read(device, caster->hits, cast->hits, hits, error)) &&
-        (cast->query == RAYS_NEAREST || buffer_read(device, caster->counts, cast->counts,
-                                                    cast->count * sizeof *cast->counts, error));
+    const size_t blocks = (cast->count + RAY_BLOCK - 1) / RAY_BLOCK * sizeof(RayBlock);
+    const size_t hits =
+        cast->query == RAYS_CERTAIN ? 0 : (size_t)cast->count * cast->room * sizeof(HitData);
+    const size_t counts = cast->query == RAYS_NEAREST ? 0 : cast->count * sizeof(uint32_t);
+    bool ok = shared_array_send(&caster->blocks, blocks, error) &&
+              shared_array_send(&caster->hits, 0, error) &&
+              shared_array_send(&caster->counts, 0, error) && launch(caster, cast, error);
+    ok = shared_array_receive(&caster->hits, ok ? hits : 0, error) && ok;
+    ok = shared_array_receive(&caster->counts, ok ? counts : 0, error) && ok;
+    ok = shared_array_receive(&caster->blocks, 0, error) && ok;
     if (!ok)
-        clFinish(device->queue); // the device may still read rays
+        clFinish(caster->kernels[cast->query]->device->queue); // the device may still read rays
     return ok;
 }

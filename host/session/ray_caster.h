@@ -2,6 +2,7 @@
 // Rays -> hits, computed by the searches that render pictures.
 #pragma once
 
+#include "device/buffer.h"
 #include "session/session.h"
 
 // The kernels that trace arrays of rays.
@@ -30,7 +31,9 @@ typedef struct {
 // An empty caster, without kernels, buffers and scenes, is {0}.
 typedef struct {
     const Kernel *kernels[RAY_QUERIES]; // by query, from its last ray_caster_open
-    cl_mem rays, hits, counts;          // room for one cast
+    SharedArray blocks;                 // of RayBlock, for CAST_RAYS rays
+    SharedArray hits;                   // of HitData, for HITS_MAX hits
+    SharedArray counts;                 // of uint32_t, for CAST_RAYS rays
     RayScene scenes[NODE_LAYOUTS];
 } RayCaster;
 
@@ -53,18 +56,15 @@ void ray_caster_free_scenes(RayCaster *caster);
 typedef struct {
     RayQuery query;
     const SceneBuffers *scene; // in the node layout of the query's kernel
-    const RayData *rays;
-    cl_uint count;    // in [1, CAST_RAYS]
-    cl_uint kinds;    // only for RAYS_NEAREST: RAY_ON_SURFACE, RAY_ANY_HIT
-    cl_uint room;     // hits stored for each ray: 1, or for RAYS_ALL at most HITS_MAX / count
-    HitData *hits;    // may be NULL for RAYS_CERTAIN
-    uint32_t *counts; // may be NULL for RAYS_NEAREST
+    cl_uint count;             // of rays, in [1, CAST_RAYS]
+    cl_uint kinds;             // only for RAYS_NEAREST: RAY_ON_SURFACE, RAY_ANY_HIT
+    cl_uint room; // hits stored for each ray: 1, or for RAYS_ALL at most HITS_MAX / count
 } RayCast;
 
 #define CAST_RAYS 262144
 #define HITS_MAX  1048576
 
-// Stores the hits and, for RAYS_ALL, the numbers of hits. For RAYS_CERTAIN, stores in cast->counts
-// which hits of the preceding cast are certain. The preceding cast must have been RAYS_NEAREST with
-// the same rays.
-bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, Error *error);
+// Casts the rays in caster->blocks. Stores the hits in caster->hits and, for RAYS_ALL, the numbers
+// of hits in caster->counts. For RAYS_CERTAIN, stores in caster->counts which hits of the preceding
+// cast are certain. The preceding cast must have been RAYS_NEAREST with the same rays.
+bool ray_caster_cast(RayCaster *caster, const RayCast *cast, Error *error);

@@ -16,7 +16,7 @@ typedef struct {
     Edges edges;
     Triangles triangles;
     Aims aims;
-    RayData rays[64];
+    RayBlock rays;
     uint32_t targets[64];
 } Fixture;
 
@@ -84,16 +84,21 @@ TEST(no_more_aims_are_kept_than_requested)
     assert_int_equal(all.aims.count, 3);
 }
 
+static Vec3 stored_vector(const float *components, size_t i)
+{
+    return vec3((double)components[i], (double)components[RAY_BLOCK + i],
+                (double)components[2 * RAY_BLOCK + i]);
+}
+
 TEST(rays_from_afar_start_outside_and_end_at_their_aims)
 {
     FREED_BY(release) Fixture all = aimed(faces, 4, 64, false);
-    const size_t count = aims_shoot_from_afar(&all.aims, all.rays, all.targets);
+    const size_t count = aims_shoot_from_afar(&all.aims, &all.rays, all.targets);
     assert_true(count >= 6 && count <= 10);
     for (size_t i = 0; i < count; i++) {
         const Aim *aim = &all.aims.aims[all.targets[i]];
-        const float *o = all.rays[i].origin, *d = all.rays[i].direction;
-        const Vec3 origin = vec3((double)o[0], (double)o[1], (double)o[2]);
-        const Vec3 direction = vec3((double)d[0], (double)d[1], (double)d[2]);
+        const Vec3 origin = stored_vector(all.rays.origin[0], i);
+        const Vec3 direction = stored_vector(all.rays.direction[0], i);
         assert_true(vec3_dot(origin, origin) > 3 * 1.5 * 1.5);
         assert_true(vec3_extent(vec3_sub(vec3_add(origin, direction), aim->point)) < 1e-6);
         assert_true(vec3_dot(direction, aim->star.outward) < 0);
@@ -104,7 +109,7 @@ TEST(rays_from_afar_start_outside_and_end_at_their_aims)
 TEST(rays_are_judged_by_where_they_end)
 {
     FREED_BY(release) Fixture all = aimed(faces, 4, 64, false);
-    aims_shoot_from_afar(&all.aims, all.rays, all.targets);
+    aims_shoot_from_afar(&all.aims, &all.rays, all.targets);
     const HitData hits[4] = {{.t = 1}, {.t = 0.9f}, {.t = 1.1f}, {.t = INFINITY}};
     aims_judge(&all.aims, all.targets, hits, 4);
     assert_int_equal(all.aims.aims[all.targets[0]].state, AIM_REACHED);
@@ -113,7 +118,7 @@ TEST(rays_are_judged_by_where_they_end)
     assert_int_equal(all.aims.aims[all.targets[3]].state, AIM_LEAKED);
     const uint32_t hidden = all.targets[1];
     const uint32_t reached = all.targets[0];
-    const size_t close = aims_shoot_from_close(&all.aims, all.rays, all.targets);
+    const size_t close = aims_shoot_from_close(&all.aims, &all.rays, all.targets);
     assert_int_equal(close, all.aims.count - 3);
     bool again = false;
     for (size_t i = 0; i < close; i++) {
