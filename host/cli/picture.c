@@ -262,6 +262,17 @@ static void set_view(Picture *picture, uint32_t number)
                                              scene->has_course_views, picture->turned);
 }
 
+static bool make_framebuffer(Framebuffer *framebuffer, uint32_t width, uint32_t height,
+                             Error *error)
+{
+    const unsigned long long bytes = sizeof *framebuffer->pixels * width * (uint64_t)height;
+    return framebuffer_make(framebuffer, width, height, &(Error){0}) ||
+           error_set(error,
+                     "out of memory: the pixels need %llu MB: give a smaller --size, or draw "
+                     "parts of an EXR file with --part",
+                     bytes / 1000000 + 1);
+}
+
 // Creates a black picture. With --resume, copies the finished tiles of an earlier run into the
 // picture.
 static bool begin_picture(Picture *picture, Error *error)
@@ -273,7 +284,7 @@ static bool begin_picture(Picture *picture, Error *error)
     finished.complete = true;
     report_fill_provenance(&own, &finished);
     tile_frame_size(settings, &width, &height);
-    return framebuffer_make(&picture->framebuffer, width, height, error) &&
+    return make_framebuffer(&picture->framebuffer, width, height, error) &&
            resume_open(&picture->resume, &own, settings, &picture->framebuffer, error);
 }
 

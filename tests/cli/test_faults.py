@@ -268,6 +268,12 @@ class Memory(Faults):
             failures += 1
             first += 1 + first // 6
 
+    def test_a_picture_that_is_too_large_names_the_remedies(self):
+        limit = ["prlimit", f"--as={100 << 30}"]
+        run = self.run_clrt(SCENE, "-s", "131072x131072", "-o", "target/a.pfm", before=limit)
+        self.assert_fails(run, 3, "out of memory: the pixels need 206159 MB: give a smaller --size, or draw parts "
+                          "of an EXR file with --part")
+
     def test_every_failed_allocation_is_reported(self):
         (self.work / "mesh.scn").write_text(
             f"ply_file {ROOT}/scenes/cone.ply\nlight 4 4 4 1\nmaterial 3\nsphere 0 0 0 1\n"
