@@ -56,7 +56,8 @@ class Shares(Work):
                     self.refuses(2, f"auto: {name} is '{value}', not an integer from {numbers}", *SMALL,
                                  *words, f"--{option}", "auto/8", **UNSET | {name: value})
             self.refuses(2, "auto: none of SLURM_ARRAY_TASK_ID (from 1 to 8), AWS_BATCH_JOB_ARRAY_INDEX, "
-                         "JOB_COMPLETION_INDEX, OMPI_COMM_WORLD_RANK, PMI_RANK and SLURM_PROCID (from 0 to 7) is set",
+                         "JOB_COMPLETION_INDEX, OMPI_COMM_WORLD_RANK, PMI_RANK and SLURM_PROCID (from 0 to 7) is set; "
+                         "outside job arrays, give a number instead of auto",
                          *SMALL, *words, f"--{option}", "auto/8", **UNSET)
 
     def test_shares_of_nothing_are_refused(self):

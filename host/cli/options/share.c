@@ -33,7 +33,7 @@ static bool read_variable(int64_t *index, int64_t count, Error *error)
                          "auto: none of SLURM_ARRAY_TASK_ID (from 1 to %" PRId64
                          "), AWS_BATCH_JOB_ARRAY_INDEX, JOB_COMPLETION_INDEX, "
                          "OMPI_COMM_WORLD_RANK, PMI_RANK and SLURM_PROCID (from 0 to %" PRId64
-                         ") is set",
+                         ") is set; outside job arrays, give a number instead of auto",
                          count, count - 1);
     const char *text = getenv(variables[i].name), *end = text + strlen(text);
     const int64_t first = variables[i].first, last = first + count - 1;
