@@ -234,7 +234,8 @@ static bool find_thin_parts(ThinParts *parts, const RefineSetup *setup, Error *e
         frame.camera.down_step[axis] *= (float)LADDER_GRID / REFINE_GRID;
     }
     const ThinSource source = {
-        &frame, setup->scene, setup->normalization, setup->flat->spheres, setup->pool, false};
+        &frame,      setup->scene, setup->pieces, setup->normalization, setup->flat->spheres,
+        setup->pool, false};
     return thin_parts_make(parts, &source, error);
 }
 

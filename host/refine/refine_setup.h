@@ -4,6 +4,7 @@
 
 #include "base/thread_pool.h"
 #include "image/framebuffer.h"
+#include "mesh/mesh_pieces.h"
 #include "render/renderer.h"
 #include "scene/normalize.h"
 
@@ -13,6 +14,7 @@ typedef struct {
     const CameraData *camera; // made for REFINE_GRID samples; for goals, LADDER_GRID
     ThreadPool *pool;         // threads for the work, NULL for none
     const Scene *scene;       // the source of flat
+    const MeshPieces *pieces; // of each of the scene's objects
     const Normalization *normalization;
     Framebuffer *picture;           // of the renderer's size
     const RenderObserver *observer; // may stop the refinement; may be NULL

@@ -4,6 +4,7 @@
 
 #include "base/array.h"
 #include "base/thread_pool.h"
+#include "mesh/mesh_pieces.h"
 #include "refine/outline.h"
 #include "refine/probe.h"
 #include "scene/normalize.h"
@@ -33,6 +34,7 @@ typedef struct {
 typedef struct {
     const FrameData *frame; // its camera is made for REFINE_GRID samples
     const Scene *scene;
+    const MeshPieces *pieces;           // of each of the scene's objects
     const Normalization *normalization; // of the scene
     const SphereData *spheres;          // of the frame
     ThreadPool *pool;                   // threads for the work, NULL for none

@@ -7,8 +7,6 @@
 // Invariant: all results are sets, so they do not depend on the order of work.
 #include "refine/thin_triangles.h"
 
-#include "refine/mesh_pieces.h"
-
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +34,7 @@ typedef struct {
     ThinParts *parts;
     const ThinSource *source;
     Projection projection;      // of the mesh
-    MeshPieces pieces;          // of the mesh
+    const MeshPieces *pieces;   // of the mesh
     uint32_t first;             // of the piece's triangles, in the order of the pieces
     uint32_t number;            // of the piece, from 1
     uint32_t levels;            // number of levels to search for probes
@@ -50,7 +48,7 @@ typedef struct {
 
 static uint32_t triangle_at(const ThinSearch *search, uint32_t place)
 {
-    const uint32_t *order = search->pieces.order;
+    const uint32_t *order = search->pieces->order;
     return order == NULL ? search->first + place : order[search->first + place];
 }
 
@@ -251,13 +249,10 @@ static bool search_piece(ThinSearch *search, uint32_t end, Error *error)
 static bool search_mesh(ThinSearch *search, const MeshObject *object, Error *error)
 {
     const ThinSource *source = search->source;
-    search->pieces = (MeshPieces){0};
     search->first = 0;
-    bool ok = projection_begin(&search->projection, object, source->pool, error) &&
-              mesh_pieces_make(&search->pieces, &object->mesh, error);
-    for (uint32_t i = 0; ok && i < search->pieces.count; i++)
-        ok = search_piece(search, search->pieces.ends[i], error);
-    mesh_pieces_free(&search->pieces);
+    bool ok = projection_begin(&search->projection, object, source->pool, error);
+    for (uint32_t i = 0; ok && i < search->pieces->count; i++)
+        ok = search_piece(search, search->pieces->ends[i], error);
     free(search->projection.points);
     return ok;
 }
@@ -275,8 +270,10 @@ bool thin_triangles_find(ThinParts *parts, const ThinSource *source, Error *erro
     search.covered = memory_zeroed(pixels, sizeof *search.covered, error);
     search.touched = memory_zeroed(pixels, sizeof *search.touched, error);
     bool ok = search.covered != NULL && search.touched != NULL;
-    for (size_t i = 0; ok && i < source->scene->objects.count; i++)
+    for (size_t i = 0; ok && i < source->scene->objects.count; i++) {
+        search.pieces = &source->pieces[i];
         ok = search_mesh(&search, &source->scene->objects.data[i], error);
+    }
     free(search.covered);
     free(search.touched);
     free(search.pairs.data);

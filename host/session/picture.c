@@ -137,6 +137,7 @@ static RefineSetup refine_setup(const PictureDrawing *drawing, Renderer *rendere
                          .camera = camera,
                          .pool = drawing->pool,
                          .scene = drawing->session->scene.scene,
+                         .pieces = drawing->session->scene.pieces.data,
                          .normalization = &drawing->session->scene.normalization,
                          .picture = drawing->framebuffer,
                          .observer = drawing->observer};
@@ -275,8 +276,9 @@ bool session_draw_picture(Session *session, SessionPicture *request, const Rende
     if (!open_renderer(session, request, &drawing.renderer, result, error))
         return false;
     drawing.form = session_scene_own_form(session, error);
-    const bool ok = goal_is_given(&request->wanted) ? draw_refined(&drawing, error)
-                                                    : draw_evenly(&drawing, error);
+    const bool ok = goal_is_given(&request->wanted)
+                        ? session_scene_find_pieces(session, error) && draw_refined(&drawing, error)
+                        : draw_evenly(&drawing, error);
     result->progress = drawing.renderer.progress;
     result->is_complete = ok && result->progress.tiles_done == result->progress.tiles;
     return ok;

@@ -13,6 +13,7 @@
 #include "accel/scene_compile.h"
 #include "device/cache_private.h"
 #include "library/clrt.h"
+#include "mesh/mesh_pieces.h"
 #include "render/renderer.h"
 
 typedef struct {
@@ -32,6 +33,7 @@ typedef struct {
     const Scene *scene; // borrowed
     Normalization normalization;
     const CompileStages *stages;      // borrowed; NULL: the session makes them for each form
+    ARRAY(MeshPieces) pieces;         // of each object; empty until needed
     SceneForm forms[NODE_LAYOUTS][2]; // [0]: without a tree, [1]: with a tree; empty until needed
 } SessionScene;
 
@@ -95,6 +97,9 @@ void scene_form_free(SceneForm *form);
 // Returns the session's scene in this layout, or NULL on failure. The first call compiles the
 // scene. The form has no tree if `has_tree` is false or session_scene_wants_tree returns false.
 SceneForm *session_scene_form(Session *session, NodeLayout layout, bool has_tree, Error *error);
+
+// Finds the pieces of all objects, unless an earlier call has found them.
+bool session_scene_find_pieces(Session *session, Error *error);
 
 BvhBuilder session_scene_builder(const ClrtSettings *settings);
 

@@ -4,6 +4,8 @@
 #include "session/costs.h"
 #include "session/session.h"
 
+#include <stdlib.h>
+
 bool session_scene_take(Session *session, const Scene *scene, Error *error)
 {
     session_scene_free(&session->scene);
@@ -14,6 +16,9 @@ bool session_scene_take(Session *session, const Scene *scene, Error *error)
 
 void session_scene_free(SessionScene *scene)
 {
+    for (size_t i = 0; i < scene->pieces.count; i++)
+        mesh_pieces_free(&scene->pieces.data[i]);
+    free(scene->pieces.data);
     for (int layout = 0; layout < NODE_LAYOUTS; layout++)
         for (int has_tree = 0; has_tree < 2; has_tree++)
             scene_form_free(&scene->forms[layout][has_tree]);
@@ -81,6 +86,22 @@ SceneForm *session_scene_own_form(Session *session, Error *error)
 {
     return session_scene_form(session, session->choice.nodes,
                               session->settings.wanted.tree != CLRT_TREE_NONE, error);
+}
+
+bool session_scene_find_pieces(Session *session, Error *error)
+{
+    SessionScene *scene = &session->scene;
+    while (scene->pieces.count < scene->scene->objects.count) {
+        MeshPieces pieces;
+        if (!mesh_pieces_make(&pieces, &scene->scene->objects.data[scene->pieces.count].mesh,
+                              error))
+            return false;
+        if (!array_push(&scene->pieces, pieces, error)) {
+            mesh_pieces_free(&pieces);
+            return false;
+        }
+    }
+    return true;
 }
 
 BvhBuilder session_scene_builder(const ClrtSettings *settings)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests how meshes are divided into pieces of connected triangles. All small pieces become one
 // piece.
-#include "refine/mesh_pieces.h"
+#include "mesh/mesh_pieces.h"
 #include "unit/cmocka_all.h"
 #include "unit/random.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tests which pixels thin parts touch, and where they request samples, even if the parts are many
 // or hard to project.
-#include "refine/mesh_pieces.h"
+#include "mesh/mesh_pieces.h"
 #include "refine/thin_parts.h"
 #include "scene/camera.h"
 #include "unit/cmocka_all.h"
@@ -66,9 +66,11 @@ static void search(World *world, uint32_t threads)
         .width = SIDE, .height = SIDE, .max_level = 1, .sphere_count = world->sphere.radius > 0};
     world->frame.camera = camera_make(&viewpoint, &world->normalization, SIDE, SIDE, REFINE_GRID);
     ThreadPool *pool = thread_pool_open(threads);
-    const ThinSource source = {&world->frame,  &world->scene, &world->normalization,
-                               &world->sphere, pool,          true};
     Error error;
+    FREED_BY(mesh_pieces_free) MeshPieces pieces;
+    assert_true(mesh_pieces_make(&pieces, &world->object.mesh, &error));
+    const ThinSource source = {&world->frame,  &world->scene, &pieces, &world->normalization,
+                               &world->sphere, pool,          true};
     assert_true(thin_parts_make(&world->parts, &source, &error));
     thread_pool_close(pool);
 }

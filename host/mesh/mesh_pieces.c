@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Joins the vertices of triangles into pieces by union-find.
-#include "refine/mesh_pieces.h"
+#include "mesh/mesh_pieces.h"
 
 #include "base/union_find.h"
 
