@@ -37,14 +37,11 @@ void outline_complete(Outline *outline)
     memcpy(outline->corners[outline->count], outline->corners[0], sizeof outline->corners[0]);
     memcpy(box->low, outline->corners[0], sizeof box->low);
     memcpy(box->high, outline->corners[0], sizeof box->high);
-    for (uint32_t i = 0; i < outline->count; i++) {
-        const double *from = outline->corners[i], *to = outline->corners[i + 1];
-        outline->slopes[i] = (to[0] - from[0]) / (to[1] - from[1]);
+    for (uint32_t i = 1; i < outline->count; i++)
         for (int axis = 0; axis < 2; axis++) {
-            box->low[axis] = smaller(box->low[axis], from[axis]);
-            box->high[axis] = larger(box->high[axis], from[axis]);
+            box->low[axis] = smaller(box->low[axis], outline->corners[i][axis]);
+            box->high[axis] = larger(box->high[axis], outline->corners[i][axis]);
         }
-    }
 }
 
 static double perimeter_of(const Outline *outline)
@@ -82,9 +79,9 @@ static bool find_extent(const Outline *outline, double low, double high, double 
         const double *to = one[1] < other[1] ? other : one;
         if (to[1] < low || from[1] > high)
             continue;
-        const double start =
-            from[1] < low ? from[0] + (low - from[1]) * outline->slopes[i] : from[0];
-        const double end = to[1] > high ? from[0] + (high - from[1]) * outline->slopes[i] : to[0];
+        const double slope = (to[0] - from[0]) / (to[1] - from[1]);
+        const double start = from[1] < low ? from[0] + (low - from[1]) * slope : from[0];
+        const double end = to[1] > high ? from[0] + (high - from[1]) * slope : to[0];
         extent[0] = smaller(extent[0], smaller(start, end));
         extent[1] = larger(extent[1], larger(start, end));
     }
@@ -132,20 +129,25 @@ static Vec3 point_of(const Projection *projection, size_t vertex)
                             normalize_point(projection->normalization, vec3_of_doubles(position)));
 }
 
+// Returns a bit for each plane beyond which the point is.
+static uint32_t planes_crossed(const Projection *projection, Vec3 point)
+{
+    uint32_t crossed = 0;
+    for (int plane = 0; plane < CLIPPING_PLANES; plane++)
+        crossed |= (uint32_t) !(vec3_dot(projection->planes[plane], point) > 0) << plane;
+    return crossed;
+}
+
 static void project_points(void *context, uint32_t first, uint32_t end)
 {
     const Projection *projection = context;
+    const double right = projection->width + MARGIN, bottom = projection->height + MARGIN;
     for (uint32_t vertex = first; vertex < end; vertex++) {
         const Vec3 point = point_of(projection, vertex);
-        ProjectedPoint projected = {0};
-        for (int plane = 0; plane < CLIPPING_PLANES; plane++)
-            projected.outside |= (uint32_t) !(vec3_dot(projection->planes[plane], point) > 0)
-                                 << plane;
-        if (projected.outside == 0) {
-            projected.x = (float)(point.x / point.z);
-            projected.y = (float)(point.y / point.z);
-        }
-        projection->points[vertex] = projected;
+        const double x = point.x / point.z, y = point.y / point.z;
+        const bool is_inside = point.z > 0 && x > -MARGIN && x < right && y > -MARGIN && y < bottom;
+        projection->points[vertex] = (ProjectedPoint){
+            {(float)x, (float)y}, is_inside ? 0 : planes_crossed(projection, point)};
     }
 }
 
@@ -240,8 +242,8 @@ bool projection_outline(const Projection *projection, size_t triangle, Outline *
         const ProjectedPoint *point = &projection->points[vertices[corner]];
         all &= point->outside;
         any |= point->outside;
-        outline->corners[corner][0] = point->x;
-        outline->corners[corner][1] = point->y;
+        outline->corners[corner][0] = point->place[0];
+        outline->corners[corner][1] = point->place[1];
     }
     if (all != 0 || (any != 0 && !cut_outline(projection, vertices, outline)))
         return false;

@@ -22,7 +22,6 @@ typedef struct {
 typedef struct {
     uint32_t count;
     double corners[OUTLINE_CORNERS + 1][2]; // in order around the polygon; the first one twice
-    double slopes[OUTLINE_CORNERS];         // dx/dy of the side from each corner to the next
     OutlineBox box;                         // around the corners
 } Outline;
 
@@ -36,6 +35,11 @@ typedef struct {
 typedef struct {
     uint32_t first, end;
 } CellRange;
+
+static inline bool range_is_empty(CellRange range)
+{
+    return range.first >= range.end;
+}
 
 // Computes everything else from the count and the corners.
 void outline_complete(Outline *outline);
@@ -79,7 +83,7 @@ CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t
 // and a margin of two pixels.
 
 typedef struct {
-    float x, y;       // in places; 0 if the point is outside
+    float place[2];   // in places; meaningless if the point is outside
     uint32_t outside; // bit i: the point is beyond clipping plane i
 } ProjectedPoint;
 
@@ -108,3 +112,22 @@ bool projection_begin(Projection *projection, const MeshObject *object, ThreadPo
 // Computes the clipped outline of a triangle. Returns false if the triangle is outside, seen
 // edge-on, or one-sided and seen from behind.
 bool projection_outline(const Projection *projection, size_t triangle, Outline *outline);
+
+// Computes a box that contains the outline of a triangle. Returns false if the triangle is outside.
+static inline bool projection_box(const Projection *projection, size_t triangle, OutlineBox *box)
+{
+    const uint32_t *vertices = projection->object->mesh.triangles[triangle];
+    const ProjectedPoint *a = &projection->points[vertices[0]];
+    const ProjectedPoint *b = &projection->points[vertices[1]];
+    const ProjectedPoint *c = &projection->points[vertices[2]];
+    *box = (OutlineBox){{0, 0}, {projection->width, projection->height}};
+    if ((a->outside | b->outside | c->outside) != 0)
+        return (a->outside & b->outside & c->outside) == 0;
+    for (int axis = 0; axis < 2; axis++) {
+        const float x = a->place[axis], y = b->place[axis], z = c->place[axis];
+        const float lower = x < y ? x : y, upper = x > y ? x : y;
+        box->low[axis] = (double)(z < lower ? z : lower);
+        box->high[axis] = (double)(z > upper ? z : upper);
+    }
+    return true;
+}

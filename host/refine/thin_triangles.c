@@ -4,15 +4,22 @@
 // (thin_parts.h). Finally, they draw these triangles on the pixel's grid of places, and choose
 // probes level by level.
 //
+// Fine meshes are wide at most pixels. The first step therefore also makes a box around each block
+// of triangles, and the second step skips blocks whose boxes touch only such pixels.
+//
 // Invariant: all results are sets, so they do not depend on the order of work.
 #include "refine/thin_triangles.h"
 
+#include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define TRIANGLES_OF_TASK 1024
 #define PAIRS_OF_TASK     1024
+
+// The number of triangles in a block. It divides TRIANGLES_OF_TASK.
+#define BLOCK_TRIANGLES 64
 
 typedef struct {
     uint32_t pixel, triangle;
@@ -33,16 +40,17 @@ typedef struct {
 typedef struct {
     ThinParts *parts;
     const ThinSource *source;
-    Projection projection;      // of the mesh
-    const MeshPieces *pieces;   // of the mesh
-    uint32_t first;             // of the piece's triangles, in the order of the pieces
-    uint32_t number;            // of the piece, from 1
-    uint32_t levels;            // number of levels to search for probes
-    _Atomic uint32_t *covered;  // by pixel: the latest piece that contains the pixel's center
-    _Atomic uint32_t *touched;  // by pixel: the latest piece whose thin triangles touch it
-    uint64_t most;              // pairs that a piece may have; 0 if no probes are needed
-    _Atomic uint64_t met;       // pairs of thin triangles and pixels that they touch
-    TaskList *lists;            // of each task
+    Projection projection;     // of the mesh
+    const MeshPieces *pieces;  // of the mesh
+    uint32_t first;            // of the piece's triangles, in the order of the pieces
+    uint32_t number;           // of the piece, from 1
+    uint32_t levels;           // number of levels to search for probes
+    OutlineBox *boxes;         // around each block of the piece's triangles
+    _Atomic uint32_t *covered; // by pixel: the latest piece that contains the pixel's center
+    _Atomic uint32_t *touched; // by pixel: the latest piece whose thin triangles touch it
+    uint64_t most;             // pairs that a piece may have; 0 if no probes are needed
+    _Atomic uint64_t met; // pairs of thin triangles and pixels that they touch; 0 without probes
+    TaskList *lists;      // of each task
     ARRAY(PixelTriangle) pairs; // of the piece, sorted by pixel
 } ThinSearch;
 
@@ -52,46 +60,119 @@ static uint32_t triangle_at(const ThinSearch *search, uint32_t place)
     return order == NULL ? search->first + place : order[search->first + place];
 }
 
-// Records the pixels whose centers lie in the triangles.
-static void cover_pixels(void *context, uint32_t first, uint32_t end)
+// Records the pixels whose centers lie in the triangle.
+static void cover_pixels(const ThinSearch *search, uint32_t triangle)
 {
-    const ThinSearch *search = context;
     const CellGrid grid = thin_pixel_grid(search->parts);
-    for (uint32_t i = first; i < end; i++) {
-        Outline outline;
-        if (!projection_outline(&search->projection, triangle_at(search, i), &outline))
-            continue;
-        const CellRange rows = cells_sampled(outline.box.low[1], outline.box.high[1], &grid, 1);
-        for (uint32_t row = rows.first; row < rows.end; row++) {
-            const CellRange columns = outline_sampled(&outline, &grid, row);
-            for (uint32_t column = columns.first; column < columns.end; column++)
-                atomic_store_explicit(&search->covered[(size_t)row * grid.counts[0] + column],
-                                      search->number, memory_order_relaxed);
-        }
+    Outline outline;
+    if (!projection_outline(&search->projection, triangle, &outline))
+        return;
+    const CellRange rows = cells_sampled(outline.box.low[1], outline.box.high[1], &grid, 1);
+    for (uint32_t row = rows.first; row < rows.end; row++) {
+        const CellRange columns = outline_sampled(&outline, &grid, row);
+        for (uint32_t column = columns.first; column < columns.end; column++)
+            atomic_store_explicit(&search->covered[(size_t)row * grid.counts[0] + column],
+                                  search->number, memory_order_relaxed);
     }
 }
 
-static bool is_covered(const ThinSearch *search, uint32_t column, uint32_t row)
+static void extend(OutlineBox *box, const OutlineBox *other)
 {
-    const ThinParts *parts = search->parts;
-    return column < parts->width && row < parts->height &&
-           atomic_load_explicit(&search->covered[(size_t)row * parts->width + column],
-                                memory_order_relaxed) == search->number;
+    for (int axis = 0; axis < 2; axis++) {
+        box->low[axis] = other->low[axis] < box->low[axis] ? other->low[axis] : box->low[axis];
+        box->high[axis] = other->high[axis] > box->high[axis] ? other->high[axis] : box->high[axis];
+    }
+}
+
+// Records the pixels whose centers lie in the triangles, and returns a box around the triangles.
+// Most triangles of fine meshes contain no center, and the triangles' boxes often show this.
+static OutlineBox cover_block(const ThinSearch *search, uint32_t first, uint32_t end)
+{
+    const CellGrid grid = thin_pixel_grid(search->parts);
+    OutlineBox all = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (uint32_t i = first; i < end; i++) {
+        OutlineBox box;
+        const uint32_t triangle = triangle_at(search, i);
+        if (!projection_box(&search->projection, triangle, &box))
+            continue;
+        extend(&all, &box);
+        if (!range_is_empty(cells_sampled(box.low[1], box.high[1], &grid, 1)) &&
+            !range_is_empty(cells_sampled(box.low[0], box.high[0], &grid, 0)))
+            cover_pixels(search, triangle);
+    }
+    return all;
+}
+
+static uint32_t block_end(uint32_t first, uint32_t end)
+{
+    return end - first < BLOCK_TRIANGLES ? end : first + BLOCK_TRIANGLES;
+}
+
+static void cover_blocks(void *context, uint32_t first, uint32_t end)
+{
+    const ThinSearch *search = context;
+    for (; first < end; first = block_end(first, end))
+        search->boxes[first / BLOCK_TRIANGLES] = cover_block(search, first, block_end(first, end));
+}
+
+// Returns a bit for each of the `count` pixels from `column` on in a row. A bit is set if the piece
+// contains the pixel's center.
+static inline uint32_t covered_bits(const ThinSearch *search, uint32_t column, uint32_t row,
+                                    uint32_t count)
+{
+    const uint32_t width = search->parts->width, number = search->number;
+    uint32_t bits = 0;
+    if (row >= search->parts->height)
+        return 0;
+    const _Atomic uint32_t *covered = &search->covered[(size_t)row * width];
+    for (uint32_t i = 0; i < count; i++)
+        if (column + i < width &&
+            atomic_load_explicit(&covered[column + i], memory_order_relaxed) == number)
+            bits |= 1u << i;
+    return bits;
 }
 
 // Returns whether the piece is wide at a pixel. The piece is wide if four covered pixels form a
-// square that contains or touches the pixel. On each axis, squares that contain the pixel are
-// tested first.
+// square that contains or touches the pixel. Tests a likely square first.
 static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
 {
-    static const int steps[4] = {-1, 0, -2, 1};
-    for (int i = 0; i < 16; i++) {
-        const uint32_t x = column + (uint32_t)steps[i % 4], y = row + (uint32_t)steps[i / 4];
-        if (is_covered(search, x, y) && is_covered(search, x + 1, y + 1) &&
-            is_covered(search, x, y + 1) && is_covered(search, x + 1, y))
+    if ((covered_bits(search, column - 1, row - 1, 2) & covered_bits(search, column - 1, row, 2)) ==
+        3)
+        return true;
+    uint32_t above = covered_bits(search, column - 2, row - 2, 5);
+    for (uint32_t y = row - 1; y != row + 3; y++) {
+        const uint32_t bits = covered_bits(search, column - 2, y, 5), both = above & bits;
+        if ((both & both >> 1) != 0)
             return true;
+        above = bits;
     }
     return false;
+}
+
+static bool is_listed(const ThinSearch *search, uint32_t column, uint32_t row)
+{
+    const _Atomic uint32_t *touched = &search->touched[(size_t)row * search->parts->width + column];
+    return atomic_load_explicit(touched, memory_order_relaxed) == search->number;
+}
+
+// Returns whether triangles in the box add no pixel to the list: at all pixels that the box
+// touches, the piece is wide, or the pixel is in the list and needs no probes. Returns false
+// without a test if the box touches more than BLOCK_TRIANGLES pixels.
+static bool adds_nothing(const ThinSearch *search, const OutlineBox *box)
+{
+    const CellGrid grid = thin_pixel_grid(search->parts);
+    const CellRange rows = cells_touched(box->low[1], box->high[1], &grid, 1);
+    const CellRange columns = cells_touched(box->low[0], box->high[0], &grid, 0);
+    if (range_is_empty(rows) || range_is_empty(columns))
+        return true;
+    if ((uint64_t)(rows.end - rows.first) * (columns.end - columns.first) > BLOCK_TRIANGLES)
+        return false;
+    for (uint32_t row = rows.first; row < rows.end; row++)
+        for (uint32_t column = columns.first; column < columns.end; column++)
+            if ((search->most > 0 || !is_listed(search, column, row)) &&
+                !is_wide(search, column, row))
+                return false;
+    return true;
 }
 
 // If the triangle is thin, lists the pixels that it touches and at which the piece is not wide. If
@@ -100,7 +181,9 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
 {
     const CellGrid grid = thin_pixel_grid(search->parts);
     Outline outline;
-    if (!projection_outline(&search->projection, triangle, &outline) ||
+    if (!projection_box(&search->projection, triangle, &outline.box) ||
+        adds_nothing(search, &outline.box) ||
+        !projection_outline(&search->projection, triangle, &outline) ||
         !outline_is_thinner(&outline, THIN_WIDTH))
         return true;
     const CellRange rows = cells_touched(outline.box.low[1], outline.box.high[1], &grid, 1);
@@ -108,12 +191,12 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
         const CellRange columns = outline_touched(&outline, &grid, row);
         for (uint32_t column = columns.first; column < columns.end; column++) {
             const PixelTriangle pair = {row * grid.counts[0] + column, triangle};
-            if (is_wide(search, column, row))
+            const bool is_old = is_listed(search, column, row);
+            if (!is_old && is_wide(search, column, row))
                 continue;
-            const bool is_first =
-                search->touched[pair.pixel] != search->number &&
-                atomic_exchange(&search->touched[pair.pixel], search->number) != search->number;
-            if ((search->met++ < search->most || is_first) &&
+            const bool is_first = !is_old && atomic_exchange(&search->touched[pair.pixel],
+                                                             search->number) != search->number;
+            if (((search->most > 0 && search->met++ < search->most) || is_first) &&
                 !array_push(&list->pairs, pair, &list->error))
                 return false;
         }
@@ -125,9 +208,14 @@ static void list_all_touched(void *context, uint32_t first, uint32_t end)
 {
     ThinSearch *search = context;
     TaskList *list = &search->lists[first / TRIANGLES_OF_TASK];
-    for (uint32_t i = first; i < end; i++)
-        if (!list_touched(search, triangle_at(search, i), list))
-            return;
+    for (uint32_t next; first < end; first = next) {
+        next = block_end(first, end);
+        if (adds_nothing(search, &search->boxes[first / BLOCK_TRIANGLES]))
+            continue;
+        for (uint32_t i = first; i < next; i++)
+            if (!list_touched(search, triangle_at(search, i), list))
+                return;
+    }
 }
 
 // Runs `work` for tasks of `part` elements, and collects the pairs and probes that it lists.
@@ -234,11 +322,11 @@ static bool search_piece(ThinSearch *search, uint32_t end, Error *error)
     search->met = 0;
     search->pairs.count = 0;
     search->levels = thin_parts_affordable(parts);
-    thread_pool_share(search->source->pool, count, TRIANGLES_OF_TASK, cover_pixels, search);
+    thread_pool_share(search->source->pool, count, TRIANGLES_OF_TASK, cover_blocks, search);
     bool ok = collect(search, count, TRIANGLES_OF_TASK, list_all_touched, error);
     for (size_t i = 0; ok && i < search->pairs.count; i++)
         thin_parts_touch(parts, search->pairs.data[i].pixel, THIN_TOUCHED);
-    if (ok && search->met <= search->most && search->pairs.count > 0) {
+    if (ok && search->most > 0 && search->met <= search->most && search->pairs.count > 0) {
         qsort(search->pairs.data, search->pairs.count, sizeof *search->pairs.data, compare_pixels);
         ok = collect(search, (uint32_t)search->pairs.count, PAIRS_OF_TASK, probe_pixels, error);
     }
@@ -250,10 +338,14 @@ static bool search_mesh(ThinSearch *search, const MeshObject *object, Error *err
 {
     const ThinSource *source = search->source;
     search->first = 0;
+    const uint32_t blocks = range_count((uint32_t)object->mesh.triangle_count, BLOCK_TRIANGLES);
     bool ok = projection_begin(&search->projection, object, source->pool, error);
+    search->boxes = memory_raw(blocks, sizeof *search->boxes, error);
+    ok = ok && search->boxes != NULL;
     for (uint32_t i = 0; ok && i < search->pieces->count; i++)
         ok = search_piece(search, search->pieces->ends[i], error);
     free(search->projection.points);
+    free(search->boxes);
     return ok;
 }
 

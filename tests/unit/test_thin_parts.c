@@ -291,6 +291,35 @@ TEST(a_wide_part_made_of_thin_ones_touches_no_pixels)
     assert_int_equal(count_touched(&world), 0);
 }
 
+// Adds a square of small triangles that covers about 6 x 6 pixels.
+static void add_square(World *world)
+{
+    for (int i = 0; i < 25; i++) {
+        const double left = 40.1 + 1.16 * (i % 5), top = 70.1 + 1.16 * (i / 5);
+        const double right = left + 1.16, bottom = top + 1.16;
+        add_triangle(world, point_at(left, top, 4), point_at(left, bottom, 4),
+                     point_at(right, bottom, 4));
+        add_triangle(world, point_at(left, top, 4), point_at(right, bottom, 4),
+                     point_at(right, top, 4));
+    }
+}
+
+TEST(a_small_triangle_is_found_before_and_after_a_wide_part_of_the_same_piece)
+{
+    for (int is_last = 0; is_last < 2; is_last++) {
+        FREED_BY(close_world) World world = world_of(51);
+        if (is_last)
+            add_square(&world);
+        add_triangle(&world, point_at(100.1, 20.9, 4), point_at(100.4, 20.8, 4),
+                     point_at(100.3, 20.7, 4));
+        if (!is_last)
+            add_square(&world);
+        search(&world, 1);
+        assert_true(is_touched(&world, 100, 20));
+        assert_int_equal(count_touched(&world), 1);
+    }
+}
+
 // Adds a strip of triangles that form one piece of the mesh.
 static void add_joined_strip(World *world, double left, double right)
 {
