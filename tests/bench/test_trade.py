@@ -179,6 +179,9 @@ class Trade(unittest.TestCase):
             self.assertLessEqual(goal["uniform"]["rmse"], goal["goal"])
             self.assertLessEqual(goal["fixed"]["milliseconds"], goal["uniform"]["milliseconds"])
             self.assertIn(f"E {100 * goal['goal']:g} %: RMSE {goal['ratio']:.2f} E", self.told)
+            for name, rival in ("fastest setting", "fixed"), ("fastest N x N", "uniform"):
+                self.assertRegex(self.told, rf"{name} +{goal[rival]['times']:.2f} x its time, +"
+                                 rf"{goal[rival]['samples_ratio']:.2f} x its samples \({goal[rival]['setting']}\)")
         self.assertTrue(0.5 < told["times"][0]["seconds_ratio"] < 2)
         self.assertIn("aa=3", self.rows)  # added because it meets 1 %
 
