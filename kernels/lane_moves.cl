@@ -7,7 +7,7 @@
 #if CLRT_WIDE_NODES
 
 // A LaneChoice selects the lanes that compressed() moves to the front. For AVX2, it has the numbers
-// of these lanes, in order. Otherwise, it has their bits.
+// of these lanes, in order. Otherwise, bit i is set if lane i is selected.
 #if CLRT_LANES == 16 && defined(__AVX512F__) && __has_builtin(__builtin_ia32_compresssi512_mask)
 typedef int LaneRegister __attribute__((vector_size(64)));
 typedef uint LaneChoice;

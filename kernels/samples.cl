@@ -68,9 +68,9 @@ static inline UInt reversed(UInt bits)
     return bits / (0x10000 / LADDER_GRID);
 }
 
-// Returns the bits of a point's y in reverse order. For x, these bits are `point` itself. Bit i of
-// the result is the sum modulo 2 of the bits k of `point` for which the binomial coefficient "k
-// choose i" is odd.
+// Returns the bits of a point's y in reverse order. The bits of its x in reverse order are `point`.
+// Bit i of the result is the sum modulo 2 of the bits k of `point` for which the binomial
+// coefficient "k choose i" is odd.
 static inline UInt sobol_y(UInt point)
 {
     point ^= point >> 1 & 0x5555;

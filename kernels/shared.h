@@ -71,7 +71,7 @@ typedef struct {
     float checks[2][3];
     float check_rate;
     float check_shift[3];
-    float ior; // of glass, inside over outside
+    float ior; // of glass: the index of refraction, inside over outside
 } CLRT_ALIGNED Material;
 CLRT_SAME_SIZE(Material, 96)
 

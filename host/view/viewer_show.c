@@ -143,7 +143,7 @@ bool viewer_is_settled(const Viewer *viewer)
            !viewer->wants_save && (viewer->state.turning || still);
 }
 
-// Returns whether the camera has moved since the traced picture, and the worker cannot trace yet,
+// Returns true if the camera has moved since the traced picture and the worker cannot trace yet,
 // for example because it compiles kernels.
 static bool is_outdated(const Viewer *viewer)
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Parses ranges of frames, and names the files of frames. A frame's number replaces the last run of
 // # in a file name, or is inserted before the ending.
-#include "base/text.h"
 #include "cli/options/options.h"
 
 #include "base/number.h"
+#include "base/text.h"
 
 #include <string.h>
 
