@@ -170,7 +170,7 @@ bool output_file_begin(OutputFile *file, const char *path, Error *error)
     return false;
 }
 
-bool stream_copy(FILE *from, FILE *to)
+bool output_file_copy(FILE *from, FILE *to)
 {
     char block[65536];
     size_t count;
@@ -187,7 +187,7 @@ static bool copy_file(const char *from, const char *path, Error *cause)
     FILE *target = standard ? stdout : fopen(path, "wb");
     // Removes the name before copying, so that no temporary file remains if the process is killed.
     unlink(from);
-    const bool ok = source != NULL && target != NULL && stream_copy(source, target);
+    const bool ok = source != NULL && target != NULL && output_file_copy(source, target);
     if (!ok)
         error_set(cause, "%s", strerror(errno));
     if (source != NULL)

@@ -35,4 +35,4 @@ bool output_file_write(const char *path, WriteStream *write, void *context, Erro
 bool output_file_check(const char *path, Error *error);
 
 // Copies the rest of `from` to `to`. Returns false on failure, with the reason in errno.
-bool stream_copy(FILE *from, FILE *to);
+bool output_file_copy(FILE *from, FILE *to);

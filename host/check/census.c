@@ -184,9 +184,9 @@ static void complete_faults(MeshCensus *census, const MeshObject *object)
                                 &census->features.written_edge};
     faults[FAULT_FLAT] = census->features.flat;
     for (FaultKind kind = FAULT_FLAT; kind < FAULT_KINDS; kind++)
-        faults[kind].first = (size_t)number_in_file(object, faults[kind].first);
+        faults[kind].first = (size_t)scene_number_in_file(object, faults[kind].first);
     for (size_t i = 0; i < sizeof details / sizeof *details; i++)
-        details[i]->triangle = (size_t)number_in_file(object, details[i]->triangle);
+        details[i]->triangle = (size_t)scene_number_in_file(object, details[i]->triangle);
     faults[FAULT_BAD_POSITIONS] = object->mesh.bad_positions;
     faults[FAULT_BAD_NORMALS] = object->mesh.bad_normals;
     faults[FAULT_LOST_CORNERS] = object->mesh.lost_corners;

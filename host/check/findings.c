@@ -330,7 +330,7 @@ static void add_scene(Check *check)
 
 bool check_find(Check *check, Error *error)
 {
-    const double scene_size = scene_extent(check->scene);
+    const double scene_size = normalization_extent(check->scene);
     for (size_t object = 0; object < check->scene->objects.count; object++) {
         add_mesh_faults(check, object);
         add_shape(check, object);

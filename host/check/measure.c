@@ -92,7 +92,8 @@ static void sum_up(const Aims *aims, const MeshObject *given, MeshCensus *census
         facts->aimed_at += aimed->state != AIM_UNTRIED;
         facts->hidden += aimed->state == AIM_HIDDEN;
         if (aimed->state == AIM_LEAKED)
-            mesh_fault_add(&census->leaks, (size_t)number_in_file(given, aimed->star.triangle));
+            mesh_fault_add(&census->leaks,
+                           (size_t)scene_number_in_file(given, aimed->star.triangle));
     }
     facts->leaks = census->leaks.count;
     if (facts->closed)

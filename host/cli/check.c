@@ -2,10 +2,10 @@
 // clrt check: reads the scene, examines its geometry, casts rays to find leaks, and writes a
 // report. Without a device, it casts no rays. The text lists each mesh with its findings. JSON
 // contains every count, even if it is 0.
-#include "base/text.h"
 #include "cli/commands.h"
 
 #include "base/clock.h"
+#include "base/text.h"
 #include "check/measure.h"
 #include "cli/stages.h"
 #include "image/json_file.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // clrt convert: writes a scene as scene text with PLY meshes, or as one PLY mesh. clrt reads all
 // files before it writes any, and never overwrites a file that it has read.
-#include "base/text.h"
 #include "cli/commands.h"
 
 #include "base/file.h"
 #include "base/output_file.h"
+#include "base/text.h"
 #include "cli/stages.h"
 #include "mesh/ply_write.h"
 #include "scene/scn_write.h"
@@ -66,7 +66,7 @@ static ExitCode write_joined(const Conversion *conversion, Error *error)
                   conversion->options->scene_path);
         return EXIT_SCENE;
     }
-    if (!mesh_join(&mesh, scene, &cause)) {
+    if (!scn_write_join(&mesh, scene, &cause)) {
         error_set(error, "%s: %s", conversion->options->scene_path, cause.text);
         return EXIT_SCENE;
     }

@@ -47,7 +47,7 @@ static json_t *primitive_json(const Scene *scene, uint32_t id)
         assert(object < scene->objects.count);
     }
     const MeshObject *found = &scene->objects.data[object];
-    return JSON(FIELD("kind", "triangle"), FIELD("number", number_in_file(found, number)),
+    return JSON(FIELD("kind", "triangle"), FIELD("number", scene_number_in_file(found, number)),
                 FIELD("file", scene->inputs.data[found->input]), FIELD("id", id));
 }
 

@@ -129,7 +129,7 @@ static bool fill_file(Journal *journal, FILE *stream, Error *error)
 {
     const long end = ftell(journal->stream);
     rewind(journal->stream);
-    if (stream == NULL || end < 0 || !stream_copy(journal->stream, stream) ||
+    if (stream == NULL || end < 0 || !output_file_copy(journal->stream, stream) ||
         ftruncate(fileno(stream), end) != 0)
         return cannot(journal, "written", error);
     journal->is_busy = !is_current(journal);

@@ -49,7 +49,7 @@ static Vec3 normal_of(const Mesh *mesh, const EdgeSide *side)
     return vec3_normalize(vec3_cross(ab, mesh_direction(mesh, triangle[0], triangle[2])));
 }
 
-bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error)
+bool normals_add_angles(EdgeAngles *angles, const Mesh *mesh, Error *error)
 {
     Edges edges = {0};
     Edge edge = {0};
@@ -72,7 +72,7 @@ static double density(const EdgeAngles *angles, int from, int to)
     return (double)sum / (to - from);
 }
 
-double crease_of_angles(const EdgeAngles *angles)
+double normals_crease(const EdgeAngles *angles)
 {
     const double common = density(angles, 25, 35);
     bool is_round = angles->edges >= EDGES_LEAST && common > 0 &&
@@ -189,7 +189,7 @@ static void choose_crease(Smoothing *smoothing, const Edges *edges)
         if (edge.count == 2)
             edge_angles_add(&angles, faces[edge.sides[0].triangle].normal,
                             faces[edge.sides[1].triangle].normal);
-    smoothing->cosine = cosine_of_degrees(crease_of_angles(&angles)) - COSINE_SLACK;
+    smoothing->cosine = cosine_of_degrees(normals_crease(&angles)) - COSINE_SLACK;
 }
 
 static bool make_fans(Smoothing *smoothing, bool is_by_shape, Error *error)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Computes the normals that a mesh lacks.
+// Computes the normals that a mesh lacks, and chooses crease angles.
 #pragma once
 
 #include "mesh/mesh.h"
@@ -38,9 +38,9 @@ typedef struct {
 } EdgeAngles;
 
 // Adds all edges of the mesh that have two triangles.
-bool edge_angles_add_mesh(EdgeAngles *angles, const Mesh *mesh, Error *error);
+bool normals_add_angles(EdgeAngles *angles, const Mesh *mesh, Error *error);
 
 // Returns 70 degrees if the angles indicate a smooth shape, such as a scan. In coarse parts of such
 // shapes, angles exceed CREASE_DEGREES. Returns CREASE_DEGREES for other shapes, whose edges may be
 // meant to be sharp.
-double crease_of_angles(const EdgeAngles *angles);
+double normals_crease(const EdgeAngles *angles);

@@ -182,8 +182,8 @@ static bool choose_crease(const Scene *scene, size_t first, double *degrees, Err
     bool ok = true;
     for (size_t i = first; ok && i < scene->objects.count; i++)
         if (!mesh_has_all_normals(&scene->objects.data[i].mesh))
-            ok = edge_angles_add_mesh(&angles, &scene->objects.data[i].mesh, error);
-    *degrees = crease_of_angles(&angles);
+            ok = normals_add_angles(&angles, &scene->objects.data[i].mesh, error);
+    *degrees = normals_crease(&angles);
     return ok;
 }
 

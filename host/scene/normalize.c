@@ -34,7 +34,7 @@ static double extent_of(const BoundingBox *box)
     return box->low.x <= box->high.x ? vec3_extent(bounding_box_sides(box)) : -1;
 }
 
-double scene_extent(const Scene *scene)
+double normalization_extent(const Scene *scene)
 {
     const BoundingBox box = box_of(scene);
     return extent_of(&box);
@@ -86,7 +86,7 @@ static double reach_of(const Scene *scene, const Viewpoint *viewpoint)
 // as single floats, so only eyes lose precision far from the center.
 static Vec3 center_of(const Scene *scene, Vec3 center)
 {
-    const double extent = scene_extent(scene);
+    const double extent = normalization_extent(scene);
     BoundingBox eyes = bounding_box_empty();
     double reach = INFINITY;
     for (size_t i = 0; i < scene->viewpoints.count; i++) {

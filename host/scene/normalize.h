@@ -32,7 +32,7 @@ Normalization normalization_of(const Scene *scene);
 
 // Returns the longest side of the box that normalization_of scales, or a negative number if the box
 // is empty.
-double scene_extent(const Scene *scene);
+double normalization_extent(const Scene *scene);
 
 Vec3 normalize_point(const Normalization *normalization, Vec3 point);
 

@@ -179,7 +179,7 @@ size_t scene_dropped_count(const Scene *scene)
     return count;
 }
 
-uint64_t number_in_file(const MeshObject *object, size_t triangle)
+uint64_t scene_number_in_file(const MeshObject *object, size_t triangle)
 {
     return object->number_before + mesh_original_number(&object->mesh, triangle);
 }

@@ -131,7 +131,7 @@ size_t scene_triangle_count(const Scene *scene);
 size_t scene_dropped_count(const Scene *scene); // triangles that were removed from meshes
 
 // Returns a triangle's number in its file. The numbers include dropped triangles.
-uint64_t number_in_file(const MeshObject *object, size_t triangle);
+uint64_t scene_number_in_file(const MeshObject *object, size_t triangle);
 
 void scene_free(Scene *scene);
 

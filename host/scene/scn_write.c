@@ -53,7 +53,7 @@ static void copy(Mesh *mesh, const MeshObject *object, const float diffuse[3], s
             mesh->triangles[triangle + i][corner] = (uint32_t)vertex + part->triangles[i][corner];
 }
 
-bool mesh_join(Mesh *mesh, const Scene *scene, Error *error)
+bool scn_write_join(Mesh *mesh, const Scene *scene, Error *error)
 {
     size_t vertex = 0, triangle = 0;
     *mesh = (Mesh){0};

@@ -19,4 +19,4 @@ bool scn_write_can_name(const char *name);
 // Concatenates the meshes of a scene into one, with all triangles in the scene's order. If any
 // object has normals, the objects without normals get zero normals. If any object has colors, the
 // objects without colors get the diffuse color of their material.
-bool mesh_join(Mesh *mesh, const Scene *scene, Error *error);
+bool scn_write_join(Mesh *mesh, const Scene *scene, Error *error);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Draws the picture and then the text over it, prints changes of the state, and saves pictures.
-#include "base/text.h"
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
+#include "base/text.h"
 
 #include <inttypes.h>
 #include <limits.h>

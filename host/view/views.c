@@ -55,7 +55,7 @@ static bool load_normals(Views *views, const Model *model, Error *error)
     Boxes lines = {0};
     if (views->has_normals)
         return true;
-    const bool ok = normals_make(&lines, model, error);
+    const bool ok = boxes_of_normals(&lines, model, error);
     line_view_load(&views->normals, lines.data, ok ? lines.count : 0);
     boxes_free(&lines);
     views->has_normals = true;

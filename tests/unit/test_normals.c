@@ -187,13 +187,13 @@ TEST(each_condition_on_the_angles_decides_the_crease)
         EdgeAngles angles = {.edges = 1000};
         memcpy(angles.windows, smooth, sizeof smooth);
         angles.windows[rows[row].window] = rows[row].count;
-        if (crease_of_angles(&angles) != rows[row].crease)
-            fail_msg("row %zu: %g", row, crease_of_angles(&angles));
+        if (normals_crease(&angles) != rows[row].crease)
+            fail_msg("row %zu: %g", row, normals_crease(&angles));
         angles.edges = 999;
-        assert_true(crease_of_angles(&angles) == CREASE_DEGREES);
+        assert_true(normals_crease(&angles) == CREASE_DEGREES);
     }
     const EdgeAngles empty = {.edges = 5000};
-    assert_true(crease_of_angles(&empty) == CREASE_DEGREES);
+    assert_true(normals_crease(&empty) == CREASE_DEGREES);
 }
 
 // The points are integers and lie exactly in a plane, but the triangles' normals are rounded.

@@ -272,7 +272,7 @@ static bool add_faces(Boxes *lines, const Mesh *mesh, const float (*points)[4], 
     return ok;
 }
 
-bool normals_make(Boxes *lines, const Model *model, Error *error)
+bool boxes_of_normals(Boxes *lines, const Model *model, Error *error)
 {
     const float(*points)[4] = (const float(*)[4])model->stages.triangles.points;
     for (size_t i = 0; i < model->scene.objects.count; i++) {

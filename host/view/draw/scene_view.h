@@ -50,4 +50,4 @@ void boxes_free(Boxes *boxes);
 // Fills an empty array with the normals of a model in normalized coordinates. Each normal is the
 // line from a box's `low` to its `high`. The lines start at the vertices of smooth objects, and at
 // the centers of the triangles of other objects. The caller frees the array, also after a failure.
-bool normals_make(Boxes *lines, const Model *model, Error *error);
+bool boxes_of_normals(Boxes *lines, const Model *model, Error *error);
