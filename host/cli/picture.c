@@ -49,7 +49,7 @@ static bool draw_once(Picture *picture, Error *error)
     if (picture->options->verbose && ok)
         fprintf(stderr, "traced in %.4f s\n", seconds);
     picture->repetition_seconds[picture->repetition_count++] = seconds;
-    return ok && !picture->resume.is_broken;
+    return ok && !picture->resume.journal.is_broken;
 }
 
 static bool draw(Picture *picture, Error *error)
@@ -312,13 +312,13 @@ static ExitCode make_frame(Picture *picture, uint32_t number, Error *error)
     if (!session_choose_level(picture->session, &picture->request, error))
         return EXIT_DEVICE;
     if (!begin_picture(picture, error))
-        return picture->resume.journal.is_busy ? EXIT_BUSY
-               : picture->resume.is_broken     ? EXIT_OUTPUT
-                                               : EXIT_SCENE;
+        return picture->resume.journal.is_busy     ? EXIT_BUSY
+               : picture->resume.journal.is_broken ? EXIT_OUTPUT
+                                                   : EXIT_SCENE;
     picture_print_beginning(picture);
     stop_wait_for_tiles();
     if (!draw(picture, error))
-        return picture->resume.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
+        return picture->resume.journal.is_broken ? EXIT_OUTPUT : EXIT_DEVICE;
     if (!certify(picture, error) || !draw_layers(picture, error) ||
         !picture_error_measure(picture, error))
         return EXIT_DEVICE;

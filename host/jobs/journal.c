@@ -24,14 +24,15 @@ typedef struct {
     uint64_t number, size, checksum;
 } RecordHead;
 
-static bool cannot(const Journal *journal, const char *what, Error *error)
+static bool cannot(Journal *journal, const char *what, Error *error)
 {
+    journal->is_broken = true;
     return error_set(error, "%s: cannot be %s: %s", journal->path, what, strerror(errno));
 }
 
 // Compares the key in the file's head with `key`. A process that was killed at its start may have
 // left an incomplete head, which is replaced.
-static bool check_head(const Journal *journal, const uint64_t key[2], Error *error)
+static bool check_head(Journal *journal, const uint64_t key[2], Error *error)
 {
     Head head;
     if (fread(&head, sizeof head, 1, journal->stream) != 1) {
@@ -142,7 +143,8 @@ bool journal_claim(Journal *journal, Error *error)
 {
     OutputFile file;
     Error cause = {0};
-    if (!output_file_begin(&file, journal->path, error))
+    journal->is_broken = !output_file_begin(&file, journal->path, error);
+    if (journal->is_broken)
         return false;
     // output_file_end closes file.lock. The stream owns a duplicate, which keeps the lock.
     const int copy = fcntl(file.lock, F_DUPFD_CLOEXEC, 0);
@@ -151,6 +153,7 @@ bool journal_claim(Journal *journal, Error *error)
     if (!output_file_end(&file, filled, &cause)) {
         if (stream != NULL)
             fclose(stream);
+        journal->is_broken = true;
         return error_set(error, "%s: cannot be written: %s", journal->path, cause.text);
     }
     close_stream(journal);

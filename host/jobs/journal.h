@@ -26,6 +26,7 @@ typedef struct {
     const char *path; // borrowed
     uint64_t records; // number of records read and written
     bool is_busy;     // journal_open or journal_claim failed because of another process
+    bool is_broken;   // the file cannot be opened or written
 } Journal;
 
 // Opens the journal at `path` for reading, or creates one with `key`. Fails if the journal has

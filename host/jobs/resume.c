@@ -131,9 +131,7 @@ static bool restore_tiles(Resume *resume, const Provenance *own, RenderSettings 
         journal_close(&resume->journal, true); // deletes the journal, which has no tiles
         return false;
     }
-    const bool ok = journal_claim(&resume->journal, error);
-    resume->is_broken = !ok && !resume->journal.is_busy;
-    return ok;
+    return journal_claim(&resume->journal, error);
 }
 
 bool resume_open(Resume *resume, const Provenance *own, RenderSettings *settings,
@@ -153,8 +151,7 @@ bool resume_keep(Resume *resume, const RenderSettings *settings, const Framebuff
         return true;
     const Tile tile = tile_at(settings, number);
     copy_tile(resume->tile, framebuffer, &tile, true);
-    resume->is_broken = !journal_add(&resume->journal, resume->tile, tile_size(&tile), error);
-    return !resume->is_broken;
+    return journal_add(&resume->journal, resume->tile, tile_size(&tile), error);
 }
 
 void resume_close(Resume *resume, bool is_done)

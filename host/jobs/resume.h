@@ -14,8 +14,7 @@ typedef struct {
     const char *stored_path; // of the earlier run's EXR file; NULL for other formats
     ExrFile stored;          // the earlier run's EXR file, while its tiles are copied
     Journal journal;
-    bool is_broken; // writing to the journal failed
-    float *tile;    // the colors of one tile, row by row; owned
+    float *tile; // the colors of one tile, row by row; owned
 } Resume;
 
 // Returns the journal's path for a picture's path, or NULL if memory runs out. The caller frees the

@@ -70,6 +70,12 @@ class Disks(Faults):
         self.assert_fails(run, 5, "target/a.json: cannot be written: No space left on device")
         self.assertEqual(run.stdout, "old\n")
 
+    def test_a_full_disk_for_the_journal_is_no_fault_of_the_scene(self):
+        size = os.sysconf("SC_PAGE_SIZE")  # holds the file "old" alone
+        words = [SCENE, "-s", "8x8", "-q", "--resume", "-o", "target/a.pfm"]
+        self.assert_fails(self.clrt_on_disk((size, "rw"), *words), 5,
+                          "target/a.pfm.part: cannot be written: No space left on device")
+
     def test_a_read_only_disk_is_reported_before_any_work(self):
         run = self.clrt_on_disk((DISK_SIZE, "ro"), "nowhere.scn", "-o", "target/a.png")
         self.assert_fails(run, 5, "target/a.png: cannot be written: Read-only file system")
@@ -85,6 +91,11 @@ class Outputs(Faults):
             run = self.run_clrt(*large, "-o", f"target/a.{format}", before=limit)
             self.assert_fails(run, 5, f"target/a.{format}: cannot be written: ")
             self.assertEqual(os.listdir(self.target), [])
+
+    def test_a_journal_whose_name_is_too_long_is_no_fault_of_the_scene(self):
+        name = "a" * 247 + ".pfm"
+        self.assert_fails(self.run_clrt(SCENE, "-s", "8x8", "-q", "--resume", "-o", name), 5,
+                          f"{name}.part: cannot be opened: File name too long")
 
     def test_a_folder_is_no_output(self):
         (self.target / "a.pfm").mkdir()
