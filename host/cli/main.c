@@ -39,7 +39,10 @@ static ExitCode perform_traced(const Options *options, TracingCommand *command, 
         session.cache.announce = progress_show_compiling;
     limit_threads(options->renderer.threads);
     const ExitCode code = command(options, &session, &scene, error);
-    (CLRT_TIDY_EXIT ? session_close : session_save)(&session);
+    if (CLRT_TIDY_EXIT)
+        session_close(&session);
+    else
+        session_save(&session);
     scene_free(&scene);
     cache_private_close(&session.cache);
     return code;

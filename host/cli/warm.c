@@ -7,18 +7,31 @@
 
 #include <stdio.h>
 
-static bool warm_kernel(Session *session, const Options *options, const SceneTraits *traits,
-                        const char *name, Error *error)
+static bool save(Session *session, Error *error)
+{
+    const char *folder = session->cache.folder;
+    if (folder[0] == '\0')
+        return error_set(error, "no folder can store the compiled kernels: set POCL_CACHE_DIR");
+    return session_save(session) || error_set(error,
+                                              "%s: the compiled kernels cannot be stored: make "
+                                              "room, or set POCL_CACHE_DIR to another folder",
+                                              folder);
+}
+
+static ExitCode warm_kernel(Session *session, const Options *options, const SceneTraits *traits,
+                            const char *name, Error *error)
 {
     const RendererUse use = {.entry = picture_entry(&options->picture)};
     const Kernel *kernel = session_kernel(session, &use, traits, error);
-    if (kernel != NULL && !options->quiet)
+    if (kernel == NULL)
+        return EXIT_DEVICE;
+    if (!options->quiet)
         printf("%s kernels, %s, %s nodes, %s: %s %.2f s\n", name,
                kernel_family_name(kernel->choice.family), kernel_nodes_name(kernel->choice.nodes),
                kernel_precision_name(kernel->choice.precision),
                kernel->was_compiled ? "already compiled, ready in" : "compiled in",
                kernel->seconds);
-    return kernel != NULL;
+    return kernel->was_compiled || save(session, error) ? EXIT_DONE : EXIT_OUTPUT;
 }
 
 ExitCode warm_kernels(const Options *options, Session *session, Scene *scene, Error *error)
@@ -36,10 +49,10 @@ ExitCode warm_kernels(const Options *options, Session *session, Scene *scene, Er
     const SceneTraits plain = {.statistics = counts};
     const SceneTraits special = has_scene ? traits_of(&form->flat, counts) : plain;
     const SceneTraits general = traits_general(special);
-    if ((!has_scene || options->renderer.specialize != CLRT_SPECIALIZE_ALWAYS) &&
-        !warm_kernel(session, options, &general, "general", error))
-        return EXIT_DEVICE;
-    if (!has_scene || options->renderer.specialize == CLRT_SPECIALIZE_NEVER)
-        return EXIT_DONE;
-    return warm_kernel(session, options, &special, "special", error) ? EXIT_DONE : EXIT_DEVICE;
+    ExitCode code = EXIT_DONE;
+    if (!has_scene || options->renderer.specialize != CLRT_SPECIALIZE_ALWAYS)
+        code = warm_kernel(session, options, &general, "general", error);
+    if (code == EXIT_DONE && has_scene && options->renderer.specialize != CLRT_SPECIALIZE_NEVER)
+        code = warm_kernel(session, options, &special, "special", error);
+    return code;
 }

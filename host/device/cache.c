@@ -134,7 +134,7 @@ static bool write_file(int file, const char *key, const void *bytes, size_t size
 
 // The temporary file is in the private folder if that is in the cache's folder, so a killed process
 // leaves nothing but the private folder.
-void cache_write(const Cache *cache, const char *key, const void *bytes, size_t size)
+bool cache_write(const Cache *cache, const char *key, const void *bytes, size_t size)
 {
     const char *folder = cache->folder;
     const bool is_inside = strncmp(cache->private_folder, folder, strlen(folder)) == 0;
@@ -143,10 +143,12 @@ void cache_write(const Cache *cache, const char *key, const void *bytes, size_t 
     snprintf(temporary, sizeof temporary, "%s/XXXXXX", is_inside ? cache->private_folder : folder);
     const int file = folder[0] != '\0' ? mkstemp(temporary) : -1;
     if (file < 0)
-        return;
+        return false;
     const bool ok = write_file(file, key, bytes, size) && fchmod(file, 0644) == 0;
-    if (close(file) != 0 || !ok || rename(temporary, path) != 0)
-        unlink(temporary);
+    if (close(file) == 0 && ok && rename(temporary, path) == 0)
+        return true;
+    unlink(temporary);
+    return false;
 }
 
 int cache_lock(const Cache *cache)

@@ -40,8 +40,8 @@ typedef struct {
 // packages fill. Returns false if neither has an intact file. The caller frees binary->file.
 bool cache_read(const Cache *cache, const char *key, CachedBinary *binary);
 
-// Writes the binary to the user's folder. If this fails, nothing is stored.
-void cache_write(const Cache *cache, const char *key, const void *bytes, size_t size);
+// Writes the binary to the user's folder. If this fails, stores nothing and returns false.
+bool cache_write(const Cache *cache, const char *key, const void *bytes, size_t size);
 
 // Returns whether cache_read would find a file for `key`. The file may be damaged.
 bool cache_has(const Cache *cache, const char *key);

@@ -212,10 +212,12 @@ bool kernel_set_has(const KernelSet *set, const KernelSpec *spec)
     return program_is_compiled(&source);
 }
 
-void kernel_set_save(KernelSet *set)
+bool kernel_set_save(KernelSet *set)
 {
+    bool ok = true;
     for (size_t i = 0; i < set->programs.count; i++)
-        program_save(set->programs.data[i]);
+        ok = program_save(set->programs.data[i]) && ok;
+    return ok;
 }
 
 bool kernel_set_is_saved(const KernelSet *set)

@@ -54,8 +54,8 @@ typedef struct {
 // Sets the kernel's arguments and enqueues the kernel. The error message names the kernel.
 bool kernel_run(const Kernel *kernel, const KernelRun *run, Error *error);
 
-// Saves new programs to the cache.
-void kernel_set_save(KernelSet *set);
+// Saves new programs to the cache. Returns false if a program could not be saved.
+bool kernel_set_save(KernelSet *set);
 
 // Returns whether kernel_set_save has nothing to do.
 bool kernel_set_is_saved(const KernelSet *set);

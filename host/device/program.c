@@ -176,27 +176,29 @@ bool program_is_compiled(const ProgramSource *source)
     return source->kernel_folder == NULL && cache_has(source->cache, key);
 }
 
-static void write_binary(const Program *program)
+static bool write_binary(const Program *program)
 {
     size_t size = 0;
     Error unused = {0};
     clGetProgramInfo(program->handle, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL);
     unsigned char *bytes = size > 0 ? memory_raw(size, 1, &unused) : NULL;
-    if (bytes != NULL && clGetProgramInfo(program->handle, CL_PROGRAM_BINARIES, sizeof bytes,
-                                          &bytes, NULL) == CL_SUCCESS)
-        cache_write(program->unsaved, program->key, bytes, size);
+    const bool ok = bytes != NULL &&
+                    clGetProgramInfo(program->handle, CL_PROGRAM_BINARIES, sizeof bytes, &bytes,
+                                     NULL) == CL_SUCCESS &&
+                    cache_write(program->unsaved, program->key, bytes, size);
     free(bytes);
+    return ok;
 }
 
-void program_save(Program *program)
+bool program_save(Program *program)
 {
     CachedBinary others; // another process may have saved the program
     if (program->unsaved == NULL)
-        return;
-    if (!cache_read(program->unsaved, program->key, &others))
-        write_binary(program);
+        return true;
+    const bool ok = cache_read(program->unsaved, program->key, &others) || write_binary(program);
     file_free(&others.file);
     program->unsaved = NULL;
+    return ok;
 }
 
 void program_free(Program *program)

@@ -92,10 +92,10 @@ bool session_await(Session *session, const SessionWork *work, Error *error)
     return true;
 }
 
-void session_save(Session *session)
+bool session_save(Session *session)
 {
     join(session);
-    kernel_set_save(&session->kernels);
+    return kernel_set_save(&session->kernels);
 }
 
 void session_close(Session *session)

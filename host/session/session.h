@@ -71,8 +71,9 @@ bool session_await(Session *session, const SessionWork *work, Error *error);
 // Opens the device on the caller's thread.
 bool session_open(Session *session, Error *error);
 
-// Waits for the thread of session_begin, and saves new kernels to the cache.
-void session_save(Session *session);
+// Waits for the thread of session_begin, and saves new kernels to the cache. Returns false if a
+// kernel could not be saved.
+bool session_save(Session *session);
 
 // Saves new kernels and releases everything except the cache.
 void session_close(Session *session);

@@ -91,6 +91,12 @@ class Places(CacheWork):
             self.assertEqual(picture, self.expected)
             self.assertEqual(list(self.work.glob("clrt-*")), [])
 
+    def test_warm_reports_a_missing_folder(self):
+        done = self.run_clrt("warm", "-q", "--tune=kernel=pair",
+                             **self.environment(XDG_CACHE_HOME="/proc", HOME="/proc"))
+        self.assertEqual(done.returncode, 5)
+        self.assertEqual(done.stderr, "clrt: no folder can store the compiled kernels: set POCL_CACHE_DIR\n")
+
 
 @unittest.skipUnless(has_private_disks(), "only root can mount disks")
 class Disks(CacheWork):
@@ -98,18 +104,30 @@ class Disks(CacheWork):
     MOUNT = 'mount -t tmpfs -o "$3,rw" clrt-test "$1" && cp -r "$2"/. "$1" && mount -o "remount,$3" "$1" && \
         shift 3 && exec "$@"'
 
-    def on_disk(self, mode, **more):
+    def disk(self, mode):
+        """Returns a command that mounts a disk with a copy of the cache, and the environment for clrt."""
         disk = self.work / "disk"
         disk.mkdir(exist_ok=True)
         before = ["unshare", "-m", "sh", "-c", self.MOUNT, "sh", str(disk), str(self.cache), mode]
-        more = {"XDG_CACHE_HOME": str(disk), "HOME": "/proc", "TMPDIR": str(self.work), **more}
-        done = self.run_picture(before=before, **more)
+        return before, self.environment(XDG_CACHE_HOME=str(disk), HOME="/proc", TMPDIR=str(self.work))
+
+    def on_disk(self, mode, **more):
+        before, environment = self.disk(mode)
+        done = self.run_picture(before=before, **{**environment, **more})
         self.assertEqual(list(self.work.glob("clrt-*")), [])
         return done
 
     def test_clrt_draws_with_a_cache_on_a_disk_that_pocl_cannot_use(self):
         for mode in self.MODES:
             self.assertEqual(self.on_disk(mode), (0, "", self.expected))
+
+    def test_warm_reports_new_kernels_that_it_cannot_store(self):
+        before, environment = self.disk("size=700k,ro")
+        done = self.run_clrt("warm", *PICTURE[:1], *PICTURE[3:], before=before, **environment)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = self.run_clrt("warm", "-q", "--tune=kernel=pair", before=before, **environment)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (5, 1), done.stderr)
+        self.assertRegex(done.stderr, "^clrt: .*disk/clrt: the compiled kernels cannot be stored")
 
     def test_no_room_anywhere_is_reported(self):
         for mode in self.MODES:
