@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Walks the trees with a beam, first the tree over spheres. If all rays start on one triangle, the
 // beam skips it. If all rays start on triangles of one plane that is perpendicular to an axis, the
-// beam skips the plane's triangles.
+// beam skips the plane's triangles, and the nodes above only such triangles.
 #ifndef CLRT_BEAM_WALK_CL
 #define CLRT_BEAM_WALK_CL
 #include "beam.cl"
@@ -53,6 +53,13 @@ static NOT_INLINE void search_apart(Beam *beam, uint child, uint packets, const 
     }
 }
 
+// Returns whether all triangles below the node lie in the plane that find_level found.
+static inline bool lies_in_level(const Beam *beam, uint number)
+{
+    return beam->level_axis != NO_AXIS &&
+           beam->tracer->nodes[number].level[beam->level_axis] == beam->level;
+}
+
 // Searches the tree with the root `root`.
 static inline void walk_tree(Beam *beam, uint root)
 {
@@ -71,7 +78,7 @@ static inline void walk_tree(Beam *beam, uint root)
         const uint others = is_leaf && !has_spheres(child)
                                 ? triangles_beside(beam, child & ~WIDE_LEAF)
                                 : ALL_TRIANGLES;
-        if (others == 0)
+        if (others == 0 || (!is_leaf && lies_in_level(beam, child)))
             continue;
         const uint parents = beam->inside[beam->stack.count] & searching;
         const uint packets = packets_entering(beam, slot, parents, bits);

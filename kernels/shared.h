@@ -162,7 +162,8 @@ typedef struct {
     float planes[3][2][WIDE]; // [axis][low, high][child], grown by BVH_SLACK
     uint child[WIDE];
     uint child_count;
-    uint padding[7]; // keeps nodes on cache lines of 64 bytes
+    float level[3];  // for each axis: the coordinate of all triangles below, INFINITY if it varies
+    uint padding[4]; // keeps nodes on cache lines of 64 bytes
 } BvhWide;
 CLRT_SAME_SIZE(BvhWide, 256)
 #define WIDE_LEAF 0x80000000u

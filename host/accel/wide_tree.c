@@ -185,6 +185,15 @@ static uint32_t add_block(WideTree *tree, uint32_t first, uint32_t count)
     return tree->leaf_bits | tree->block_count++;
 }
 
+// A box of spheres is level only because of rounding, so it does not count.
+static void store_level(const WideTree *tree, BvhWide *wide, const Box *box)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const bool is_level = tree->leaf_bits == WIDE_LEAF && box->low[axis] == box->high[axis];
+        wide->level[axis] = is_level ? box->low[axis] : INFINITY;
+    }
+}
+
 // Writes the wide node of a part and all nodes below it. Returns the index of the part's node. The
 // recursion is bounded, because the binary tree has a largest depth and large leaves are halved.
 static uint32_t write_node(WideTree *tree, const Part *part)
@@ -192,6 +201,7 @@ static uint32_t write_node(WideTree *tree, const Part *part)
     Part parts[WIDE];
     BvhWide *wide = &tree->nodes[tree->node_count];
     const uint32_t number = tree->root + tree->node_count++;
+    store_level(tree, wide, &part->box);
     memset(wide->padding, 0, sizeof wide->padding);
     wide->child_count = gather_children(tree, part, parts);
     for (uint32_t child = 0; child < wide->child_count; child++) {

@@ -242,15 +242,10 @@ TEST(every_form_draws_nested_spheres)
     expect_same(scene, 97);
 }
 
-// Rays that leave a floor skip its triangles, but no other triangles of the same block.
-TEST(a_floor_and_a_ceiling_reflect_each_other)
+// Draws a floor and a ceiling of the same mesh, and a sphere between them.
+static void expect_same_room(const char *mesh)
 {
-    static double corners[][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    static uint32_t halves[][3] = {{0, 1, 2}, {0, 2, 3}};
-    char mesh[TEMPORARY_PATH], scene[TEMPORARY_PATH];
-    temporary_mesh(
-        mesh,
-        &(Mesh){.positions = corners, .triangles = halves, .vertex_count = 4, .triangle_count = 2});
+    char scene[TEMPORARY_PATH];
     FILE *stream = temporary_open(scene);
     fprintf(stream,
             "define it matte diffuse 0.8 0.7 0.6 kd 0.8 reflectivity 0.5\nmaterial it\nsides two\n"
@@ -260,4 +255,40 @@ TEST(a_floor_and_a_ceiling_reflect_each_other)
     temporary_close(stream);
     expect_same(scene, 97);
     unlink(mesh);
+}
+
+// Rays that leave a floor skip its triangles, but no other triangles of the same block.
+TEST(a_floor_and_a_ceiling_reflect_each_other)
+{
+    static double corners[][3] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    static uint32_t halves[][3] = {{0, 1, 2}, {0, 2, 3}};
+    char mesh[TEMPORARY_PATH];
+    temporary_mesh(
+        mesh,
+        &(Mesh){.positions = corners, .triangles = halves, .vertex_count = 4, .triangle_count = 2});
+    expect_same_room(mesh);
+}
+
+// Rays that leave a floor also skip nodes with only its triangles, but no nodes of the ceiling.
+TEST(a_floor_and_a_ceiling_of_many_triangles_reflect_each_other)
+{
+    enum { SIDE = 21, TILES = SIDE - 1 };
+    static double corners[SIDE * SIDE][3];
+    static uint32_t triangles[2 * TILES * TILES][3];
+    char mesh[TEMPORARY_PATH];
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        corners[i][0] = 2.0 * (i % SIDE) / TILES - 1;
+        corners[i][1] = 2.0 * (i / SIDE) / TILES - 1;
+    }
+    for (uint32_t i = 0; i < 2 * TILES * TILES; i++) {
+        const uint32_t tile = i / 2, corner = tile / TILES * SIDE + tile % TILES;
+        triangles[i][0] = corner;
+        triangles[i][1] = i % 2 == 0 ? corner + 1 : corner + SIDE + 1;
+        triangles[i][2] = i % 2 == 0 ? corner + SIDE + 1 : corner + SIDE;
+    }
+    temporary_mesh(mesh, &(Mesh){.positions = corners,
+                                 .triangles = triangles,
+                                 .vertex_count = SIDE * SIDE,
+                                 .triangle_count = 2 * TILES * TILES});
+    expect_same_room(mesh);
 }

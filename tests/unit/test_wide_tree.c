@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests that the nodes of the wide tree have the smallest possible sum of surface areas.
+// Tests that the nodes of the wide tree have the smallest possible sum of surface areas, and that
+// they store the planes of level items.
 #include "unit/cmocka_all.h"
 
 #include "accel/bvh.h"
@@ -8,7 +9,8 @@
 
 #include <math.h>
 
-#define ITEMS 100
+#define ITEMS       100
+#define LEVEL_ITEMS 1000
 
 static const Bvh *binary;
 
@@ -94,4 +96,74 @@ TEST(nodes_have_the_smallest_sum_of_areas)
         wide_tree_free(&tree);
         bvh_free(&bvh);
     }
+}
+
+// Returns the box around all items below a wide node.
+static Box items_below(const WideTree *tree, uint32_t number, const Box *boxes)
+{
+    const BvhWide *node = &tree->nodes[number];
+    Box all = {{2, 2, 2}, {-2, -2, -2}};
+    for (uint32_t i = 0; i < node->child_count; i++) {
+        const uint32_t child = node->child[i];
+        const bool is_block = (child & WIDE_LEAF) != 0;
+        const ItemRange range = is_block ? tree->blocks[child & ~WIDE_SPHERES] : (ItemRange){0, 1};
+        const Box below = is_block ? (Box){{0}, {0}} : items_below(tree, child, boxes);
+        for (uint32_t k = 0; k < range.count; k++) {
+            const Box *box = is_block ? &boxes[tree->bvh->order[range.first + k]] : &below;
+            for (int axis = 0; axis < 3; axis++) {
+                all.low[axis] = fminf(all.low[axis], box->low[axis]);
+                all.high[axis] = fmaxf(all.high[axis], box->high[axis]);
+            }
+        }
+    }
+    return all;
+}
+
+// Half of the items lie in the plane z = 0.5.
+static void make_level_boxes(Box boxes[LEVEL_ITEMS])
+{
+    uint64_t random = 2;
+    for (int i = 0; i < LEVEL_ITEMS; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            const bool is_level = axis == 2 && i < LEVEL_ITEMS / 2;
+            const float size = (float)random_between(&random, 0.01, 0.1);
+            boxes[i].low[axis] = is_level ? 0.5f : (float)random_between(&random, -1, 0.2);
+            boxes[i].high[axis] = is_level ? 0.5f : boxes[i].low[axis] + size;
+        }
+}
+
+// Returns the number of nodes that store a plane. If a node should store another plane, the test
+// fails.
+static uint32_t check_levels(const WideTree *tree, const Box *boxes)
+{
+    uint32_t level = 0;
+    for (uint32_t number = 0; number < tree->node_count; number++) {
+        const BvhWide *node = &tree->nodes[number];
+        const Box all = items_below(tree, number, boxes);
+        for (int axis = 0; axis < 3; axis++) {
+            const bool is_level = all.low[axis] == all.high[axis] && tree->leaf_bits == WIDE_LEAF;
+            assert_true(node->level[axis] == (is_level ? all.low[axis] : INFINITY));
+            level += node->level[axis] == 0.5f;
+        }
+    }
+    return level;
+}
+
+TEST(nodes_store_the_planes_of_level_triangles_but_not_of_spheres)
+{
+    Error error = {0};
+    Box boxes[LEVEL_ITEMS];
+    Bvh bvh;
+    const BvhSettings settings = {BVH_SAH, LEAVES_BLOCKS};
+    make_level_boxes(boxes);
+    assert_true(bvh_build_boxes(&bvh, &(BoxArray){boxes, LEVEL_ITEMS}, &settings, NULL, &error));
+    WideTree triangles = {.bvh = &bvh, .leaf_bits = WIDE_LEAF};
+    WideTree spheres = {.bvh = &bvh, .leaf_bits = WIDE_SPHERES};
+    assert_true(wide_tree_make(&triangles, LEVEL_ITEMS, &error));
+    assert_true(wide_tree_make(&spheres, LEVEL_ITEMS, &error));
+    assert_true(check_levels(&triangles, boxes) > 0);
+    assert_int_equal(check_levels(&spheres, boxes), 0);
+    wide_tree_free(&triangles);
+    wide_tree_free(&spheres);
+    bvh_free(&bvh);
 }
