@@ -22,7 +22,7 @@ except ImportError:
 
 SMALL = [SCENE, "-s", "16x12"]
 # Stopped runs do not store kernels, so specialized ones would be compiled in each run.
-LONG = [SCENE, "-s", "1500x1500", "--aa=8", "-j", "1", "--tune", "specialize=never"]
+LONG = [SCENE, "-s", "1500x1500", "--aa=16", "-j", "1", "--tune", "specialize=never"]
 
 
 class Talk(Work):
@@ -141,10 +141,10 @@ class Terminal(Talk):
         return text
 
     def test_compiling_is_announced_once_and_written_files_always(self):
-        compiling, wrote = rb"^\r\x1b\[Kcompiling kernels, 0 s", rb"(?m)^wrote a\.pfm \(16x12, \d+\.\d\d s\)\r$"
+        compiling, wrote = b"\r\x1b[Kcompiling kernels, 0 s", rb"(?m)^wrote a\.pfm \(16x12, \d+\.\d\d s\)\r$"
         picture, empty = [*SMALL, "-o", "a.pfm"], {"POCL_CACHE_DIR": str(self.work)}
         text = self.on_terminal(*picture, **empty)
-        self.assertRegex(text, compiling)
+        self.assertEqual(text.count(compiling), 1, text)
         self.assertRegex(text.split(b"\x1b[K")[-1], wrote)
         text = self.on_terminal(*picture, **empty)
         self.assertNotIn(b"compiling", text)
@@ -167,7 +167,9 @@ class Terminal(Talk):
             writer.join()
             self.assertEqual(b"\r\x1b[Kloading the scene, 0 s\r\x1b[K" in text, not quiet, text)
         self.write(a_scn=scene)
-        self.assertNotIn(b"loading", self.on_terminal("a.scn", "-s", "8x8", "-o", "a.pfm"))
+        words = "a.scn", "-s", "8x8", "-o", "a.pfm"
+        # Repeated, because a busy machine may load slowly.
+        self.assertTrue(any(b"loading" not in self.on_terminal(*words) for _ in range(9)))
 
     def test_every_command_announces_compiling(self):
         # Each command has kernels of its own. Another test draws a picture.
@@ -180,8 +182,8 @@ class Stopped(Talk):
     def talk_on_terminal(self, **environment):
         """Returns the terminal output of a stopped picture."""
         process, terminal = self.start_on_terminal(*LONG, "-o", "a.pfm", **environment)
-        text, end = b"", time.monotonic() + 60
-        while b"left" not in text and time.monotonic() < end:
+        text = b""
+        while b"left" not in text:
             text += os.read(terminal, 4096)
         process.send_signal(signal.SIGINT)
         text += self.read_terminal(terminal)
@@ -193,7 +195,7 @@ class Stopped(Talk):
         for setting in {}, {"NO_COLOR": "1"}:
             text = self.talk_on_terminal(TERM="xterm", **setting)
             self.assertNotRegex(text, rb"\x1b\[[0-9;]*m")
-        self.assertRegex(text, rb"^(\r\x1b\[K(compiling kernels, \d+ s)?)*\r\x1b\[Ktracing ")
+        self.assertRegex(text, rb"^(\r\x1b\[K((loading the scene|compiling kernels), \d+ s)?)*\r\x1b\[Ktracing ")
         line, stopped = text.split(b"\r\x1b[Kclrt: ")
         self.assertNotIn(b"\n", line)
         self.assertRegex(stopped, rb"^stopped: a\.pfm is incomplete, with \d+ of 144 tiles\r\n$")

@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -25,6 +26,8 @@ needs_exr = unittest.skipUnless(HAS_EXR, "this build is without OpenImageIO")
 
 def main(words):
     """Runs the tests that the command line names after `words` arguments, or all tests."""
+    # Background jobs ignore SIGINT, and clrt would inherit this setting.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     unittest.main(module="__main__", argv=[sys.argv[0], *sys.argv[words + 1 :]], verbosity=2)
 
 
@@ -75,6 +78,13 @@ class Work(unittest.TestCase):
         self.addCleanup(process.__exit__, None, None, None)  # closes the streams and waits
         self.addCleanup(process.kill)
         return process
+
+    @staticmethod
+    def catches(process):
+        """Returns whether the process handles SIGINT. clrt handles only the first one."""
+        lines = pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines()
+        caught = next(line for line in lines if line.startswith("SigCgt:"))
+        return int(caught.split()[1], 16) >> signal.SIGINT - 1 & 1 == 1
 
     def wait_for(self, condition, seconds=300):
         end = time.monotonic() + seconds
