@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
@@ -96,6 +97,13 @@ typedef struct {
     ExitCode code;
 } CommandLine;
 
+// Returns whether standard output is a pipe that its reader has closed, as `| head` does.
+static bool is_reader_gone(void)
+{
+    struct pollfd output = {.fd = STDOUT_FILENO};
+    return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
 static void *run(void *context)
 {
     CommandLine *line = context;
@@ -103,7 +111,8 @@ static void *run(void *context)
     line->code = run_arguments(line->count, line->arguments, &error);
     const bool is_written = fflush(stdout) == 0 && !ferror(stdout);
     if (line->code <= EXIT_FAULTS && !is_written) {
-        error_set(&error, "standard output cannot be written");
+        if (!is_reader_gone())
+            error_set(&error, "standard output cannot be written");
         line->code = EXIT_OUTPUT;
     }
     if (error.text[0] != '\0')

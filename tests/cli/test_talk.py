@@ -89,6 +89,12 @@ class Streams(Talk):
             self.assertEqual((done.returncode, done.stdout), (status, ""), words)
             self.assertEqual("standard" in done.stderr, status > 0, done.stderr)
 
+    def test_a_reader_that_stops_early_causes_no_message(self):
+        for output, told in ((">(:); wait $!", b""), ("/dev/full", b"clrt: standard output cannot be written\n")):
+            command = ["bash", "-c", f'exec 3> {output}; exec "$@" >&3 3>&-', "bash"]
+            done = self.run_clrt("--help", before=command, content=b"")
+            self.assertEqual((done.returncode, done.stderr), (5, told), output)
+
     def test_a_temporary_file_that_cannot_be_created_is_named(self):
         self.refuses(5, "/nonexistent/clrt-", *SMALL, "-o", "-", TMPDIR="/nonexistent")
 
