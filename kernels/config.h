@@ -45,8 +45,8 @@
 #ifndef CLRT_PACKET
 #define CLRT_PACKET 0 // packets of rays search together (0: ray by ray)
 #endif
-#ifndef CLRT_SIGNATURES
-#define CLRT_SIGNATURES 0 // samples have signatures (SampleData)
+#ifndef CLRT_PLACES
+#define CLRT_PLACES 0 // requests are places of single samples (SamplePlace)
 #endif
 #ifndef CLRT_RAYS
 #define CLRT_RAYS 0 // the program traces arrays of rays (rays.cl)

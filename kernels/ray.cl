@@ -56,24 +56,10 @@ typedef struct {
 #if CLRT_GLASS
     ulong cut; // stored as TALLY_CUT and TALLY_CUT_HIGH
 #endif
-#if CLRT_SIGNATURES
-    UInt signatures[PACKETS]; // hashes, as in SampleData
-#endif
 #if CLRT_ALL_HITS
     HitLists lists;
 #endif
 } Tally;
-
-// Adds a word to the signatures of the given lanes of a packet.
-static inline void hash_lanes(Tally *tally, uint packet, Mask lanes, UInt word)
-{
-#if CLRT_SIGNATURES
-    const UInt mixed = (tally->signatures[packet] ^ (word + 1)) * 0x9e3779b1u;
-    tally->signatures[packet] = lanes ? mixed ^ mixed >> 15 : tally->signatures[packet];
-#else
-    (void)tally, (void)packet, (void)lanes, (void)word;
-#endif
-}
 
 #if CLRT_WIDE_NODES
 typedef BvhWide Node;

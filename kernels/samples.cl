@@ -2,9 +2,9 @@
 // The kernel for adaptive pictures, and for error and time goals. It traces lists of samples, and
 // renders tiles with one sample per pixel. It is compiled after render.cl, and only if requested.
 //
-// With CLRT_SIGNATURES, a request is a place in the picture, and its result is a sample's color and
-// signature. Otherwise, a request is for some samples of a pixel, and its result has the sums of
-// these samples.
+// With CLRT_PLACES, a request is a place in the picture, and its result is a sample's color.
+// Otherwise, a request is for some samples of a pixel, and its result has the sums of these
+// samples.
 //
 // A pixel's samples are points of Sobol's two-dimensional sequence ("On the distribution of points
 // in a cube and the approximate evaluation of integrals", 1967). If a pixel is divided into 2^k
@@ -25,9 +25,8 @@
 #define ITEM_LARGE (ITEM_SAMPLES > LARGE_SAMPLES ? ITEM_SAMPLES / LARGE_SAMPLES : 1)
 
 // The number of words of a request, and of a result.
-#define REQUEST_WORDS                                                                              \
-    ((CLRT_SIGNATURES ? sizeof(SamplePlace) : sizeof(PixelRequest)) / sizeof(uint))
-#define RESULT_WORDS ((CLRT_SIGNATURES ? sizeof(SampleData) : sizeof(PixelSums)) / sizeof(float))
+#define REQUEST_WORDS ((CLRT_PLACES ? sizeof(SamplePlace) : sizeof(PixelRequest)) / sizeof(uint))
+#define RESULT_WORDS  ((CLRT_PLACES ? sizeof(SampleData) : sizeof(PixelSums)) / sizeof(float))
 
 // Color values are rounded to this many bits before squaring, so that the sum of squares of
 // LADDER_GRID samples fits into 64 bits.
@@ -175,8 +174,8 @@ static inline uint2 corner_at(uint2 block, uint start)
 static inline Places packet_places(const FrameData *frame, const Item *item, uint start)
 {
     if (!item->has_tile)
-        return CLRT_SIGNATURES ? places_listed(item->requests, start, item->count)
-                               : points_at(item->requests, item->samples, start, item->count);
+        return CLRT_PLACES ? places_listed(item->requests, start, item->count)
+                           : points_at(item->requests, item->samples, start, item->count);
     const Places pixels = places_at(frame, corner_at(item->block, start));
     return (Places){(2 * pixels.x + 1) * frame->samples, (2 * pixels.y + 1) * frame->samples,
                     pixels.active};
@@ -200,50 +199,24 @@ static inline void add_packet(const Item *item, uint start, Real3 color, PixelSu
     }
 }
 
-static inline void store_sample(global SampleData *sample, const Real3 *color, UInt signature,
-                                uint lane)
+// Stores the colors of a packet of listed places.
+static inline void store_samples(const Item *item, uint start, const Real3 *color)
 {
-    store_lane(sample->color, color, lane);
-    sample->signature = ((const uint *)&signature)[lane];
-}
-
-// Stores the colors and signatures of a packet.
-static inline void store_samples(const FrameData *frame, const Item *item, uint start,
-                                 const Real3 *color, UInt signature)
-{
-    global SampleData *samples = (global SampleData *)item->results;
-    const uint2 corner = corner_at(item->block, start);
-    for (uint lane = 0; lane < CLRT_LANES; lane++)
-        if (item->has_tile ? is_in_tile(frame, corner, lane) : start + lane < item->count)
-            store_sample(samples +
-                             (item->has_tile ? pixel_index(frame, corner, lane) : start + lane),
-                         color, signature, lane);
+    for (uint lane = 0; lane < CLRT_LANES && start + lane < item->count; lane++)
+        store_lane(item->results + 3 * (start + lane), color, lane);
 }
 
 // Stores the results of a packet.
 static inline void store_packet(const FrameData *frame, const Item *item, uint start, Real3 steps,
-                                UInt signature, PixelSums *sum)
+                                PixelSums *sum)
 {
     const Real3 color = scaled3(0x1p-32f, steps);
-    if (CLRT_SIGNATURES)
-        store_samples(frame, item, start, &color, signature);
-    else if (item->has_tile)
+    if (item->has_tile)
         store_colors(frame, corner_at(item->block, start), &color, item->results);
+    else if (CLRT_PLACES)
+        store_samples(item, start, &color);
     else
         add_packet(item, start, steps, sum);
-}
-
-// Returns the signatures of a packet, and clears them for the next one.
-static inline UInt take_signature(Tally *tally, uint packet)
-{
-#if CLRT_SIGNATURES
-    const UInt signature = tally->signatures[packet];
-    tally->signatures[packet] = 0;
-    return signature;
-#else
-    (void)tally, (void)packet;
-    return 0;
-#endif
 }
 
 static inline void trace_item(const Tracer *tracer, const Item *item)
@@ -256,8 +229,7 @@ static inline void trace_item(const Tracer *tracer, const Item *item)
             places[i] = packet_places(tracer->frame, item, begin + i * CLRT_LANES);
         sample_colors(tracer, places, colors);
         for (uint i = 0; i < PACKETS; i++)
-            store_packet(tracer->frame, item, begin + i * CLRT_LANES, colors[i],
-                         take_signature(tracer->tally, i), &sum);
+            store_packet(tracer->frame, item, begin + i * CLRT_LANES, colors[i], &sum);
     }
 }
 
@@ -267,7 +239,7 @@ static NOT_INLINE void fill_block(const FrameData *frame, const Item *item)
     PixelSums none = {{0, 0, 0}, 0};
     const Real3 sky = in_steps3(load_private3(frame->background));
     for (uint start = 0; start < ITEM_SAMPLES; start += CLRT_LANES)
-        store_packet(frame, item, start, sky, (UInt)0, &none);
+        store_packet(frame, item, start, sky, &none);
 }
 
 static inline bool is_block_of_sky(const FrameData *frame, const Item *item)
@@ -299,21 +271,20 @@ static inline ItemRange range_of(uint number, uint small, uint end)
 // requests' indices. The launch ends at index `end` of the list. With CLRT_TALLIES, a work-item
 // stores its tally at the index of its first request.
 //
-// With CLRT_SIGNATURES, requests are SamplePlace, and results are SampleData. Otherwise, requests
-// are PixelRequest, and results are PixelSums. The list has `small` requests for SMALL_SAMPLES
-// samples, and then requests for LARGE_SAMPLES.
+// With CLRT_PLACES, requests are SamplePlace, and results are SampleData. Otherwise, requests are
+// PixelRequest, and results are PixelSums. The list has `small` requests for SMALL_SAMPLES samples,
+// and then requests for LARGE_SAMPLES.
 //
 // If the frame has a tile, `requests` and `small` are not used, and each index stands for a pixel's
-// center. A work-item renders the centers of a block. The results are in the order of the
-// tile's pixels: SampleData with CLRT_SIGNATURES, otherwise colors as in render_tile. Indices
-// beyond the tile are padding.
+// center. A work-item renders the centers of a block. The results are the colors of the tile's
+// pixels, as in render_tile. Indices beyond the tile are padding.
 kernel void trace_samples(TRACER_ARGUMENTS, global const uint *requests, uint first, uint end,
                           global float *results, global uint *tallies, uint small)
 {
     const bool has_tile = frame.tile_width > 0;
     const uint number = first + (uint)get_global_id(0);
     const ItemRange range =
-        has_tile || CLRT_SIGNATURES
+        has_tile || CLRT_PLACES
             ? (ItemRange){1, number * ITEM_SAMPLES, min(end, (number + 1) * ITEM_SAMPLES)}
             : range_of(number, small, end);
     if (range.begin >= range.end)

@@ -146,7 +146,6 @@ static inline void add_light(const Tracer *tracer, uint index, const Lighting li
         const Mask is_lit = light[i].faces && path.blockers[i].id == NOTHING;
         if (!any_lane(is_lit))
             continue;
-        hash_lanes(tracer->tally, i, is_lit, (UInt)(index));
         const Received received = receive_light(&light[i], &lighting[i], is_lit);
         const Real3 seen = tinted(&path, i, color);
         sums[i].diffuse = sum3(sums[i].diffuse, scaled3(received.diffuse, seen));

@@ -47,7 +47,6 @@ static inline bool cross_glass(const Tracer *tracer, Ray *ray, LightPath *light,
         return false;
     const Real3 tint = product3(light->tints[number], material.diffuse);
     light->tints[number] = choose3(crosses, tint, light->tints[number]);
-    hash_lanes(tracer->tally, number, crosses, surface_word(tracer->frame, &surface));
     *ray = ray_onward(tracer, &surface, light->place, crosses);
     if (CLRT_STATISTICS)
         tracer->tally->shadow_rays += lane_count(crosses);

@@ -234,14 +234,11 @@ typedef struct {
 } SamplePlace;
 CLRT_SAME_SIZE(SamplePlace, 8)
 
-// The result of a camera ray: its color, and a signature. The signature is a hash of the surfaces
-// that the ray and its reflected and refracted rays hit. The hash includes the lights that reach
-// these surfaces, and the glass that their light crosses.
+// A sample of a SamplePlace.
 typedef struct {
     float color[3];
-    uint signature;
 } SampleData;
-CLRT_SAME_SIZE(SampleData, 16)
+CLRT_SAME_SIZE(SampleData, 12)
 
 // Sub-pixels along a side of a pixel in pictures with goals. Because their number is a power of
 // two, the sample at a pixel's center has the same bits as in a picture with one sample per pixel.

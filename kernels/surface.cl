@@ -40,14 +40,6 @@ static inline Mask has_length(Real3 v)
     return largest_component(v) > 0.0f;
 }
 
-// Returns the number that stands for a surface in signatures. Each sphere is a surface of its own,
-// and all triangles of one material are one surface.
-static inline UInt surface_word(const FrameData *frame, const Surface *surface)
-{
-    const UInt of_mesh = frame->sphere_count + surface->material;
-    return surface->id < frame->sphere_count ? surface->id : of_mesh;
-}
-
 // Returns the normal of the triangle's plane. If the corners are on a line, there is no plane, and
 // a ray hits the triangle only by rounding. The result is then toward_viewer.
 static inline Real3 triangle_face(const Corners *corners, Real3 toward_viewer)

@@ -174,7 +174,6 @@ static inline void meet_surfaces(const Tracer *tracer, Paths *paths, uint number
     path->material = material_at(tracer, &path->surface);
     if (CLRT_MIRRORS)
         path->reflects = path->met && path->material.reflectivity != 0.0f;
-    hash_lanes(tracer->tally, number, path->met, surface_word(tracer->frame, &path->surface));
 }
 
 // Follows the active rays up to the surfaces that they hit.

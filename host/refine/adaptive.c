@@ -351,7 +351,7 @@ bool adaptive_open(Adaptive *adaptive, const RefineSetup *setup, Error *error)
         adaptive->refined != NULL && adaptive->centers != NULL &&
         scan_lines_make(&adaptive->lines, error) &&
         thin_parts_make(&adaptive->thin_parts, &thin, error) &&
-        sampler_draw_centers(renderer, frame, adaptive->centers, setup->observer, error);
+        sampler_draw_centers(renderer, frame, &adaptive->centers->color, setup->observer, error);
     adaptive->samples = pixels;
     if (!ok)
         adaptive_close(adaptive);

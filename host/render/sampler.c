@@ -54,11 +54,6 @@ static bool has_tile(const FrameData *frame)
     return frame->tile_width > 0;
 }
 
-static size_t pixel_size(const Renderer *renderer)
-{
-    return is_ladder(renderer) ? sizeof(float[3]) : sizeof(SampleData);
-}
-
 static size_t requests_size(const Sampling *sampling)
 {
     if (has_tile(sampling->frame))
@@ -71,7 +66,7 @@ static size_t results_size(const Sampling *sampling)
 {
     const FrameData *frame = sampling->frame;
     if (has_tile(frame))
-        return (size_t)frame->tile_width * frame->tile_height * pixel_size(sampling->renderer);
+        return (size_t)frame->tile_width * frame->tile_height * sizeof(float[3]);
     return sampling->list->count *
            (is_ladder(sampling->renderer) ? sizeof(PixelSums) : sizeof(SampleData));
 }
@@ -299,7 +294,7 @@ bool sampler_is_whole(const Renderer *renderer)
 }
 
 // Renders the frame's tile.
-static bool draw_band(Renderer *renderer, const FrameData *frame, void *pixels,
+static bool draw_band(Renderer *renderer, const FrameData *frame, float (*pixels)[3],
                       const RenderObserver *observer, Error *error)
 {
     const PixelRequest none = {0};
@@ -310,7 +305,7 @@ static bool draw_band(Renderer *renderer, const FrameData *frame, void *pixels,
     return sampler_trace(renderer, frame, &list, observer, error);
 }
 
-bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, void *pixels,
+bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, float (*pixels)[3],
                           const RenderObserver *observer, Error *error)
 {
     const uint32_t rows = BAND_PIXELS / frame->width, most = rows - rows % BLOCK_SIDE + BLOCK_SIDE;
@@ -318,7 +313,7 @@ bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, void *pixe
     band.tile_width = frame->width;
     for (; band.tile_y < frame->height && sampler_is_whole(renderer); band.tile_y += most) {
         const uint32_t left = frame->height - band.tile_y;
-        char *first = (char *)pixels + (size_t)band.tile_y * frame->width * pixel_size(renderer);
+        float(*first)[3] = pixels + (size_t)band.tile_y * frame->width;
         band.tile_height = left < most ? left : most;
         if (!draw_band(renderer, &band, first, observer, error))
             return false;
@@ -328,6 +323,6 @@ bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, void *pixe
 
 extern const char samples_source[]; // kernels/samples.cl, embedded at build time
 
-const KernelEntry sample_entry = {"trace_samples", samples_source, "-DCLRT_SIGNATURES=1", "bnnbbn",
+const KernelEntry sample_entry = {"trace_samples", samples_source, "-DCLRT_PLACES=1", "bnnbbn",
                                   .dimensions = 1};
 const KernelEntry ladder_entry = {"trace_samples", samples_source, NULL, "bnnbbn", .dimensions = 1};

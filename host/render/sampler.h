@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A list of requests -> their samples. With sample_entry, a request is a sample's position, and the
-// result is its color and signature. With ladder_entry, a request is a small or large set of a
-// pixel's samples (SMALL_SAMPLES, LARGE_SAMPLES). The result has the sums of these samples' colors
-// and of the colors' squares. Both also render pictures with one sample per pixel.
-//
-// Two samples have different signatures if their rays hit different surfaces, or if different
-// lights reach their hit points. The only exceptions are rare collisions of hashes.
+// result is its color. With ladder_entry, a request is a small or large set of a pixel's samples
+// (SMALL_SAMPLES, LARGE_SAMPLES). The result has the sums of these samples' colors and of the
+// colors' squares. Both also render pictures with one sample per pixel.
 #pragma once
 
 #include "render/renderer.h"
 
-// The kernel trace_samples, with and without CLRT_SIGNATURES.
+// The kernel trace_samples, with and without CLRT_PLACES.
 extern const KernelEntry sample_entry, ladder_entry;
 
 // Requests and their results in the kernel's layout. sample_entry uses SamplePlace and
@@ -32,9 +29,8 @@ bool sampler_trace(Renderer *renderer, const FrameData *frame, const SampleList 
 
 // Renders the whole picture, with one sample at the center of each pixel. The frame's tile members
 // must be 0. The frame's camera must be made for frame->samples samples. Stores the pixels row by
-// row, as SampleData with sample_entry and as three floats with ladder_entry. Stops as
-// sampler_trace does.
-bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, void *pixels,
+// row. Stops as sampler_trace does.
+bool sampler_draw_centers(Renderer *renderer, const FrameData *frame, float (*pixels)[3],
                           const RenderObserver *observer, Error *error);
 
 // Returns whether the observer has stopped none of the renderer's traces.

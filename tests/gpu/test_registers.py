@@ -20,7 +20,7 @@ FP64 = "-DCLRT_FP64=1"
 CREATURE = "-DCLRT_GPU=1 -DCLRT_SPHERES=0 -DCLRT_COLORS=0"
 # Each program has a kernel, a file that is appended to render.cl, and options.
 PROGRAMS = (*(("render_tile", "tile.cl", options) for options in (PAIR, CREATURE, FP64)),
-            ("trace_samples", "samples.cl", PAIR + " -DCLRT_SIGNATURES=1"),
+            ("trace_samples", "samples.cl", PAIR + " -DCLRT_PLACES=1"),
             ("trace_samples", "samples.cl", PAIR), ("trace_paths", "aov.cl", PAIR),
             ("explain_sample", "explain.cl", PAIR), ("certify_tile", "certify.cl", FP64),
             ("trace_rays", "rays.cl", PAIR + " -DCLRT_RAYS=1"),

@@ -19,7 +19,7 @@ sources="tile.cl rays.cl samples.cl aov.cl explain.cl"
 no_fp64="-Xclang -cl-ext=-cl_khr_fp64"
 for form in "0 -DCLRT_PACKET=0" "0 -DCLRT_GPU=1" "1 -DCLRT_PACKET=0" "1 -DCLRT_PACKET=1"; do
   for source in $sources; do
-    accepts "$source" $no_fp64 -DCLRT_SIGNATURES=1 -DCLRT_WIDE_NODES=$form
+    accepts "$source" $no_fp64 -DCLRT_PLACES=1 -DCLRT_WIDE_NODES=$form
   done
   accepts rays.cl $no_fp64 -DCLRT_RAYS=1 -DCLRT_ALL_HITS=1 -DCLRT_WIDE_NODES=$form
   # Among these seven sets of the scene's switches, any two switches have all four combinations
@@ -35,6 +35,6 @@ for form in "0 -DCLRT_PACKET=0" "0 -DCLRT_GPU=1" "1 -DCLRT_PACKET=0" "1 -DCLRT_P
   done
 done
 for source in $sources certify.cl certify_rays.cl; do
-  accepts "$source" -DCLRT_SIGNATURES=1 -DCLRT_FP64=1
+  accepts "$source" -DCLRT_PLACES=1 -DCLRT_FP64=1
 done
 accepts rays.cl $no_fp64 -DCLRT_FP64=1 2>&1 | grep -q "'double' requires cl_khr_fp64"
