@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the rays whose hits do not depend on rounding. A ray cone (certify_cone.cl) contains the
-// caller's ray and the rounded ray that rays.cl traces. The kernel is compiled after render.cl with
-// CLRT_FP64, and only if requested.
+// caller's ray and the rounded ray that rays.cl traces. The kernel needs CLRT_FP64, and is compiled
+// only if requested.
 #include "certify_search.cl"
 
 // Returns the distance between a ray's start and the sphere that the ray leaves, or 0 if it leaves
@@ -43,8 +43,8 @@ static inline RayCone given_cone(const Tracer *tracer, global const RayBlock *bl
 }
 
 // Returns whether `hit` is certain, which means that rounding cannot change the ray's hit. The hit
-// is uncertain if it is within rounding of the ray's end, or if the ray skips a sphere on which it
-// does not start.
+// is also uncertain if it is within rounding of the ray's end, or if the ray ignores a sphere on
+// which it does not start.
 static NOT_INLINE bool certify_ray(const Tracer *tracer, global const RayBlock *block, uint number,
                                    uint hit)
 {

@@ -71,7 +71,7 @@ static inline ConeSearch search_in_cone(const RayCone *ray)
 }
 
 // Returns the depth beyond which the search may stop. Nothing beyond the nearest certain hit can be
-// the first hit. Beyond another possible hit, no hit is certainly the first.
+// the first hit. Beyond an uncertain hit, no hit can be certain to be the first.
 static inline Real cone_reach(const ConeSearch *search)
 {
     if (search->ray->kind == RAY_SHADOW)

@@ -148,7 +148,8 @@ static inline int side_of(const Corners *corners, const UncertainPoint *uncertai
 }
 
 // Returns a bound on search_behind: rounding may put a ray's start this far beyond a triangle that
-// stops the ray. A direction is at most sqrt(3) times as long as its largest component (B12).
+// stops the ray. A direction is at most sqrt(3) times as long as its largest component, by which
+// search_behind measures (B12).
 static inline Real behind_of(const RayCone *ray)
 {
     if (ray->kind == RAY_CAMERA)

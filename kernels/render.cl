@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Computes the colors of pixels and samples. All kernels are compiled after this file. With pair
-// nodes, a work-item has one pixel. With wide nodes, it has a block of BLOCK x BLOCK pixels, and
-// traces PACKETS packets of these pixels at a time.
+// Computes the colors of pixels and samples. Each kernel's file follows this one in its program.
+// With pair nodes, a work-item has one pixel. With wide nodes, it has a block of BLOCK x BLOCK
+// pixels, and traces PACKETS packets of these pixels at a time.
 //
 // Invariant: colors are rounded to integer steps of 2^-32 and summed as integers. A pixel's color
 // therefore does not depend on the order of its samples, or on how pixels are assigned to
@@ -46,8 +46,8 @@ typedef struct {
 } Places;
 
 // Computes the colors of samples at positions in half sub-pixels. The colors are in steps of 2^-32.
-// On CPUs, functions with Paths are not inlined. Otherwise, PoCL would keep the private memory of
-// all work-items of a group on the stack at once.
+// On CPUs, functions with variables of type Paths are not inlined. Otherwise, PoCL would keep the
+// private memory of all work-items of a group on the stack at once.
 static NOT_INLINE void sample_colors(const Tracer *tracer, const Places samples[PACKETS],
                                      Real3 colors[PACKETS])
 {

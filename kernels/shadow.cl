@@ -4,8 +4,9 @@
 #define CLRT_SHADOW_CL
 #include "glass.cl"
 
-// A light behind more surfaces of glass than this is blocked. The limit ends a shadow ray's loop
-// between surfaces that are so close that rounding makes them touch.
+// The largest number of surfaces of glass that a shadow ray crosses. A light behind more of them is
+// blocked. The limit ends a shadow ray's loop between surfaces that are so close that rounding
+// makes them touch.
 #define GLASS_CROSSINGS 64
 
 // The results of following shadow rays to a light.

@@ -156,8 +156,8 @@ CLRT_SAME_SIZE(BvhPair, 64)
 #define WIDE 8
 
 // An inner node of the wide tree. Its children's boxes are side by side, so one vector operation
-// reads or tests a plane of all children. A child is the index of an inner node or, if WIDE_LEAF is
-// set, of a block. Present children come first; missing ones have inverted boxes.
+// reads or tests the same plane of all boxes. A child is the index of an inner node or, if
+// WIDE_LEAF is set, of a block. Present children come first; missing ones have inverted boxes.
 typedef struct {
     float planes[3][2][WIDE]; // [axis][low, high][child], grown by BVH_SLACK
     uint child[WIDE];
@@ -171,7 +171,8 @@ CLRT_SAME_SIZE(BvhWide, 256)
 // A leaf of the wide tree over spheres has these bits and the number of a SphereBlock.
 #define WIDE_SPHERES 0xc0000000u
 
-// Up to WIDE spheres, component by component, as in SphereData. An empty slot has the id NOTHING.
+// Up to WIDE spheres, with an array for each component that SphereData has too. An empty slot has
+// the id NOTHING.
 typedef struct {
     float center[3][WIDE], radius[WIDE];
     float center_low[3][WIDE], radius_low[WIDE];

@@ -138,9 +138,9 @@ static inline TwoFloat3 two_stepped(TwoFloat3 f, Real step, Real3 d)
                        two_add(f.z, two_scale(s, d.z))};
 }
 
-// Returns the discriminant divided by |d|^2. This is radius^2 minus the squared distance between
-// the center and the line. `s` only needs to be near the foot of the perpendicular, because the
-// last term corrects the error of `s`.
+// Returns radius^2 minus the squared distance between the center and the line. Its sign is that of
+// the quadratic equation's discriminant. `s` only needs to be near the foot of the perpendicular,
+// because the last term corrects the error of `s`.
 static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, TwoFloat rr)
 {
     const TwoFloat3 foot = two_stepped(f, s, d);

@@ -266,7 +266,7 @@ static inline void visit_nodes(LaneSearches *searches)
 }
 
 // Pairs the given lanes with their blocks, which must be blocks of spheres. Returns the lanes whose
-// hits or bounds changed.
+// hits changed, or whose `t` limit_ray lowered.
 static NOT_INLINE uint visit_spheres(LaneSearches *searches, uint bits)
 {
     SpherePairs *pairs = searches->pairs;

@@ -4,9 +4,9 @@
 // the power of ten:
 // 1. If the integer and the power are exact doubles, one multiplication or division is correctly
 // rounded (William D. Clinger, "How to Read Floating Point Numbers Accurately", PLDI 1990).
-// 2. For powers from 10^-27 to 10^27, a 128-bit integer holds the exact product, or at least 63
-// bits of the quotient and a mark of its remainder. Only the conversion of this integer to double
-// rounds.
+// 2. For powers from 10^-27 to 10^27, a 128-bit integer holds the exact product with the power of
+// five, or at least 63 bits of the quotient. The quotient's last bit is set if there is a
+// remainder. Only the conversion of this integer to double rounds. The power of two is exact.
 // 3. All other numbers are rewritten as DIGITSeEXPONENT for strtod. This form has no decimal point,
 // so strtod reads it alike in every locale.
 //

@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-// Merges small pieces into the first one. `sizes` has the number of triangles of each piece, at the
-// index of its root. Replaces the sizes by the starts of the pieces.
+// Merges all small pieces into the first small one. `sizes` has the number of triangles of each
+// piece, at the index of the piece's root. Replaces the sizes by the starts of the pieces.
 static void lay_out(MeshPieces *pieces, uint32_t *parents, uint32_t *sizes, size_t count)
 {
     uint32_t next = 0, *small = NULL;

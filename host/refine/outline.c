@@ -107,8 +107,8 @@ CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t
     return cells_sampled(extent[0], extent[1], grid, 0);
 }
 
-// The following functions clip triangles in homogeneous coordinates. After the division by depth,
-// all coordinates are bounded.
+// The following functions project triangles, and clip them in homogeneous coordinates. After the
+// division by depth, all coordinates are bounded.
 
 // The distance between the picture's border and the clipping planes.
 #define MARGIN (2 * REFINE_GRID)

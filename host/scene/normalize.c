@@ -128,7 +128,8 @@ Vec3 normalize_light(const Normalization *normalization, const Light *light)
 }
 
 // A checker consists of cubes of two colors, so a shift by an even number of cubes changes nothing.
-// remainder() removes this number, so the shift stays precise far from the origin.
+// remainder() subtracts the nearest such number from the shift, which stays precise far from the
+// origin.
 void normalize_checker(Material *material, const Normalization *normalization)
 {
     const double size = (double)material->check_size;

@@ -175,8 +175,8 @@ static bool refine(const PictureDrawing *drawing, Ladder *ladder, double truncat
     return left <= 0 || ladder_reach_error(ladder, sqrt(left), outcome, error);
 }
 
-// Returns whether one more level would save more time than it costs, according to the samples so
-// far.
+// Returns whether the rays that max_level cut off so far take so much of the error goal that one
+// more level saves samples.
 static bool needs_level(const PictureDrawing *drawing, const Ladder *ladder)
 {
     const SessionPicture *request = drawing->request;

@@ -58,7 +58,7 @@ static bool is_compiled(const Session *session, const KernelEntry *entry, Kernel
 
 // Pair kernels compile faster than packets, but trace more slowly. If packets are not in the cache,
 // pair kernels draw small pictures of small scenes if this saves time in total. With a
-// kernel_folder, the choice of session_open remains.
+// kernel_folder, the kernels that session_open chose draw all pictures.
 static void choose_quick_kernels(Session *session, const SessionWork *work)
 {
     const KernelChoice quick = {FAMILY_RAY, NODES_PAIR, 0, CLRT_FP32};

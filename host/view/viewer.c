@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The loop's longest sleep in seconds. Files are checked between sleeps. A camera that has not
-// moved for this time counts as resting.
+// The loop's longest sleep in seconds. Between sleeps, the loop looks for changed files. A camera
+// that has not moved for this time counts as resting.
 #define REST_SECONDS 0.1
 
 // Returns the number of samples along each side of a pixel. Pictures of a moving camera are not

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Parses the arguments of options. Each kind of value has a parser, and values that fit no kind
-// have setters. Text after a value is an error.
+// have setters. Words that go on after their values, such as 5x, are errors.
 #include "cli/options/option.h"
 
 #include "base/number.h"
