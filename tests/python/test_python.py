@@ -3,9 +3,11 @@
 """Draws pictures and casts rays from Python, and compares them with the results of the program.
 
 usage: test_python.py CLRT SCENES"""
+import copy
 import json
 import os
 import pathlib
+import pickle
 import re
 import resource
 import subprocess
@@ -139,6 +141,19 @@ class Pictures(unittest.TestCase):
         for name, values in stored.items():
             expected = np.array(values, arrays[name].dtype)
             self.assertEqual(arrays[name].tobytes(), expected.tobytes(), name)
+
+    def test_copies_and_pickles_have_channels_and_result(self):
+        picture = clrt.load(REFLECTIONS).render(8, 6, channels=["depth"])
+        for made in (pickle.loads(pickle.dumps(picture)), copy.deepcopy(picture), copy.copy(picture),
+                     picture.copy()):
+            self.assertEqual((type(made), made.tobytes(), made.result),
+                             (clrt.Picture, picture.tobytes(), picture.result))
+            self.assertEqual(made.channels["depth"].tobytes(), picture.channels["depth"].tobytes())
+            self.assertFalse(np.shares_memory(made, picture))
+        copy.deepcopy(picture).channels["depth"][:] = 0
+        self.assertGreater(picture.channels["depth"].max(), 0)
+        for made in picture[::-1], picture + 1:
+            self.assertEqual((made.channels, made.result), ({}, {}))
 
     def test_channels_are_arrays_and_agree_with_rays(self):
         scene, renderer = clrt.load(REFLECTIONS), clrt.Renderer()

@@ -18,7 +18,8 @@ class Picture(np.ndarray):
     """A picture: a float32 array of shape (height, width, 3), R G B in [0, 1], top row first.
 
     `channels` maps the names of the requested channels to arrays of shape (height, width) or
-    (height, width, components). `result` has the members of ClrtResult in clrt.h.
+    (height, width, components). `result` has the members of ClrtResult in clrt.h. Copies and pickles
+    keep both. Slices and results of arithmetic have neither. copy.copy() and copy() share channels.
     """
 
     channels: Mapping[str, np.ndarray] = {}
@@ -26,6 +27,14 @@ class Picture(np.ndarray):
 
     def __array_wrap__(self, array, *_):
         return array.view(Picture) if array.ndim else array[()]
+
+    def __reduce__(self):
+        return picture_of, (np.asarray(self), self.__dict__)
+
+    def copy(self, order="C"):
+        return picture_of(np.array(self, order=order), self.__dict__)
+
+    __copy__, __deepcopy__ = copy, None  # copy.deepcopy calls __reduce__
 
     def _repr_png_(self) -> bytes | None:
         """PNG bytes for notebooks, with the pixels of `clrt SCENE -o picture.png`."""
@@ -41,6 +50,13 @@ class Picture(np.ndarray):
         return b"\x89PNG\r\n\x1a\n" + b"".join(
             binary.pack(">I", len(data)) + kind + data + binary.pack(">I", zlib.crc32(kind + data))
             for kind, data in parts)
+
+
+def picture_of(pixels, members):
+    """Returns the array `pixels` as a Picture with these members."""
+    made = pixels.view(Picture)
+    made.__dict__.update(members)
+    return made
 
 
 @functools.cache

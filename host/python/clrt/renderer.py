@@ -8,8 +8,8 @@ from typing import Any, Callable, Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import (RESULTS, Hits, Picture, channel_kinds, hit_arrays, rays, rays_struct,
-                     strided)
+from .arrays import (RESULTS, Hits, Picture, channel_kinds, hit_arrays, picture_of, rays,
+                     rays_struct, strided)
 from .library import (NUMBER, c_value, call, choices, ffi, instance, lib, parts, progress_of,
                       result_of, struct, use_device, value_of)
 from .scene import Camera, Scene
@@ -59,9 +59,8 @@ class Renderer:
         pixels = np.zeros((*shape, 3), np.float32)
         kind = "reference" if picture.reference_samples else "render"
         self._call(kind, scene, picture, pixels, progress=progress)
-        made = pixels.view(Picture)
-        made.channels, made.result = arrays, value_of(picture.result[0], ffi.typeof("ClrtResult"))
-        return made
+        result = value_of(picture.result[0], ffi.typeof("ClrtResult"))
+        return picture_of(pixels, {"channels": arrays, "result": result})
 
     def explain(self, scene: Scene, x: int, y: int, width: int = 0, height: int = 0,
                 **settings: Any) -> dict[str, Any]:
