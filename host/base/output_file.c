@@ -197,8 +197,20 @@ static bool copy_file(const char *from, const char *path, Error *cause)
     return ok;
 }
 
+// Appends the folder of a temporary file that is not beside the final path.
+static void name_folder(const OutputFile *file, Error *cause)
+{
+    const size_t length = strlen(cause->text);
+    const int folder = (int)(text_file_name(file->temporary) - file->temporary) - 1;
+    if (!file->replaces)
+        snprintf(cause->text + length, sizeof cause->text - length,
+                 "; the temporary file was in %.*s", folder, file->temporary);
+}
+
 bool output_file_end(OutputFile *file, bool ok, Error *cause)
 {
+    if (!ok)
+        name_folder(file, cause);
     if (ok && !file->replaces)
         ok = copy_file(file->temporary, file->path, cause);
     if (ok && file->replaces && rename(file->temporary, file->path) != 0)

@@ -21,7 +21,8 @@ bool output_file_begin(OutputFile *file, const char *path, Error *error);
 
 // If `ok`, renames or copies the temporary file to its final name. Otherwise, removes it and
 // returns false. If renaming or copying fails, returns false and stores the reason in *cause,
-// without the path.
+// without the path. If `ok` is false and the temporary file is in another folder, appends this
+// folder to *cause.
 bool output_file_end(OutputFile *file, bool ok, Error *cause);
 
 // Creates the file from the bytes that `write` writes to its stream. On failure, `write` must

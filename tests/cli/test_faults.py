@@ -37,12 +37,13 @@ class Faults(Work):
             os.remove(self.target / name)
 
     # Runs clrt with a private disk at `target`, and then lists the disk's files.
-    def clrt_on_disk(self, options, *words):
+    def clrt_on_disk(self, options, *words, **environment):
         script = 'mount -t tmpfs -o "$1" clrt-test target && shift && echo old >target/old && \
             { [ "$1" != ro ] || mount -o remount,ro target; } && shift && "$@"; code=$?; \
             ls -A target; exit $code'
         size, mode = options
-        return self.run_clrt(*words, before=["unshare", "-m", "sh", "-c", script, "sh", f"size={size}", mode])
+        before = ["unshare", "-m", "sh", "-c", script, "sh", f"size={size}", mode]
+        return self.run_clrt(*words, before=before, **environment)
 
     def assert_fails(self, run, status, sentence):
         text = run.stderr
@@ -63,6 +64,14 @@ class Disks(Faults):
         run = self.clrt_on_disk((DISK_SIZE, "rw"), *LARGE, "--format", "png", "-o", "target/old")
         self.assert_fails(run, 5, "target/old: cannot be written: No space left on device")
         self.assertEqual(run.stdout, "old\n")
+
+    def test_a_full_disk_for_temporary_files_is_named(self):
+        for output, name in ("-", "standard output"), ("/dev/null", "/dev/null"):
+            words = [*LARGE, "--format", "pfm", "-o", output]
+            run = self.clrt_on_disk((DISK_SIZE, "rw"), *words, TMPDIR=str(self.target))
+            self.assert_fails(run, 5, f"{name}: cannot be written: No space left on device; "
+                              f"the temporary file was in {self.target}\n")
+            self.assertEqual(run.stdout, "old\n")
 
     def test_a_full_disk_keeps_no_part_of_a_report(self):
         words = [SCENE, "-s", "8x8", "-q", "-o", "a.pfm", "--json=target/a.json"]
