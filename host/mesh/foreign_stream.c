@@ -117,8 +117,12 @@ static bool take_part(Parser *parser)
     char name[LONGEST_TEXT];
     if (part.material != FOREIGN_NO_MATERIAL && part.material >= model->materials.count)
         return fail_damaged(parser);
-    snprintf(name, sizeof name, "%s: part %zu", parser->name, model->parts.count);
-    if (!parser->parse(&part.mesh, parser->next, (size_t)parser->head.size, name, parser->error))
+    const char *material =
+        part.material == FOREIGN_NO_MATERIAL ? "" : model->materials.data[part.material].name;
+    snprintf(name, sizeof name, "%s: part %zu%s%s", parser->name, model->parts.count,
+             material[0] != '\0' ? ", material " : "", material);
+    PlyParse *parse = parser->parse == ply_parse ? ply_parse_part : parser->parse;
+    if (!parse(&part.mesh, parser->next, (size_t)parser->head.size, name, parser->error))
         return false;
     if (array_push(&model->parts, part, parser->error))
         return true;

@@ -283,6 +283,13 @@ bool ply_parse(Mesh *mesh, const char *bytes, size_t size, const char *name, Err
     return load(mesh, reader_of(bytes, size, name, error));
 }
 
+bool ply_parse_part(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error)
+{
+    PlyReader reader = reader_of(bytes, size, name, error);
+    reader.is_part = true;
+    return load(mesh, reader);
+}
+
 bool ply_parse_tolerantly(Mesh *mesh, const char *bytes, size_t size, const char *name,
                           Error *error)
 {

@@ -23,6 +23,10 @@
 typedef bool PlyParse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error);
 PlyParse ply_parse;
 
+// A variant of ply_parse for the parts that clrt-foreign sends. Its messages give no lines and no
+// byte offsets, because these are not positions in the model's file.
+PlyParse ply_parse_part;
+
 // A variant of ply_parse for clrt check. It accepts positions and normals that are not finite or
 // out of range, and counts them in *mesh. It also counts the triangles dropped because of bad
 // positions.

@@ -41,15 +41,15 @@ static size_t line_of_place(const PlyReader *reader)
 
 bool ply_reader_fail(const PlyReader *reader, const char *format, ...)
 {
-    char message[256], where[64], element[80] = "";
+    char message[256], where[64] = "", element[80] = "";
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
 
-    if (reader->format == PLY_ASCII)
+    if (reader->format == PLY_ASCII && !reader->is_part)
         snprintf(where, sizeof where, ":%zu", line_of_place(reader));
-    else
+    else if (!reader->is_part)
         snprintf(where, sizeof where, ": byte %td", reader->place - reader->start);
     const PlyQuote quote = ply_reader_quote(reader->element);
     if (reader->element.length > 0 && reader->index < 0)

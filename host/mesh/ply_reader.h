@@ -36,11 +36,12 @@ typedef struct {
     PlyWord element;         // name of the element being read; empty in the header
     int64_t index;           // index of the element being read; if negative, messages omit it
     bool is_tolerant;        // accepts huge numbers, and reads words such as inf and nan as NaN
+    bool is_part;            // the bytes are not a file of the user, so messages omit the position
     Error *error;
 } PlyReader;
 
 // Sets the error to "NAME:LINE: ELEMENT INDEX: MESSAGE", or to "NAME: byte OFFSET: ELEMENT INDEX:
-// MESSAGE" in a binary body. Returns false.
+// MESSAGE" in a binary body. Omits LINE and OFFSET if reader->is_part. Returns false.
 __attribute__((format(printf, 2, 3))) bool ply_reader_fail(const PlyReader *reader,
                                                            const char *format, ...);
 

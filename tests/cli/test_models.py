@@ -358,7 +358,7 @@ class Hostile(Work):
         bad = [(float("nan"), 0, 0)] + POINTS[1:]
         self.write(a_stl=models.stl(bad, TRIANGLES))
         told = self.clrt("a.stl", "-o", "a.pfm", code=3)
-        self.assertRegex(told, r"^clrt: a\.stl: part 0: .* x is -?nan, not a finite number")
+        self.assertRegex(told, r"^clrt: a\.stl: part 0: vertex 0: x is -?nan, not a finite number")
         self.clrt("check", "a.stl", code=1)
 
     def test_a_model_without_triangles_is_refused(self):

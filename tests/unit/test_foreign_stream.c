@@ -134,12 +134,16 @@ TEST(a_path_may_be_as_long_as_the_system_has_them)
 
 TEST(a_part_goes_through_the_checks_of_ply)
 {
-    Builder builder = {0};
+    const char *const bad = "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n";
+    const ForeignMaterial red = {.name = "red"};
+    Builder plain = {0}, builder = {0};
+    put_part(&plain, FOREIGN_NO_MATERIAL, bad);
+    expect_failure(&plain, "m.obj: part 0: element vertex lacks x, y or z");
+    put_record(&builder, FOREIGN_MATERIAL, 0, &red, sizeof red);
     put_part(&builder, FOREIGN_NO_MATERIAL, TRIANGLE);
-    put_part(&builder, FOREIGN_NO_MATERIAL,
-             "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n");
+    put_part(&builder, 0, bad);
     put_text(&builder, FOREIGN_END, "");
-    expect_failure(&builder, "m.obj: part 1:3: element vertex lacks x, y or z");
+    expect_failure(&builder, "m.obj: part 1, material red: element vertex lacks x, y or z");
 }
 
 TEST(a_reason_is_reported_in_plain_letters)
