@@ -6,6 +6,7 @@
 #include "base/array.h"
 
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,20 +29,6 @@ char *text_format(Error *error, const char *format, ...)
 char *text_copy(const char *text, Error *error)
 {
     return text_format(error, "%s", text);
-}
-
-void text_print(FILE *stream, const char *format, ...)
-{
-    char *text;
-    va_list arguments;
-    va_start(arguments, format);
-    const bool ok = vasprintf(&text, format, arguments) >= 0;
-    va_end(arguments);
-    if (!ok)
-        return;
-    text_hide_controls(text);
-    fputs(text, stream);
-    free(text);
 }
 
 bool text_is(const char *text, size_t length, const char *word)

@@ -5,14 +5,10 @@
 #include "base/error.h"
 
 #include <stddef.h>
-#include <stdio.h>
 
 // Both functions return a new text, or NULL if memory runs out. The caller frees the text.
 char *text_copy(const char *text, Error *error);
 __attribute__((format(printf, 2, 3))) char *text_format(Error *error, const char *format, ...);
-
-// Prints as fprintf does, and replaces control characters as text_hide_controls does.
-__attribute__((format(printf, 2, 3))) void text_print(FILE *stream, const char *format, ...);
 
 // Returns whether the `length` characters of `text` are the whole word.
 bool text_is(const char *text, size_t length, const char *word);

@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 
 #include "base/clock.h"
-#include "base/text.h"
+#include "base/print.h"
 #include "check/measure.h"
 #include "cli/stages.h"
 #include "image/json_file.h"
@@ -129,7 +129,7 @@ static void write_material(const Scene *scene, uint32_t material, FILE *stream)
 {
     for (size_t i = 0; i < scene->material_names.list.count; i++)
         if (scene->material_names.list.data[i]->material == material)
-            text_print(stream, ", material %s", scene->material_names.list.data[i]->name);
+            print_text(stream, ", material %s", scene->material_names.list.data[i]->name);
 }
 
 static void write_count(size_t count, const char *one, const char *many, FILE *stream)
@@ -174,7 +174,7 @@ static void write_mesh(const Check *check, const json_t *mesh, size_t object, FI
 static void write_counts(const Check *check, FILE *stream)
 {
     const Scene *scene = check->scene;
-    text_print(stream, "%s: ", check->scene_path);
+    print_text(stream, "%s: ", check->scene_path);
     write_count(scene->objects.count, "mesh, ", "meshes, ", stream);
     write_count(scene_triangle_count(scene), "triangle", "triangles", stream);
     if (scene->mesh_up == UP_AUTO) {

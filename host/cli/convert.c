@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "base/output_file.h"
+#include "base/print.h"
 #include "base/text.h"
 #include "cli/stages.h"
 #include "mesh/ply_write.h"
@@ -38,7 +39,7 @@ static bool write_mesh(const Conversion *conversion, Mesh *mesh, const char *pat
     if (!output_file_write(path, write_ply, mesh, error))
         return false;
     if (conversion->options->verbose)
-        text_print(stderr, "%s: %zu triangles\n", path, mesh->triangle_count);
+        print_text(stderr, "%s: %zu triangles\n", path, mesh->triangle_count);
     return true;
 }
 

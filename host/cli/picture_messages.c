@@ -2,7 +2,7 @@
 // Prints notes about a picture, and describes pictures that miss a goal or are stopped.
 #include "cli/picture_messages.h"
 
-#include "base/text.h"
+#include "base/print.h"
 #include "cli/progress.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ void picture_print_beginning(const Picture *picture)
     if (!picture->options->verbose)
         return;
     if (frames_are_many(&picture->options->frames))
-        text_print(stderr, "picture: %s\n", picture->path);
+        print_text(stderr, "picture: %s\n", picture->path);
     if (picture->options->resume)
         fprintf(stderr, "resumed: %llu of %llu tiles were finished before\n",
                 (unsigned long long)picture->request.settings.ready_tiles,
@@ -52,7 +52,7 @@ void picture_print_end(Picture *picture)
     const Framebuffer *framebuffer = &picture->framebuffer;
     const double seconds = stage_lap(&picture->moment);
     if (progress_on_terminal() && !picture->options->quiet && strcmp(picture->path, "-") != 0)
-        text_print(stderr, "wrote %s (%ux%u, %.2f s)\n", picture->path, framebuffer->width,
+        print_text(stderr, "wrote %s (%ux%u, %.2f s)\n", picture->path, framebuffer->width,
                    framebuffer->height, seconds);
 }
 

@@ -4,7 +4,7 @@
 #include "cli/stages.h"
 
 #include "base/clock.h"
-#include "base/text.h"
+#include "base/print.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "image/image_file.h"
@@ -37,7 +37,7 @@ void stage_note(const Options *options, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    text_print(stderr, "clrt: %s\n", text);
+    print_text(stderr, "clrt: %s\n", text);
 }
 
 SessionSettings stage_settings(const Options *options)

@@ -3,6 +3,7 @@
 // light.
 #include "explain/lights.h"
 
+#include "base/print.h"
 #include "base/text.h"
 #include "image/json_file.h"
 
@@ -27,7 +28,7 @@ void explain_print_primitive(const ExplainReport *report, const json_t *primitiv
     const char *path = json_string_value(json_object_get(primitive, "file"));
     json_print(primitive, "{kind} {number}", stream);
     if (path != NULL)
-        text_print(stream, " of %s", report->is_brief ? text_file_name(path) : path);
+        print_text(stream, " of %s", report->is_brief ? text_file_name(path) : path);
 }
 
 // Prints the diffuse and specular light that the surface receives from one light.

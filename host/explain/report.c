@@ -4,7 +4,7 @@
 // --aov channel "primitive".
 #include "explain/report.h"
 
-#include "base/text.h"
+#include "base/print.h"
 #include "image/json_file.h"
 
 #include <assert.h>
@@ -278,7 +278,7 @@ bool explain_write_text(const ExplainReport *report, Explainer *explainer, FILE 
     fprintf(stream, "pixel %u,%u of %u x %u", report->pixel[0], report->pixel[1],
             report->settings->width, report->settings->height);
     if (!report->is_brief)
-        text_print(stream, ", view %u of %s", report->view, report->scene_path);
+        print_text(stream, ", view %u of %s", report->view, report->scene_path);
     fputs("\n", stream);
     json_t *json = report_json(report, explainer, stream, error);
     if (json != NULL)

@@ -3,7 +3,7 @@
 #include "image/json_file.h"
 
 #include "base/output_file.h"
-#include "base/text.h"
+#include "base/print.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -82,7 +82,7 @@ static void print_value(const json_t *value, const char *format, int most, FILE 
     if (json_is_integer(value))
         fprintf(stream, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
     if (json_is_string(value))
-        text_print(stream, "%s", json_string_value(value));
+        print_text(stream, "%s", json_string_value(value));
     if (json_is_integer(value) || json_is_string(value))
         return;
     const int width = (int)strtol(format, &point, 10), given = (int)strtol(point + 1, &kind, 10);

@@ -3,6 +3,7 @@
 #include "view/viewer_inside.h"
 
 #include "base/clock.h"
+#include "base/print.h"
 #include "base/text.h"
 
 #include <inttypes.h>
@@ -273,6 +274,6 @@ void viewer_save(Viewer *viewer)
     const bool ok =
         target_read(&viewer->views.target, &shown, &viewer->failure) && save(viewer, &shown);
     if (ok && viewer->settings.verbose)
-        text_print(stderr, "%s\n", viewer->notice);
+        print_text(stderr, "%s\n", viewer->notice);
     framebuffer_free(&shown);
 }
