@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Callers pass rays in fp64 and in scene coordinates. The device receives them in float and in
-// normalized coordinates. A ray's direction is scaled by a power of
-// two so that its largest component is in [1, 2). The device's t then stays in the range of floats.
-// An origin is far if the magnitude of a coordinate exceeds the side of a cube around the scene.
-// Rounding such an origin to float would move the ray too far, so the origin first advances to the
-// cube.
+// normalized coordinates. A ray's direction is scaled by a power of two so that its largest
+// component is in [1, 2). The device's t then stays in the range of floats. An origin is far if the
+// magnitude of a coordinate exceeds the side of a cube around the scene. Rounding such an origin to
+// float would move the ray too far, so the origin first advances to the cube.
 //
 // The threads of a pool share the conversions, because a single thread would limit a device with
 // many cores to about 50 million rays per second.
