@@ -14,8 +14,9 @@
 #define RANGE_ENTRIES 1024
 
 // Compiles a function twice, for processors with and without AVX2. With AVX2, calls for camera rays
-// take 6 % less time. Both variants contain the INLINED functions that they call. ThreadSanitizer
-// allows no variants, because the loader would choose one before it is ready.
+// take 6 % less time. Both variants contain the INLINED functions that they call. Builds for
+// ThreadSanitizer have a single variant, because the loader would choose a variant before
+// ThreadSanitizer is ready, and crash.
 #if defined __x86_64__ && !defined __SANITIZE_THREAD__
 #define FOR_AVX2_TOO __attribute__((target_clones("avx2", "default")))
 #else
