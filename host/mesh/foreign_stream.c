@@ -44,7 +44,7 @@ typedef struct {
     const char *next, *end;
     ForeignHead head; // head of the record whose data begins at `next`
     const char *name;
-    PlyParse *parse;
+    bool is_tolerant;
     Error *error;
 } Parser;
 
@@ -121,8 +121,12 @@ static bool take_part(Parser *parser)
         part.material == FOREIGN_NO_MATERIAL ? "" : model->materials.data[part.material].name;
     snprintf(name, sizeof name, "%s: part %zu%s%s", parser->name, model->parts.count,
              material[0] != '\0' ? ", material " : "", material);
-    PlyParse *parse = parser->parse == ply_parse ? ply_parse_part : parser->parse;
-    if (!parse(&part.mesh, parser->next, (size_t)parser->head.size, name, parser->error))
+    const PlySource source = {.bytes = parser->next,
+                              .size = (size_t)parser->head.size,
+                              .name = name,
+                              .is_tolerant = parser->is_tolerant,
+                              .is_part = true};
+    if (!ply_parse(&part.mesh, &source, parser->error))
         return false;
     if (array_push(&model->parts, part, parser->error))
         return true;
@@ -192,14 +196,14 @@ static bool read_records(Parser *parser)
 }
 
 bool foreign_stream_parse(ForeignModel *model, const File *stream, const char *name,
-                          PlyParse *parse, Error *error)
+                          bool is_tolerant, Error *error)
 {
     *model = (ForeignModel){0};
     Parser parser = {.model = model,
                      .next = stream->bytes,
                      .end = stream->size == 0 ? stream->bytes : stream->bytes + stream->size,
                      .name = name,
-                     .parse = parse,
+                     .is_tolerant = is_tolerant,
                      .error = error};
     if (read_records(&parser))
         return true;

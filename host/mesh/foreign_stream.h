@@ -37,8 +37,9 @@ typedef struct {
 // matter. Only the extension counts, because most of Assimp's formats have no magic bytes.
 bool foreign_format_is(const char *path);
 
-// Fills `model` from a stream. `name` is the model file's name for messages, and `parse` reads the
-// meshes. Returns false if the stream is damaged or reports a failure, or if memory runs out.
+// Fills `model` from a stream. `name` is the model file's name for messages, and `is_tolerant` is
+// PlySource::is_tolerant. Returns false if the stream is damaged or reports a failure, or if memory
+// runs out.
 bool foreign_stream_parse(ForeignModel *model, const File *stream, const char *name,
-                          PlyParse *parse, Error *error);
+                          bool is_tolerant, Error *error);
 void foreign_model_free(ForeignModel *model);

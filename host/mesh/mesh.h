@@ -33,7 +33,8 @@ typedef struct {
     MeshFault equal_corners; // removed triangles with two equal corners
     MeshFault lost_corners;  // removed triangles with a bad position
     // Vertices with a bad position, and vertices with a bad component of the normal: not finite or
-    // too large. Such positions and components become zero. Only ply_parse_tolerantly accepts them.
+    // too large. Such positions and components become zero. ply_parse accepts them only if
+    // PlySource::is_tolerant.
     MeshFault bad_positions, bad_normals;
 } Mesh;
 

@@ -257,43 +257,24 @@ static bool check_elements(const Loader *loader)
     return true;
 }
 
-static bool load(Mesh *mesh, PlyReader reader)
+bool ply_parse(Mesh *mesh, const PlySource *source, Error *error)
 {
-    Loader loader = {.reader = reader, .mesh = mesh};
+    Loader loader = {
+        .reader = {.name = source->name,
+                   .start = source->bytes,
+                   .end = source->size == 0 ? source->bytes : source->bytes + source->size,
+                   .is_tolerant = source->is_tolerant,
+                   .is_part = source->is_part,
+                   .error = error},
+        .mesh = mesh};
     *mesh = (Mesh){0};
     bool ok = ply_header_parse(&loader.header, &loader.reader) && read_elements(&loader) &&
               check_elements(&loader);
     mesh->triangles = loader.triangles.data;
     mesh->triangle_count = loader.triangles.count;
     ply_header_free(&loader.header);
-    ok = ok && mesh_drop_triangles(mesh, reader.error);
+    ok = ok && mesh_drop_triangles(mesh, error);
     if (!ok)
         mesh_free(mesh);
     return ok;
-}
-
-static PlyReader reader_of(const char *bytes, size_t size, const char *name, Error *error)
-{
-    return (PlyReader){
-        .name = name, .start = bytes, .end = size == 0 ? bytes : bytes + size, .error = error};
-}
-
-bool ply_parse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error)
-{
-    return load(mesh, reader_of(bytes, size, name, error));
-}
-
-bool ply_parse_part(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error)
-{
-    PlyReader reader = reader_of(bytes, size, name, error);
-    reader.is_part = true;
-    return load(mesh, reader);
-}
-
-bool ply_parse_tolerantly(Mesh *mesh, const char *bytes, size_t size, const char *name,
-                          Error *error)
-{
-    PlyReader reader = reader_of(bytes, size, name, error);
-    reader.is_tolerant = true;
-    return load(mesh, reader);
 }

@@ -8,7 +8,21 @@
 
 #include <stdbool.h>
 
-// Fills *mesh from the `size` bytes of a PLY file. Messages call the file `name`.
+typedef struct {
+    const char *bytes;
+    size_t size;
+    const char *name; // of the file, for messages
+
+    // Accepts positions and normals that are not finite or out of range, and counts them in the
+    // mesh. Also counts the triangles dropped because of bad positions. `clrt check` needs this.
+    bool is_tolerant;
+
+    // The bytes are a part that clrt-foreign sends. Messages give no lines and no byte offsets,
+    // because these are not positions in the model's file.
+    bool is_part;
+} PlySource;
+
+// Fills *mesh from a PLY file.
 //
 // The parser reads the properties x y z nx ny nz red green blue of the element vertex. It also
 // reads the list vertex_indices (or vertex_index) of the elements face and tristrips. It skips all
@@ -20,14 +34,4 @@
 // if a file without triangles has elements that the parser skips. The message gives the line or, in
 // a binary body, the byte offset. The parser allocates memory only if the file is long enough for
 // the elements.
-typedef bool PlyParse(Mesh *mesh, const char *bytes, size_t size, const char *name, Error *error);
-PlyParse ply_parse;
-
-// A variant of ply_parse for the parts that clrt-foreign sends. Its messages give no lines and no
-// byte offsets, because these are not positions in the model's file.
-PlyParse ply_parse_part;
-
-// A variant of ply_parse for clrt check. It accepts positions and normals that are not finite or
-// out of range, and counts them in *mesh. It also counts the triangles dropped because of bad
-// positions.
-PlyParse ply_parse_tolerantly;
+bool ply_parse(Mesh *mesh, const PlySource *source, Error *error);

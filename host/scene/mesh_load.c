@@ -150,7 +150,7 @@ bool mesh_load_foreign(Scene *scene, const char *path, const MeshLoadOptions *op
     Error cause = {0};
     const bool parsed = kept != NULL || foreign_run(&stream, &assimp, words, &cause)
                             ? foreign_stream_parse(&model, kept != NULL ? kept : &stream, path,
-                                                   options->parse, error)
+                                                   options->is_tolerant, error)
                             : error_set(error, "%s: %s", path, cause.text);
     if (kept == NULL)
         keep_or_free(options->kept, path, &stream);
@@ -165,8 +165,11 @@ bool mesh_load_ply(Scene *scene, const File *file, const char *path, const MeshL
     MeshObject object = options->object;
     object.input = (uint32_t)scene->inputs.count;
     scene_hash_mesh(scene, file->bytes, file->size);
-    bool ok = options->parse(&object.mesh, file->bytes, file->size, path, error) &&
-              scene_add_input(scene, path, error);
+    const PlySource source = {.bytes = file->bytes,
+                              .size = file->size,
+                              .name = path,
+                              .is_tolerant = options->is_tolerant};
+    bool ok = ply_parse(&object.mesh, &source, error) && scene_add_input(scene, path, error);
     choose_colors(&object, options);
     ok = ok && array_push(&scene->objects, object, error);
     if (!ok)
@@ -201,7 +204,7 @@ bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *
 {
     Error cause = {0};
     double crease = options->crease_degrees;
-    const size_t end = options->parse == ply_parse ? scene->objects.count : first;
+    const size_t end = options->is_tolerant ? first : scene->objects.count;
     // For a single mesh, mesh_compute_normals chooses the angle, which saves a second pass over the
     // edges.
     if (crease == CREASE_BY_SHAPE && end > first + 1 &&

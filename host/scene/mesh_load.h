@@ -32,7 +32,7 @@ typedef struct {
     bool takes_own_materials;  // shows the materials and colors of the file if it has any
     uint32_t colored_material; // the material of meshes whose files define colors, but no material
     bool is_plain_ply;         // for `ply_file`, which reads only PLY and has no transforms
-    PlyParse *parse;           // the reader of PLY files
+    bool is_tolerant;          // PlySource::is_tolerant
     KeptFiles *kept;           // outputs for other formats; borrowed; NULL keeps none
 } MeshLoadOptions;
 
@@ -47,8 +47,8 @@ bool mesh_load_ply(Scene *scene, const File *file, const char *path, const MeshL
 bool mesh_load_foreign(Scene *scene, const char *path, const MeshLoadOptions *options,
                        Error *error);
 
-// Drops or computes the normals of the scene's objects from index `first` on. Does not change
-// meshes that ply_parse_tolerantly has read, because clrt check reports the vertices of the file.
-// On failure, returns false with a message that names the file.
+// Drops or computes the normals of the scene's objects from index `first` on. Does
+// nothing if options->is_tolerant, because clrt check reports the vertices of the file. On failure,
+// returns false with a message that names the file.
 bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
                        Error *error);

@@ -325,7 +325,7 @@ static MeshLoadOptions mesh_options_of(const SceneLoadOptions *options)
                              .crease_degrees =
                                  is_chosen ? options->crease_degrees : CREASE_BY_SHAPE,
                              .takes_own_materials = true,
-                             .parse = options->is_tolerant ? ply_parse_tolerantly : ply_parse};
+                             .is_tolerant = options->is_tolerant};
 }
 
 bool mesh_scene_fill(Scene *scene, const File *ply, const char *path,

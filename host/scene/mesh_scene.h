@@ -18,7 +18,7 @@ typedef enum { STUDIO_HARD, STUDIO_SOFT } StudioLights;
 // the normals and the lights. For scene text, scn_load therefore fails unless `up`, `normals` and
 // `studio` are 0.
 typedef struct {
-    bool is_tolerant;      // reads meshes with ply_parse_tolerantly
+    bool is_tolerant;      // PlySource::is_tolerant
     UpAxis up;             // of a lone mesh file
     Normals normals;       // of a lone mesh file
     double crease_degrees; // an angle or CREASE_BY_SHAPE; used only with NORMALS_SMOOTH

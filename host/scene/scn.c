@@ -283,8 +283,8 @@ static bool read_statements(Parser *parser)
            tokens_fail(&parser->tokens, parser->waiting_up, "no camera follows this 'up'");
 }
 
-// Parses the text of a scene file. parser->scene, parser->mesh.parse and parser->error must be set.
-// Frees the scene on failure.
+// Parses the text of a scene file. parser->scene and parser->error must be set. Frees the scene on
+// failure.
 static bool parse(Parser *parser, const char *text, size_t size, const char *name)
 {
     parser->tokens = tokens_of(text, size, name, parser->error);
@@ -304,7 +304,7 @@ static bool parse(Parser *parser, const char *text, size_t size, const char *nam
 
 bool scn_parse(Scene *scene, const char *text, size_t size, const char *name, Error *error)
 {
-    Parser parser = {.scene = scene, .mesh.parse = ply_parse, .error = error};
+    Parser parser = {.scene = scene, .error = error};
     return parse(&parser, text, size, name);
 }
 
@@ -354,9 +354,7 @@ static bool check_for_text(const SceneLoadOptions *options, const char *name, Er
 bool scn_take(Scene *scene, const File *file, const char *name, const SceneLoadOptions *options,
               Error *error)
 {
-    Parser parser = {.scene = scene,
-                     .mesh.parse = options->is_tolerant ? ply_parse_tolerantly : ply_parse,
-                     .error = error};
+    Parser parser = {.scene = scene, .mesh.is_tolerant = options->is_tolerant, .error = error};
     if (file_has_ending(name, ".ply") || mesh_scene_is_mesh(file->bytes, file->size))
         return load_mesh(scene, file, name, options, error);
     return check_for_text(options, name, error) && load_text(&parser, file, name);

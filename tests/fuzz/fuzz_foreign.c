@@ -38,7 +38,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     ForeignModel model;
     Error error = {0};
     const File stream = {(char *)(uintptr_t)data, size};
-    if (foreign_stream_parse(&model, &stream, "fuzz.obj", ply_parse, &error)) {
+    if (foreign_stream_parse(&model, &stream, "fuzz.obj", false, &error)) {
         demand(model.files.count == model.hashes.count);
         for (size_t i = 0; i < model.materials.count; i++)
             check_material(&model.materials.data[i]);

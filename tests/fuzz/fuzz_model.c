@@ -39,7 +39,7 @@ static void read_back(const File *stream)
 {
     ForeignModel model;
     Error error = {0};
-    const bool is_read = foreign_stream_parse(&model, stream, "m", ply_parse, &error);
+    const bool is_read = foreign_stream_parse(&model, stream, "m", false, &error);
     demand(is_read ? model.parts.count > 0 && model.files.count > 0 : error.text[0] != '\0');
     foreign_model_free(&model);
 }

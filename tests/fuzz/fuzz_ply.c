@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: parses any bytes as a PLY file. A parsed mesh must satisfy mesh/mesh.h, with
 // and without computed normals. A failure must return a message and no mesh. A mesh that
-// ply_parse_tolerantly returns must also satisfy mesh.h, and be valid input for clrt check.
+// a tolerant parse returns must also satisfy mesh.h, and be valid input for clrt check.
 #include "demand.h"
 
 #include "check/census.h"
@@ -38,11 +38,12 @@ static void judge_mesh(const Mesh *mesh)
     edges_free(&edges);
 }
 
-static void read_tolerantly(const uint8_t *data, size_t size)
+static void read_tolerantly(PlySource source)
 {
+    source.is_tolerant = true;
     Mesh mesh;
     Error error = {0};
-    if (ply_parse_tolerantly(&mesh, (const char *)data, size, "fuzz.ply", &error)) {
+    if (ply_parse(&mesh, &source, &error)) {
         check_mesh(&mesh);
         judge_mesh(&mesh);
     }
@@ -51,10 +52,11 @@ static void read_tolerantly(const uint8_t *data, size_t size)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    read_tolerantly(data, size);
+    const PlySource source = {(const char *)data, size, "fuzz.ply"};
+    read_tolerantly(source);
     Mesh mesh;
     Error error = {0};
-    if (ply_parse(&mesh, (const char *)data, size, "fuzz.ply", &error)) {
+    if (ply_parse(&mesh, &source, &error)) {
         check_mesh(&mesh);
         demand(mesh_compute_normals(&mesh, CREASE_DEGREES, &error));
         check_mesh(&mesh);

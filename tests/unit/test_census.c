@@ -44,7 +44,7 @@ static Mesh mesh_read(const char *points, const char *faces)
     Error error = {0};
     char bytes[16384];
     const size_t size = write_ply(bytes, sizeof bytes, points, faces);
-    if (!ply_parse_tolerantly(&mesh, bytes, size, "t.ply", &error))
+    if (!ply_parse(&mesh, &(PlySource){bytes, size, "t.ply", .is_tolerant = true}, &error))
         fail_msg("%s", error.text);
     return mesh;
 }
@@ -225,12 +225,14 @@ TEST(numbers_that_are_not_finite_are_counted_in_binary_files_too)
     memcpy(bytes, head, sizeof head - 1);
     memcpy(bytes + sizeof head - 1, values, sizeof values);
     const size_t size = sizeof head - 1 + sizeof values;
-    assert_true(ply_parse_tolerantly(&mesh, bytes, size, "t.ply", &error));
+    PlySource source = {bytes, size, "t.ply", .is_tolerant = true};
+    assert_true(ply_parse(&mesh, &source, &error));
     expect_fault(&mesh.bad_positions, (Expected){1, 1});
     expect_fault(&mesh.bad_normals, (Expected){2, 0});
     assert_true(mesh.normals[2][0] == 0 && mesh.normals[2][2] == 0 && mesh.positions[2][0] == 2);
     mesh_free(&mesh);
-    assert_false(ply_parse(&mesh, bytes, size, "t.ply", &error));
+    source.is_tolerant = false;
+    assert_false(ply_parse(&mesh, &source, &error));
 }
 
 TEST(two_equal_corners_are_reported_with_the_triangles_number_in_the_file)

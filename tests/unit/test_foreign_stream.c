@@ -62,7 +62,7 @@ static bool parse(ForeignModel *model, const char *bytes, size_t size, Error *er
     memcpy(copy, bytes, size);
     *error = (Error){0};
     const File stream = {copy, size};
-    const bool ok = foreign_stream_parse(model, &stream, "m.obj", ply_parse, error);
+    const bool ok = foreign_stream_parse(model, &stream, "m.obj", false, error);
     free(copy);
     const ForeignModel empty = {0};
     if (ok ? error->text[0] != '\0' : memcmp(model, &empty, sizeof empty) != 0)

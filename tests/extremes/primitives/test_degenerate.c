@@ -23,8 +23,8 @@ static Mesh flat_mesh(void)
 {
     Mesh mesh;
     Error error = {0};
-    require(ply_parse(&mesh, flat_triangles, strlen(flat_triangles), "extremes.ply", &error),
-            &error);
+    const PlySource source = {flat_triangles, strlen(flat_triangles), "extremes.ply"};
+    require(ply_parse(&mesh, &source, &error), &error);
     return mesh;
 }
 
