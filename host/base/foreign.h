@@ -18,6 +18,7 @@
 typedef enum {
     FOREIGN_FILE = 1, // a ForeignHash and the path of an input file; the model file comes first
     FOREIGN_MATERIAL, // a ForeignMaterial
+    FOREIGN_OBJECT,   // the name of an object in the next part that has an invalid vertex
     FOREIGN_PART,     // a binary PLY file; ForeignHead.number is the index of its material
     FOREIGN_NOTE,     // a message about omitted data
     FOREIGN_PICTURE,  // a StoredImage and its values

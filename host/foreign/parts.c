@@ -7,6 +7,7 @@
 #include "base/limits.h"
 
 #include <assimp/material.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -293,6 +294,17 @@ static bool reserve_vertices(Sender *sender, size_t count, bool has_normals, boo
     return ok;
 }
 
+// Returns whether the receiver rejects one of the `count` vertices after the part's vertices.
+static bool has_invalid_vertex(const Mesh *part, size_t count)
+{
+    for (size_t i = part->vertex_count; i < part->vertex_count + count; i++)
+        for (int axis = 0; axis < 3; axis++)
+            if (!(fabs(part->positions[i][axis]) < COORDINATE_MOST) ||
+                (part->normals != NULL && !isfinite(part->normals[i][axis])))
+                return true;
+    return false;
+}
+
 static bool add_mesh(Sender *sender, const struct aiMesh *mesh, const Placement *placement)
 {
     Mesh *part = &sender->part.mesh;
@@ -312,6 +324,8 @@ static bool add_mesh(Sender *sender, const struct aiMesh *mesh, const Placement 
         place_normals(sender, mesh, &normal_matrix);
     if (has_colors)
         copy_colors(sender, mesh);
+    if (mesh->mName.length > 0 && has_invalid_vertex(part, mesh->mNumVertices))
+        send_text(sender->stream, FOREIGN_OBJECT, "%s", mesh->mName.data);
     if (!add_triangles(sender, mesh, normal_matrix.is_mirror))
         return false;
     part->vertex_count += mesh->mNumVertices;

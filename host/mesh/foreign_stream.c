@@ -44,6 +44,7 @@ typedef struct {
     const char *next, *end;
     ForeignHead head; // head of the record whose data begins at `next`
     const char *name;
+    char object[64]; // ", object NAME" if the next part has an invalid vertex and the name is known
     bool is_tolerant;
     Error *error;
 } Parser;
@@ -110,6 +111,18 @@ static bool take_material(Parser *parser)
     return array_push(&parser->model->materials, material, parser->error);
 }
 
+static bool take_object(Parser *parser)
+{
+    char *name = copy_text(parser, parser->next, (size_t)parser->head.size);
+    if (name == NULL)
+        return false;
+    foreign_make_printable(name, strlen(name), '?');
+    if (parser->object[0] == '\0')
+        snprintf(parser->object, sizeof parser->object, ", object %.50s", name);
+    free(name);
+    return true;
+}
+
 static bool take_part(Parser *parser)
 {
     ForeignPart part = {.material = parser->head.number};
@@ -119,8 +132,9 @@ static bool take_part(Parser *parser)
         return fail_damaged(parser);
     const char *material =
         part.material == FOREIGN_NO_MATERIAL ? "" : model->materials.data[part.material].name;
-    snprintf(name, sizeof name, "%s: part %zu%s%s", parser->name, model->parts.count,
-             material[0] != '\0' ? ", material " : "", material);
+    snprintf(name, sizeof name, "%s: part %zu%s%s%s", parser->name, model->parts.count,
+             material[0] != '\0' ? ", material " : "", material, parser->object);
+    parser->object[0] = '\0';
     const PlySource source = {.bytes = parser->next,
                               .size = (size_t)parser->head.size,
                               .name = name,
@@ -163,6 +177,8 @@ static bool take_record(Parser *parser)
         return take_file(parser);
     case FOREIGN_MATERIAL:
         return take_material(parser);
+    case FOREIGN_OBJECT:
+        return take_object(parser);
     case FOREIGN_PART:
         return take_part(parser);
     case FOREIGN_NOTE:

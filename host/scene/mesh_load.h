@@ -47,8 +47,8 @@ bool mesh_load_ply(Scene *scene, const File *file, const char *path, const MeshL
 bool mesh_load_foreign(Scene *scene, const char *path, const MeshLoadOptions *options,
                        Error *error);
 
-// Drops or computes the normals of the scene's objects from index `first` on. Does
-// nothing if options->is_tolerant, because clrt check reports the vertices of the file. On failure,
-// returns false with a message that names the file.
+// Drops or computes the normals of the scene's objects from index `first` on. Does nothing if
+// options->is_tolerant, because clrt check reports the vertices of the file. On failure, returns
+// false with a message that names the file.
 bool mesh_load_normals(const Scene *scene, size_t first, const MeshLoadOptions *options,
                        Error *error);

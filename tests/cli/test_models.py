@@ -361,6 +361,12 @@ class Hostile(Work):
         self.assertRegex(told, r"^clrt: a\.stl: part 0: vertex 0: x is -?nan, not a finite number")
         self.clrt("check", "a.stl", code=1)
 
+    def test_messages_about_vertices_name_the_object(self):
+        text = "o lamp\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no chair\nv 0 0 1\nv 1e31 0 1\nv 0 1 1\nf 4 5 6\n"
+        self.write(a_obj=text)
+        told = self.clrt("a.obj", "-o", "a.pfm", code=3)
+        self.assertRegex(told, r"^clrt: a\.obj: part 0, object chair: vertex \d: x is 1e\+31")
+
     def test_a_model_without_triangles_is_refused(self):
         self.write(a_obj="v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n", a_3mf=models.three_mf("<model/>", False))
         self.fails("a.obj: there are no triangles in it, only 2 lines and points", "a.obj")

@@ -52,7 +52,7 @@ static void read_tolerantly(PlySource source)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    const PlySource source = {(const char *)data, size, "fuzz.ply"};
+    const PlySource source = {.bytes = (const char *)data, .size = size, .name = "fuzz.ply"};
     read_tolerantly(source);
     Mesh mesh;
     Error error = {0};

@@ -48,7 +48,8 @@ static inline bool parse(Mesh *mesh, const char *bytes, size_t size, Error *erro
     assert_non_null(copy);
     memcpy(copy, bytes, size);
     *error = (Error){0};
-    const bool ok = ply_parse(mesh, &(PlySource){copy, size, "t.ply"}, error);
+    const bool ok =
+        ply_parse(mesh, &(PlySource){.bytes = copy, .size = size, .name = "t.ply"}, error);
     free(copy);
     const Mesh empty = {0};
     if (ok && error->text[0] != '\0')

@@ -44,7 +44,9 @@ static Mesh mesh_read(const char *points, const char *faces)
     Error error = {0};
     char bytes[16384];
     const size_t size = write_ply(bytes, sizeof bytes, points, faces);
-    if (!ply_parse(&mesh, &(PlySource){bytes, size, "t.ply", .is_tolerant = true}, &error))
+    if (!ply_parse(&mesh,
+                   &(PlySource){.bytes = bytes, .size = size, .name = "t.ply", .is_tolerant = true},
+                   &error))
         fail_msg("%s", error.text);
     return mesh;
 }
@@ -225,7 +227,7 @@ TEST(numbers_that_are_not_finite_are_counted_in_binary_files_too)
     memcpy(bytes, head, sizeof head - 1);
     memcpy(bytes + sizeof head - 1, values, sizeof values);
     const size_t size = sizeof head - 1 + sizeof values;
-    PlySource source = {bytes, size, "t.ply", .is_tolerant = true};
+    PlySource source = {.bytes = bytes, .size = size, .name = "t.ply", .is_tolerant = true};
     assert_true(ply_parse(&mesh, &source, &error));
     expect_fault(&mesh.bad_positions, (Expected){1, 1});
     expect_fault(&mesh.bad_normals, (Expected){2, 0});

@@ -146,6 +146,18 @@ TEST(a_part_goes_through_the_checks_of_ply)
     expect_failure(&builder, "m.obj: part 1, material red: element vertex lacks x, y or z");
 }
 
+TEST(messages_name_the_first_invalid_object_of_their_part)
+{
+    const char *const bad = "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n";
+    Builder builder = {0};
+    put_text(&builder, FOREIGN_OBJECT, "other");
+    put_part(&builder, FOREIGN_NO_MATERIAL, TRIANGLE);
+    put_text(&builder, FOREIGN_OBJECT, "chair\x1b");
+    put_text(&builder, FOREIGN_OBJECT, "lamp");
+    put_part(&builder, FOREIGN_NO_MATERIAL, bad);
+    expect_failure(&builder, "m.obj: part 1, object chair?: element vertex lacks x, y or z");
+}
+
 TEST(a_reason_is_reported_in_plain_letters)
 {
     Builder builder = {0};

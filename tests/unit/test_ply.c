@@ -140,7 +140,7 @@ static void expect_same(Mesh mesh, size_t vertex_size)
 
     FREED_BY(mesh_free) Mesh again;
     Error error = {0};
-    if (!ply_parse(&again, &(PlySource){bytes, size, "t.ply"}, &error))
+    if (!ply_parse(&again, &(PlySource){.bytes = bytes, .size = size, .name = "t.ply"}, &error))
         fail_msg("%s", error.text);
     assert_int_equal(again.vertex_count, mesh.vertex_count);
     assert_int_equal(again.triangle_count, mesh.triangle_count);

@@ -23,7 +23,8 @@ static Mesh flat_mesh(void)
 {
     Mesh mesh;
     Error error = {0};
-    const PlySource source = {flat_triangles, strlen(flat_triangles), "extremes.ply"};
+    const PlySource source = {
+        .bytes = flat_triangles, .size = strlen(flat_triangles), .name = "extremes.ply"};
     require(ply_parse(&mesh, &source, &error), &error);
     return mesh;
 }
