@@ -11,7 +11,7 @@
 // initialized the member `size`.
 #define LARGEST_STRUCT 4096
 
-bool check_fail(ClrtError *error, ClrtFault fault, const char *format, ...)
+bool library_fail(ClrtError *error, ClrtFault fault, const char *format, ...)
 {
     va_list arguments;
     if (error == NULL)
@@ -23,41 +23,41 @@ bool check_fail(ClrtError *error, ClrtFault fault, const char *format, ...)
     return false;
 }
 
-bool check_fail_for(ClrtError *error, ClrtFault fault, const Error *cause)
+bool library_fail_for(ClrtError *error, ClrtFault fault, const Error *cause)
 {
-    return check_fail(error, fault, "%s", cause->text);
+    return library_fail(error, fault, "%s", cause->text);
 }
 
-bool check_given(ClrtError *error, const char *what, const void *pointer)
+bool argument_given(ClrtError *error, const char *what, const void *pointer)
 {
-    return pointer != NULL || check_fail(error, CLRT_ARGUMENT, "%s is NULL", what);
+    return pointer != NULL || library_fail(error, CLRT_ARGUMENT, "%s is NULL", what);
 }
 
 // NaN fails both comparisons.
-bool check_number(ClrtError *error, const char *what, double number, double low, double high)
+bool argument_number(ClrtError *error, const char *what, double number, double low, double high)
 {
     return (number >= low && number <= high) ||
-           check_fail(error, CLRT_ARGUMENT, "%s is %.10g, not between %g and %g", what, number, low,
-                      high);
+           library_fail(error, CLRT_ARGUMENT, "%s is %.10g, not between %g and %g", what, number,
+                        low, high);
 }
 
-static bool check_three(ClrtError *error, const char *what, const double three[3], double low,
-                        double high)
+static bool argument_three(ClrtError *error, const char *what, const double three[3], double low,
+                           double high)
 {
     for (int i = 0; i < 3; i++)
-        if (!check_number(error, what, three[i], low, high))
+        if (!argument_number(error, what, three[i], low, high))
             return false;
     return true;
 }
 
-bool check_vector(ClrtError *error, const char *what, const double vector[3], double most)
+bool argument_vector(ClrtError *error, const char *what, const double vector[3], double most)
 {
-    return check_given(error, what, vector) && check_three(error, what, vector, -most, most);
+    return argument_given(error, what, vector) && argument_three(error, what, vector, -most, most);
 }
 
-bool check_color(ClrtError *error, const char *what, const double color[3])
+bool argument_color(ClrtError *error, const char *what, const double color[3])
 {
-    return check_given(error, what, color) && check_three(error, what, color, 0, 1);
+    return argument_given(error, what, color) && argument_three(error, what, color, 0, 1);
 }
 
 // Returns whether all bytes are zero. Members that only later versions have must be zero, because
@@ -70,28 +70,28 @@ static bool is_zero(const unsigned char *bytes, size_t size)
     return true;
 }
 
-bool check_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size)
+bool argument_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size)
 {
     size_t given_size;
-    if (!check_given(error, what, given))
+    if (!argument_given(error, what, given))
         return false;
     memcpy(&given_size, given, sizeof given_size);
     if (given_size < sizeof given_size || given_size > LARGEST_STRUCT)
-        return check_fail(error, CLRT_ARGUMENT, "%s has a size of %zu, not %zu", what, given_size,
-                          size);
+        return library_fail(error, CLRT_ARGUMENT, "%s has a size of %zu, not %zu", what, given_size,
+                            size);
     const size_t known = given_size < size ? given_size : size;
     memset(copy, 0, size);
     memcpy(copy, given, known);
     return is_zero((const unsigned char *)given + known, given_size - known) ||
-           check_fail(error, CLRT_ARGUMENT, "%s sets members that libclrt %s does not know", what,
-                      clrt_version());
+           library_fail(error, CLRT_ARGUMENT, "%s sets members that libclrt %s does not know", what,
+                        clrt_version());
 }
 
-bool fill_struct(ClrtError *error, const char *what, void *given, const void *filled, size_t size)
+bool argument_fill(ClrtError *error, const char *what, void *given, const void *filled, size_t size)
 {
     size_t given_size;
     unsigned char unused[LARGEST_STRUCT];
-    if (!check_struct(error, what, given, unused, size))
+    if (!argument_struct(error, what, given, unused, size))
         return false;
     memcpy(&given_size, given, sizeof given_size);
     memcpy(given, filled, given_size < size ? given_size : size);

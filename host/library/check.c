@@ -54,33 +54,33 @@ ClrtCheck *clrt_check(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError 
     renderer_handle_end(renderer);
     if (ok)
         return made;
-    check_fail_for(error, CLRT_DEVICE, &cause);
+    library_fail_for(error, CLRT_DEVICE, &cause);
     clrt_check_free(made);
     return NULL;
 }
 
 bool clrt_check_get_info(const ClrtCheck *check, ClrtCheckInfo *info, ClrtError *error)
 {
-    return check_given(error, "the check", check) &&
-           fill_struct(error, "the info", info, &check->info, sizeof check->info);
+    return argument_given(error, "the check", check) &&
+           argument_fill(error, "the info", info, &check->info, sizeof check->info);
 }
 
 bool clrt_check_get_mesh(const ClrtCheck *check, uint32_t number, ClrtCheckedMesh *mesh,
                          ClrtError *error)
 {
-    if (!check_given(error, "the check", check))
+    if (!argument_given(error, "the check", check))
         return false;
     if (number >= check->info.mesh_count)
-        return check_fail(error, CLRT_ARGUMENT, "there is no mesh %u", number);
-    return fill_struct(error, "the mesh", mesh, &check->meshes[number], sizeof *mesh);
+        return library_fail(error, CLRT_ARGUMENT, "there is no mesh %u", number);
+    return argument_fill(error, "the mesh", mesh, &check->meshes[number], sizeof *mesh);
 }
 
 bool clrt_check_get_finding(const ClrtCheck *check, uint32_t number, ClrtFinding *finding,
                             ClrtError *error)
 {
-    if (!check_given(error, "the check", check))
+    if (!argument_given(error, "the check", check))
         return false;
     if (number >= check->info.finding_count)
-        return check_fail(error, CLRT_ARGUMENT, "there is no finding %u", number);
-    return fill_struct(error, "the finding", finding, &check->findings[number], sizeof *finding);
+        return library_fail(error, CLRT_ARGUMENT, "there is no finding %u", number);
+    return argument_fill(error, "the finding", finding, &check->findings[number], sizeof *finding);
 }

@@ -14,27 +14,27 @@ uint32_t clrt_channel_count(void)
 bool clrt_channel_get(uint32_t number, ClrtChannelInfo *info, ClrtError *error)
 {
     if (number >= clrt_channel_count())
-        return check_fail(error, CLRT_ARGUMENT, "channel %u does not exist: there are %u", number,
-                          clrt_channel_count());
+        return library_fail(error, CLRT_ARGUMENT, "channel %u does not exist: there are %u", number,
+                            clrt_channel_count());
     const Aov *aov = &aov_table[number];
     ClrtChannelInfo filled = {.components = aov_channel_count(aov), .is_integer = aov->is_integer};
     snprintf(filled.name, sizeof filled.name, "%s", aov->name);
     snprintf(filled.help, sizeof filled.help, "%s", aov->help);
-    return fill_struct(error, "the info", info, &filled, sizeof filled);
+    return argument_fill(error, "the info", info, &filled, sizeof filled);
 }
 
 static bool take_channel(AovSet *set, const ClrtChannel *channel, ClrtError *error)
 {
     uint32_t row = 0;
-    if (!check_given(error, "a channel's name", channel->name) ||
-        !check_given(error, "a channel's memory", channel->values))
+    if (!argument_given(error, "a channel's name", channel->name) ||
+        !argument_given(error, "a channel's memory", channel->values))
         return false;
     while (row < clrt_channel_count() && strcmp(aov_table[row].name, channel->name) != 0)
         row++;
     if (row == clrt_channel_count())
-        return check_fail(error, CLRT_ARGUMENT, "there is no channel '%s'", channel->name);
+        return library_fail(error, CLRT_ARGUMENT, "there is no channel '%s'", channel->name);
     if ((*set >> row & 1) != 0)
-        return check_fail(error, CLRT_ARGUMENT, "the channel '%s' occurs twice", channel->name);
+        return library_fail(error, CLRT_ARGUMENT, "the channel '%s' occurs twice", channel->name);
     *set |= (AovSet)1 << row;
     return true;
 }
@@ -42,7 +42,7 @@ static bool take_channel(AovSet *set, const ClrtChannel *channel, ClrtError *err
 static bool take_channels(Drawing *drawing, ClrtError *error)
 {
     const ClrtPicture *wanted = &drawing->wanted;
-    if (wanted->channel_count > 0 && !check_given(error, "the channels", wanted->channels))
+    if (wanted->channel_count > 0 && !argument_given(error, "the channels", wanted->channels))
         return false;
     for (uint32_t i = 0; i < wanted->channel_count; i++)
         if (!take_channel(&drawing->channels, &wanted->channels[i], error))
@@ -58,15 +58,15 @@ static bool check_request(const Drawing *drawing, ClrtError *error)
         return true;
     switch (fault.rule) {
     case REQUEST_NUMBER:
-        return check_number(error, fault.setting, fault.value, fault.low, fault.high);
+        return argument_number(error, fault.setting, fault.value, fault.low, fault.high);
     case REQUEST_EVEN:
-        return check_fail(error, CLRT_ARGUMENT, "%s is odd", fault.setting);
+        return library_fail(error, CLRT_ARGUMENT, "%s is odd", fault.setting);
     case REQUEST_FP64:
-        return check_fail(error, CLRT_ARGUMENT, "%s is %g, and below %g needs the precision fp64",
-                          fault.setting, fault.value, fault.low);
+        return library_fail(error, CLRT_ARGUMENT, "%s is %g, and below %g needs the precision fp64",
+                            fault.setting, fault.value, fault.low);
     default:
-        return check_fail(error, CLRT_ARGUMENT, "%s and %s exclude each other", fault.setting,
-                          fault.other);
+        return library_fail(error, CLRT_ARGUMENT, "%s and %s exclude each other", fault.setting,
+                            fault.other);
     }
 }
 
@@ -82,7 +82,7 @@ static bool resolve(Drawing *drawing, ClrtError *error)
     const bool is_inside =
         request_resolve(wanted, drawing->scene, has_camera ? &camera : NULL, &drawing->request);
     drawing->request.channels = drawing->channels;
-    return is_inside || check_fail(error, CLRT_ARGUMENT, "the crop is not inside the picture");
+    return is_inside || library_fail(error, CLRT_ARGUMENT, "the crop is not inside the picture");
 }
 
 static bool take_request(Drawing *drawing, const ClrtPicture *picture, ClrtError *error)
@@ -90,9 +90,9 @@ static bool take_request(Drawing *drawing, const ClrtPicture *picture, ClrtError
     ClrtResult unused;
     ClrtPicture *wanted = &drawing->wanted;
     drawing->scene = &drawing->handle->scene;
-    return check_struct(error, "the picture", picture, wanted, sizeof *wanted) &&
+    return argument_struct(error, "the picture", picture, wanted, sizeof *wanted) &&
            (wanted->result == NULL ||
-            check_struct(error, "the result", wanted->result, &unused, sizeof unused)) &&
+            argument_struct(error, "the result", wanted->result, &unused, sizeof unused)) &&
            take_channels(drawing, error) && check_request(drawing, error) &&
            resolve(drawing, error);
 }
@@ -119,7 +119,7 @@ static bool check_distance(Drawing *drawing, ClrtError *error)
     Error cause = {0};
     const Scene alone = {.viewpoints = {.data = &drawing->request.viewpoint, .count = 1}};
     return normalization_check(&drawing->renderer->session.scene.normalization, &alone, &cause) ||
-           check_fail_for(error, CLRT_ARGUMENT, &cause);
+           library_fail_for(error, CLRT_ARGUMENT, &cause);
 }
 
 bool drawing_take_scene(Drawing *drawing, ClrtError *error)

@@ -56,10 +56,10 @@ static bool check_pixel(const Drawing *drawing, const uint32_t pixel[2], ClrtErr
 {
     const RenderSettings *settings = &drawing->request.settings;
     if (goal_is_given(&drawing->wanted) || settings->whole_width > 0)
-        return check_fail(error, CLRT_ARGUMENT, "explanations take no goal and no crop");
+        return library_fail(error, CLRT_ARGUMENT, "explanations take no goal and no crop");
     return (pixel[0] < settings->width && pixel[1] < settings->height) ||
-           check_fail(error, CLRT_ARGUMENT, "pixel %u,%u is not inside the picture of %u x %u",
-                      pixel[0], pixel[1], settings->width, settings->height);
+           library_fail(error, CLRT_ARGUMENT, "pixel %u,%u is not inside the picture of %u x %u",
+                        pixel[0], pixel[1], settings->width, settings->height);
 }
 
 ClrtExplanation *clrt_explain(ClrtRenderer *renderer, const ClrtScene *scene,
@@ -67,14 +67,14 @@ ClrtExplanation *clrt_explain(ClrtRenderer *renderer, const ClrtScene *scene,
 {
     Error cause = {0};
     Drawing drawing = {.renderer = renderer, .handle = scene};
-    if (!check_given(error, "the pixel", pixel) || !drawing_begin(&drawing, picture, error))
+    if (!argument_given(error, "the pixel", pixel) || !drawing_begin(&drawing, picture, error))
         return NULL;
     ClrtExplanation *explanation = NULL;
     bool ok = check_pixel(&drawing, pixel, error) && drawing_take_scene(&drawing, error);
     if (ok) {
         explanation = memory_zeroed(1, sizeof *explanation, &cause);
         ok = (explanation != NULL && trace(explanation, &drawing, pixel, &cause)) ||
-             check_fail_for(error, CLRT_DEVICE, &cause);
+             library_fail_for(error, CLRT_DEVICE, &cause);
     }
     drawing_end(&drawing);
     if (ok)
@@ -86,21 +86,21 @@ ClrtExplanation *clrt_explain(ClrtRenderer *renderer, const ClrtScene *scene,
 bool clrt_explanation_get_pixel(const ClrtExplanation *explanation, ClrtExplainedPixel *pixel,
                                 ClrtError *error)
 {
-    if (!check_given(error, "the explanation", explanation))
+    if (!argument_given(error, "the explanation", explanation))
         return false;
     ClrtExplainedPixel filled = {.sample_count = (uint32_t)explanation->samples.count};
     memcpy(filled.color, explanation->color, sizeof filled.color);
-    return fill_struct(error, "the pixel", pixel, &filled, sizeof filled);
+    return argument_fill(error, "the pixel", pixel, &filled, sizeof filled);
 }
 
 static const ExplainedSample *find_sample(const ClrtExplanation *explanation, uint32_t place,
                                           ClrtError *error)
 {
-    if (!check_given(error, "the explanation", explanation))
+    if (!argument_given(error, "the explanation", explanation))
         return NULL;
     if (place < explanation->samples.count)
         return &explanation->samples.data[place];
-    check_fail(error, CLRT_ARGUMENT, "there is no sample %u", place);
+    library_fail(error, CLRT_ARGUMENT, "there is no sample %u", place);
     return NULL;
 }
 
@@ -109,19 +109,20 @@ bool clrt_explanation_get_sample(const ClrtExplanation *explanation, uint32_t pl
 {
     const ExplainedSample *found = find_sample(explanation, place, error);
     return found != NULL &&
-           fill_struct(error, "the sample", sample, &found->found, sizeof found->found);
+           argument_fill(error, "the sample", sample, &found->found, sizeof found->found);
 }
 
 static const ExplainedRay *find_ray(const ClrtExplanation *explanation, const uint32_t place[2],
                                     ClrtError *error)
 {
-    const ExplainedSample *sample =
-        check_given(error, "the place", place) ? find_sample(explanation, place[0], error) : NULL;
+    const ExplainedSample *sample = argument_given(error, "the place", place)
+                                        ? find_sample(explanation, place[0], error)
+                                        : NULL;
     if (sample == NULL)
         return NULL;
     if (place[1] < sample->found.ray_count)
         return &sample->rays[place[1]];
-    check_fail(error, CLRT_ARGUMENT, "sample %u has no ray %u", place[0], place[1]);
+    library_fail(error, CLRT_ARGUMENT, "sample %u has no ray %u", place[0], place[1]);
     return NULL;
 }
 
@@ -129,7 +130,8 @@ bool clrt_explanation_get_ray(const ClrtExplanation *explanation, const uint32_t
                               ClrtExplainedRay *ray, ClrtError *error)
 {
     const ExplainedRay *found = find_ray(explanation, place, error);
-    return found != NULL && fill_struct(error, "the ray", ray, &found->found, sizeof found->found);
+    return found != NULL &&
+           argument_fill(error, "the ray", ray, &found->found, sizeof found->found);
 }
 
 bool clrt_explanation_get_light(const ClrtExplanation *explanation, const uint32_t place[3],
@@ -139,6 +141,6 @@ bool clrt_explanation_get_light(const ClrtExplanation *explanation, const uint32
     if (ray == NULL)
         return false;
     if (place[2] >= ray->found.light_count)
-        return check_fail(error, CLRT_ARGUMENT, "ray %u has no light %u", place[1], place[2]);
-    return fill_struct(error, "the light", light, &ray->lights[place[2]], sizeof *ray->lights);
+        return library_fail(error, CLRT_ARGUMENT, "ray %u has no light %u", place[1], place[2]);
+    return argument_fill(error, "the light", light, &ray->lights[place[2]], sizeof *ray->lights);
 }

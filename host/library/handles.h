@@ -10,32 +10,34 @@
 
 #include <stdatomic.h>
 
-// The check functions validate the callers' arguments. Code outside host/library mostly asserts its
-// requirements.
+// The argument functions validate the callers' arguments. Code outside host/library mostly asserts
+// its requirements.
 
 // Fills *error unless `error` is NULL, and returns false.
-__attribute__((format(printf, 3, 4))) bool check_fail(ClrtError *error, ClrtFault fault,
-                                                      const char *format, ...);
+__attribute__((format(printf, 3, 4))) bool library_fail(ClrtError *error, ClrtFault fault,
+                                                        const char *format, ...);
 
-// Calls check_fail with the message of *cause.
-bool check_fail_for(ClrtError *error, ClrtFault fault, const Error *cause);
+// Calls library_fail with the message of *cause.
+bool library_fail_for(ClrtError *error, ClrtFault fault, const Error *cause);
 
 // These functions return false with CLRT_ARGUMENT if an argument is invalid. `what` is the
 // argument's name in messages. Components of vectors must be in [-most, most], and components of
 // colors in [0, 1].
-bool check_given(ClrtError *error, const char *what, const void *pointer);
-bool check_number(ClrtError *error, const char *what, double number, double low, double high);
-bool check_vector(ClrtError *error, const char *what, const double vector[3], double most);
-bool check_color(ClrtError *error, const char *what, const double color[3]);
+bool argument_given(ClrtError *error, const char *what, const void *pointer);
+bool argument_number(ClrtError *error, const char *what, double number, double low, double high);
+bool argument_vector(ClrtError *error, const char *what, const double vector[3], double most);
+bool argument_color(ClrtError *error, const char *what, const double color[3]);
 
 // Copies a struct of clrt.h into `copy`, which has `size` bytes. If the given struct is shorter,
 // the missing members become zero. If the given struct is longer, its additional members must be
 // zero.
-bool check_struct(ClrtError *error, const char *what, const void *given, void *copy, size_t size);
+bool argument_struct(ClrtError *error, const char *what, const void *given, void *copy,
+                     size_t size);
 
 // Copies a filled struct of `size` bytes into the given struct, without the members that the given
-// struct lacks. Fails as check_struct does.
-bool fill_struct(ClrtError *error, const char *what, void *given, const void *filled, size_t size);
+// struct lacks. Fails as argument_struct does.
+bool argument_fill(ClrtError *error, const char *what, void *given, const void *filled,
+                   size_t size);
 
 struct ClrtScene {
     Scene scene;

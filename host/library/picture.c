@@ -15,7 +15,7 @@ static bool draw_colors(Drawing *drawing, ClrtError *error)
     Error cause = {0};
     const RenderObserver observer = {drawing_continues, drawing};
     if (session_scene_own_form(&drawing->renderer->session, &cause) == NULL)
-        return check_fail_for(error, CLRT_SCENE, &cause);
+        return library_fail_for(error, CLRT_SCENE, &cause);
     Session *session = &drawing->renderer->session;
     SessionPicture *request = &drawing->request;
     return (session_choose_level(session, request, &cause) &&
@@ -24,7 +24,7 @@ static bool draw_colors(Drawing *drawing, ClrtError *error)
             (drawing->is_stopped ||
              session_certify_picture(session, request, &observer, &drawing->framebuffer,
                                      &drawing->drawn, &cause))) ||
-           check_fail_for(error, CLRT_DEVICE, &cause);
+           library_fail_for(error, CLRT_DEVICE, &cause);
 }
 
 // Copies the values of the channel in row `row` of aov_table to the caller. Returns the number of
@@ -62,14 +62,15 @@ static bool draw_channels(Drawing *drawing, ClrtError *error)
         if ((drawing->channels >> row & 1) != 0)
             first += copy_channel(drawing, &layers, row, first);
     layers_free(&layers);
-    return ok || check_fail_for(error, CLRT_DEVICE, &cause);
+    return ok || library_fail_for(error, CLRT_DEVICE, &cause);
 }
 
 static bool check_stopped(const Drawing *drawing, ClrtError *error)
 {
     return !drawing->is_stopped ||
-           check_fail(error, CLRT_STOPPED, "the picture was stopped after %llu of %llu tiles",
-                      (unsigned long long)drawing->tiles_done, (unsigned long long)drawing->tiles);
+           library_fail(error, CLRT_STOPPED, "the picture was stopped after %llu of %llu tiles",
+                        (unsigned long long)drawing->tiles_done,
+                        (unsigned long long)drawing->tiles);
 }
 
 static bool draw(Drawing *drawing, ClrtError *error)
@@ -89,10 +90,10 @@ static bool draw_reference(Drawing *drawing, ClrtError *error)
     const RenderObserver observer = {drawing_continues, drawing};
     const Framebuffer *frame = &drawing->framebuffer;
     if (drawing->channels != 0)
-        return check_fail(error, CLRT_ARGUMENT, "a reference has no channels");
+        return library_fail(error, CLRT_ARGUMENT, "a reference has no channels");
     const bool ok = reference_draw(&drawing->renderer->session, &drawing->request, &observer,
                                    &reference, &cause) ||
-                    check_fail_for(error, CLRT_DEVICE, &cause);
+                    library_fail_for(error, CLRT_DEVICE, &cause);
     if (ok && !drawing->is_stopped)
         memcpy(frame->pixels, reference.picture.pixels,
                (size_t)frame->width * frame->height * sizeof *frame->pixels);
@@ -130,14 +131,15 @@ static void fill_result(const Drawing *drawing)
     filled.box_tests = tallies[TALLY_BOX_TESTS];
     filled.sphere_tests = tallies[TALLY_SPHERE_TESTS];
     if (drawing->wanted.result != NULL)
-        fill_struct(NULL, "the result", drawing->wanted.result, &filled, sizeof filled);
+        argument_fill(NULL, "the result", drawing->wanted.result, &filled, sizeof filled);
 }
 
 // Prepares the request, calls `perform`, and fills the caller's result.
 static bool perform_drawing(Drawing *drawing, const ClrtPicture *picture, float *rgb,
                             bool perform(Drawing *, ClrtError *), ClrtError *error)
 {
-    if (!check_given(error, "the picture's memory", rgb) || !drawing_begin(drawing, picture, error))
+    if (!argument_given(error, "the picture's memory", rgb) ||
+        !drawing_begin(drawing, picture, error))
         return false;
     drawing->framebuffer = (Framebuffer){(float(*)[3])rgb, drawing->request.settings.width,
                                          drawing->request.settings.height};

@@ -252,13 +252,13 @@ static bool check_start(const RayBatch *batch, size_t entry, ClrtError *error)
     const size_t number = ray_of(batch, entry);
     const uint32_t own = batch->rays.starts[number];
     if (off == INFINITY)
-        return check_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu", number,
-                          own, (unsigned long long)primitive_count(batch->scene));
+        return library_fail(error, CLRT_ARGUMENT, "ray %zu starts on primitive %u of %llu", number,
+                            own, (unsigned long long)primitive_count(batch->scene));
     return !(off > OFF_PLANE) ||
-           check_fail(error, CLRT_ARGUMENT,
-                      "ray %zu should start on primitive %u, but starts %.3g from its plane; at "
-                      "most %.3g are allowed",
-                      number, own, off * batch->unit, OFF_PLANE * batch->unit);
+           library_fail(error, CLRT_ARGUMENT,
+                        "ray %zu should start on primitive %u, but starts %.3g from its plane; at "
+                        "most %.3g are allowed",
+                        number, own, off * batch->unit, OFF_PLANE * batch->unit);
 }
 
 bool ray_batch_convert(RayBatch *batch, ClrtError *error)

@@ -73,13 +73,13 @@ static bool cast(ClrtRenderer *renderer, RayQuery query, ClrtError *error)
     batch->scene = ray_caster_scene(&renderer->caster, &renderer->session, query,
                                     batch->rays.one_sided, &cause);
     if (batch->scene == NULL)
-        return check_fail_for(error, CLRT_DEVICE, &cause);
+        return library_fail_for(error, CLRT_DEVICE, &cause);
     batch->cast.query = query;
     batch->cast.scene = &batch->scene->form.buffers;
     if (!ray_batch_convert(batch, error))
         return false;
     if (!ray_caster_cast(&renderer->caster, &batch->cast, &cause))
-        return check_fail_for(error, CLRT_DEVICE, &cause);
+        return library_fail_for(error, CLRT_DEVICE, &cause);
     ray_results_store(batch);
     return true;
 }
@@ -101,8 +101,9 @@ static bool cast_parts(ClrtRenderer *renderer, size_t most, ClrtError *error)
             return false;
         if (rays->progress != NULL && !rays->progress(rays->user, done + 1, parts) &&
             done + 1 < parts)
-            return check_fail(error, CLRT_STOPPED, "the rays were stopped after %llu of %llu parts",
-                              (unsigned long long)(done + 1), (unsigned long long)parts);
+            return library_fail(error, CLRT_STOPPED,
+                                "the rays were stopped after %llu of %llu parts",
+                                (unsigned long long)(done + 1), (unsigned long long)parts);
     }
     return true;
 }
@@ -139,10 +140,11 @@ static bool trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays
     if (renderer->batch == NULL)
         renderer->batch = memory_raw(1, sizeof *renderer->batch, &cause);
     RayBatch *batch = renderer->batch;
-    bool ok = (batch != NULL || check_fail_for(error, CLRT_DEVICE, &cause)) &&
-              check_struct(error, "the rays", rays, &batch->rays, sizeof batch->rays) &&
-              (batch->rays.count == 0 || check_given(error, "the origins", batch->rays.origins)) &&
-              renderer_handle_take(renderer, scene, error);
+    bool ok =
+        (batch != NULL || library_fail_for(error, CLRT_DEVICE, &cause)) &&
+        argument_struct(error, "the rays", rays, &batch->rays, sizeof batch->rays) &&
+        (batch->rays.count == 0 || argument_given(error, "the origins", batch->rays.origins)) &&
+        renderer_handle_take(renderer, scene, error);
     if (ok) {
         batch->results = *results;
         ok = cast_batch(renderer, error);
@@ -155,7 +157,7 @@ bool clrt_trace(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRays *
                 const ClrtHits *hits, ClrtError *error)
 {
     RayResults results = {.query = RAYS_NEAREST};
-    if (!check_struct(error, "the hits", hits, &results.hits, sizeof results.hits))
+    if (!argument_struct(error, "the hits", hits, &results.hits, sizeof results.hits))
         return false;
     results.hits.room = 1;
     results.hits.counts = NULL;
@@ -166,10 +168,10 @@ bool clrt_trace_all(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRa
                     const ClrtHits *hits, ClrtError *error)
 {
     RayResults results = {.query = RAYS_ALL};
-    return check_struct(error, "the hits", hits, &results.hits, sizeof results.hits) &&
-           check_number(error, "the room for hits", (double)results.hits.room, 0, HITS_MAX) &&
+    return argument_struct(error, "the hits", hits, &results.hits, sizeof results.hits) &&
+           argument_number(error, "the room for hits", (double)results.hits.room, 0, HITS_MAX) &&
            (results.hits.certain == NULL ||
-            check_fail(error, CLRT_ARGUMENT, "only clrt_trace finds which rays are certain")) &&
+            library_fail(error, CLRT_ARGUMENT, "only clrt_trace finds which rays are certain")) &&
            trace(renderer, scene, rays, &results, error);
 }
 
@@ -177,7 +179,7 @@ bool clrt_occluded(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRay
                    uint8_t *occluded, ClrtError *error)
 {
     const RayResults results = {.query = RAYS_NEAREST, .hits.room = 1, .flags = occluded};
-    return check_given(error, "the array of results", occluded) &&
+    return argument_given(error, "the array of results", occluded) &&
            trace(renderer, scene, rays, &results, error);
 }
 
@@ -185,6 +187,6 @@ bool clrt_contains(ClrtRenderer *renderer, const ClrtScene *scene, const ClrtRay
                    uint8_t *inside, ClrtError *error)
 {
     const RayResults results = {.query = RAYS_ALL, .flags = inside};
-    return check_given(error, "the array of results", inside) &&
+    return argument_given(error, "the array of results", inside) &&
            trace(renderer, scene, rays, &results, error);
 }

@@ -23,25 +23,25 @@ static bool open_session(Session *session, Error *cause)
 
 static bool check_settings(const ClrtSettings *given, ClrtError *error)
 {
-    return check_number(error, "the precision", given->precision, 0, CLRT_FP64) &&
-           check_number(error, "the kernel", given->kernel, 0, CLRT_KERNEL_PACKET) &&
-           check_number(error, "specialize", given->specialize, 0, CLRT_SPECIALIZE_NEVER) &&
-           check_number(error, "the tree", given->tree, 0, CLRT_TREE_NONE) &&
-           check_number(error, "the group's width", given->group_width, 0, GROUP_SIDE_MOST) &&
-           check_number(error, "the group's height", given->group_height, 0, GROUP_SIDE_MOST);
+    return argument_number(error, "the precision", given->precision, 0, CLRT_FP64) &&
+           argument_number(error, "the kernel", given->kernel, 0, CLRT_KERNEL_PACKET) &&
+           argument_number(error, "specialize", given->specialize, 0, CLRT_SPECIALIZE_NEVER) &&
+           argument_number(error, "the tree", given->tree, 0, CLRT_TREE_NONE) &&
+           argument_number(error, "the group's width", given->group_width, 0, GROUP_SIDE_MOST) &&
+           argument_number(error, "the group's height", given->group_height, 0, GROUP_SIDE_MOST);
 }
 
 static bool take_settings(ClrtSettings *wanted, const ClrtSettings *given, ClrtError *error)
 {
     *wanted = (ClrtSettings){0};
-    if (given != NULL && !check_struct(error, "the settings", given, wanted, sizeof *wanted))
+    if (given != NULL && !argument_struct(error, "the settings", given, wanted, sizeof *wanted))
         return false;
     if (!check_settings(wanted, error))
         return false;
     return kernel_choice_is_valid(wanted) ||
-           check_fail(error, CLRT_ARGUMENT,
-                      "precision, kernel and lanes contradict each other: the wide and packet "
-                      "kernels have 4, 8 or 16 lanes and no fp64");
+           library_fail(error, CLRT_ARGUMENT,
+                        "precision, kernel and lanes contradict each other: the wide and packet "
+                        "kernels have 4, 8 or 16 lanes and no fp64");
 }
 
 ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *error)
@@ -58,7 +58,7 @@ ClrtRenderer *clrt_renderer_create(const ClrtSettings *settings, ClrtError *erro
             return renderer;
         }
     }
-    check_fail_for(error, CLRT_DEVICE, &cause);
+    library_fail_for(error, CLRT_DEVICE, &cause);
     clrt_renderer_free(renderer);
     return NULL;
 }
@@ -75,10 +75,11 @@ void clrt_renderer_free(ClrtRenderer *renderer)
 
 bool renderer_handle_begin(ClrtRenderer *renderer, const ClrtScene *scene, ClrtError *error)
 {
-    if (!check_given(error, "the renderer", renderer) || !check_given(error, "the scene", scene))
+    if (!argument_given(error, "the renderer", renderer) ||
+        !argument_given(error, "the scene", scene))
         return false;
     return !atomic_exchange(&renderer->is_busy, true) ||
-           check_fail(error, CLRT_ARGUMENT, "the renderer is busy with another call");
+           library_fail(error, CLRT_ARGUMENT, "the renderer is busy with another call");
 }
 
 void renderer_handle_end(ClrtRenderer *renderer)
@@ -96,7 +97,7 @@ bool renderer_handle_take(ClrtRenderer *renderer, const ClrtScene *scene, ClrtEr
     renderer->state = 0;
     ray_caster_free_scenes(&renderer->caster);
     if (!session_scene_take(session, &scene->scene, &cause))
-        return check_fail_for(error, CLRT_SCENE, &cause);
+        return library_fail_for(error, CLRT_SCENE, &cause);
     renderer->state = scene->state;
     return true;
 }
@@ -107,13 +108,13 @@ static bool list_devices(DeviceList *list, ClrtError *error)
     pthread_mutex_lock(&opening);
     const bool ok = device_list(list, &cause);
     pthread_mutex_unlock(&opening);
-    return ok || check_fail_for(error, CLRT_DEVICE, &cause);
+    return ok || library_fail_for(error, CLRT_DEVICE, &cause);
 }
 
 bool clrt_device_count(uint32_t *count, ClrtError *error)
 {
     DeviceList list;
-    if (!check_given(error, "the count", count) || !list_devices(&list, error))
+    if (!argument_given(error, "the count", count) || !list_devices(&list, error))
         return false;
     *count = list.count;
     return true;
@@ -125,7 +126,7 @@ bool clrt_device_get(uint32_t number, ClrtDevice *device, ClrtError *error)
     if (!list_devices(&list, error))
         return false;
     if (number >= list.count)
-        return check_fail(error, CLRT_ARGUMENT, "device %u does not exist: there are %u", number,
-                          list.count);
-    return fill_struct(error, "the device", device, &list.devices[number].facts, sizeof *device);
+        return library_fail(error, CLRT_ARGUMENT, "device %u does not exist: there are %u", number,
+                            list.count);
+    return argument_fill(error, "the device", device, &list.devices[number].facts, sizeof *device);
 }

@@ -19,7 +19,7 @@ bool scene_handle_changed(ClrtScene *scene, bool ok, const Error *cause, ClrtErr
 {
     static atomic_uint_fast64_t last_state;
     if (!ok)
-        return check_fail_for(error, CLRT_SCENE, cause);
+        return library_fail_for(error, CLRT_SCENE, cause);
     scene->state = atomic_fetch_add(&last_state, 1) + 1;
     return true;
 }
@@ -28,8 +28,8 @@ bool scene_handle_check_material(const ClrtScene *scene, uint32_t number, ClrtEr
 {
     const size_t count = scene->scene.materials.count;
     return number < count ||
-           check_fail(error, CLRT_ARGUMENT, "material %u does not exist: the scene has %zu", number,
-                      count);
+           library_fail(error, CLRT_ARGUMENT, "material %u does not exist: the scene has %zu",
+                        number, count);
 }
 
 // Returns a scene read from the file at `path` or, if `path` is NULL, an empty scene. Returns NULL
@@ -49,13 +49,13 @@ static ClrtScene *make(const char *path, const SceneLoadOptions *load, ClrtError
 ClrtScene *clrt_scene_load(const char *path, const ClrtLoad *load, ClrtError *error)
 {
     ClrtLoad given = {.size = sizeof given};
-    if (!check_given(error, "the path", path) ||
-        (load != NULL && !check_struct(error, "the load", load, &given, sizeof given)) ||
-        !check_number(error, "the up axis", given.up, 0, CLRT_UP_MINUS_Z) ||
-        !check_number(error, "the crease angle", given.crease_degrees, 0, CREASE_MOST))
+    if (!argument_given(error, "the path", path) ||
+        (load != NULL && !argument_struct(error, "the load", load, &given, sizeof given)) ||
+        !argument_number(error, "the up axis", given.up, 0, CLRT_UP_MINUS_Z) ||
+        !argument_number(error, "the crease angle", given.crease_degrees, 0, CREASE_MOST))
         return NULL;
     if (given.flat && given.crease_degrees > 0) {
-        check_fail(error, CLRT_ARGUMENT, "the mesh is flat and has a crease angle");
+        library_fail(error, CLRT_ARGUMENT, "the mesh is flat and has a crease angle");
         return NULL;
     }
     const Normals computed = given.crease_degrees > 0 ? NORMALS_SMOOTH : NORMALS_AUTO;
@@ -81,7 +81,7 @@ void clrt_scene_free(ClrtScene *scene)
 
 bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError *error)
 {
-    if (!check_given(error, "the scene", scene))
+    if (!argument_given(error, "the scene", scene))
         return false;
     const Scene *inside = &scene->scene;
     const ClrtSceneInfo filled = {.width = inside->width,
@@ -93,5 +93,5 @@ bool clrt_scene_get_info(const ClrtScene *scene, ClrtSceneInfo *info, ClrtError 
                                   .sphere_count = (uint32_t)inside->spheres.count,
                                   .triangle_count = scene_triangle_count(inside),
                                   .dropped_triangle_count = scene_dropped_count(inside)};
-    return fill_struct(error, "the info", info, &filled, sizeof filled);
+    return argument_fill(error, "the info", info, &filled, sizeof filled);
 }

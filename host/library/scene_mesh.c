@@ -10,10 +10,10 @@
 static bool check_array(const char *what, const void *array, size_t count, ClrtError *error)
 {
     if (count > MESH_COUNT_MOST)
-        return check_fail(error, CLRT_ARGUMENT, "the mesh has %zu %s, more than %zu", count, what,
-                          (size_t)MESH_COUNT_MOST);
+        return library_fail(error, CLRT_ARGUMENT, "the mesh has %zu %s, more than %zu", count, what,
+                            (size_t)MESH_COUNT_MOST);
     return array != NULL || count == 0 ||
-           check_fail(error, CLRT_ARGUMENT, "the mesh's %s are NULL", what);
+           library_fail(error, CLRT_ARGUMENT, "the mesh's %s are NULL", what);
 }
 
 static void *copy_array(const void *array, size_t count, size_t size, Error *cause)
@@ -45,16 +45,16 @@ static bool check_vertices(const Mesh *mesh, ClrtError *error)
         for (int axis = 0; axis < 3; axis++) {
             const double position = mesh->positions[vertex][axis];
             if (!(fabs(position) < COORDINATE_MOST))
-                return check_fail(error, CLRT_ARGUMENT,
-                                  "a coordinate of vertex %zu is %g, not below 1e30 in size",
-                                  vertex, position);
+                return library_fail(error, CLRT_ARGUMENT,
+                                    "a coordinate of vertex %zu is %g, not below 1e30 in size",
+                                    vertex, position);
             if (mesh->normals != NULL && !isfinite(mesh->normals[vertex][axis]))
-                return check_fail(error, CLRT_ARGUMENT, "the normal of vertex %zu is not finite",
-                                  vertex);
+                return library_fail(error, CLRT_ARGUMENT, "the normal of vertex %zu is not finite",
+                                    vertex);
             if (mesh->colors != NULL &&
                 !(mesh->colors[vertex][axis] >= 0 && mesh->colors[vertex][axis] <= 1))
-                return check_fail(error, CLRT_ARGUMENT, "the color of vertex %zu is not in [0, 1]",
-                                  vertex);
+                return library_fail(error, CLRT_ARGUMENT,
+                                    "the color of vertex %zu is not in [0, 1]", vertex);
         }
     return true;
 }
@@ -65,9 +65,9 @@ static bool check_triangles(const Mesh *mesh, ClrtError *error)
         for (int corner = 0; corner < 3; corner++) {
             const uint32_t vertex = mesh->triangles[triangle][corner];
             if (vertex >= mesh->vertex_count)
-                return check_fail(error, CLRT_ARGUMENT,
-                                  "triangle %zu has vertex %u, but the mesh has %zu vertices",
-                                  triangle, vertex, mesh->vertex_count);
+                return library_fail(error, CLRT_ARGUMENT,
+                                    "triangle %zu has vertex %u, but the mesh has %zu vertices",
+                                    triangle, vertex, mesh->vertex_count);
         }
     return true;
 }
@@ -75,10 +75,10 @@ static bool check_triangles(const Mesh *mesh, ClrtError *error)
 static bool check_mesh(const ClrtScene *scene, const ClrtMesh *mesh, ClrtError *error)
 {
     if (mesh->flat && mesh->smooth)
-        return check_fail(error, CLRT_ARGUMENT, "the mesh is flat and smooth");
+        return library_fail(error, CLRT_ARGUMENT, "the mesh is flat and smooth");
     if (!mesh->smooth && mesh->crease_degrees != 0)
-        return check_fail(error, CLRT_ARGUMENT, "the mesh has a crease angle, but is not smooth");
-    return check_number(error, "the crease angle", mesh->crease_degrees, 0, CREASE_MOST) &&
+        return library_fail(error, CLRT_ARGUMENT, "the mesh has a crease angle, but is not smooth");
+    return argument_number(error, "the crease angle", mesh->crease_degrees, 0, CREASE_MOST) &&
            check_array("positions", mesh->positions, mesh->vertex_count, error) &&
            check_array("triangles", mesh->triangles, mesh->triangle_count, error) &&
            scene_handle_check_material(scene, mesh->material, error);
@@ -91,7 +91,7 @@ static bool take_mesh(MeshObject *object, const ClrtMesh *given, ClrtError *erro
     *object =
         (MeshObject){.material = given->material, .input = NO_INPUT, .two_sided = given->two_sided};
     const bool copied =
-        copy_mesh(&object->mesh, given, &cause) || check_fail_for(error, CLRT_SCENE, &cause);
+        copy_mesh(&object->mesh, given, &cause) || library_fail_for(error, CLRT_SCENE, &cause);
     const bool ok =
         copied && check_vertices(&object->mesh, error) && check_triangles(&object->mesh, error);
     if (!ok)
@@ -106,8 +106,8 @@ bool clrt_scene_add_mesh(ClrtScene *scene, const ClrtMesh *mesh, ClrtError *erro
     ClrtMesh given;
     MeshObject object;
     Error cause = {0};
-    if (!check_given(error, "the scene", scene) ||
-        !check_struct(error, "the mesh", mesh, &given, sizeof given) ||
+    if (!argument_given(error, "the scene", scene) ||
+        !argument_struct(error, "the mesh", mesh, &given, sizeof given) ||
         !check_mesh(scene, &given, error) || !take_mesh(&object, &given, error))
         return false;
     const double crease = given.crease_degrees > 0 ? given.crease_degrees : CREASE_DEGREES;
