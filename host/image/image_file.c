@@ -297,6 +297,30 @@ static const char *module_format(const char *start, size_t length)
     return NULL;
 }
 
+static uint32_t read_integer(const char *bytes, int size, bool is_big_endian)
+{
+    uint32_t value = 0;
+    for (int i = 0; i < size; i++)
+        value = value << 8 | (unsigned char)bytes[is_big_endian ? i : size - 1 - i];
+    return value;
+}
+
+// Returns whether a TIFF file's first directory contains BitsPerSample, or cannot be read. Without
+// this tag, a sample has 1 bit, but OpenImageIO would return bytes of 8 pixels as colors.
+static bool tiff_has_depth(FILE *stream, const char start[8])
+{
+    const bool is_big_endian = start[0] == 'M';
+    char entry[12];
+    if (fseek(stream, (long)read_integer(start + 4, 4, is_big_endian), SEEK_SET) != 0 ||
+        fread(entry, 2, 1, stream) != 1)
+        return true;
+    for (uint32_t left = read_integer(entry, 2, is_big_endian); left > 0; left--)
+        if (fread(entry, sizeof entry, 1, stream) != 1 ||
+            read_integer(entry, 2, is_big_endian) == 258)
+            return true;
+    return false;
+}
+
 static bool read_stream(StoredImage *image, FILE *stream, const char *path, Error *cause)
 {
     char start[8];
@@ -312,6 +336,8 @@ static bool read_stream(StoredImage *image, FILE *stream, const char *path, Erro
     const char *format = module_format(start, length);
     if (format == NULL)
         return error_set(cause, "it is not a %s", READABLE);
+    if (strcmp(format, "tiff") == 0 && length == 8 && !tiff_has_depth(stream, start))
+        return error_set(cause, "its pixels of 1 bit are not supported without BitsPerSample");
     return read_by_module(image, path, format, most, cause);
 }
 

@@ -111,6 +111,18 @@ class Rows(SharedWork):
         if "tif" in FORMATS:
             self.clrt("compare", "wide.tif", "colors.pfm", "--fail", "max=1e-6")
 
+    def test_tiff_files_without_their_depth_are_refused(self):
+        for order, magic in ("<", b"II*\0"), (">", b"MM\0*"):
+            for depth in [], [(258, 1)]:
+                tags = [(256, 16), (257, 1), *depth, (259, 1), (262, 1), (273, 128), (277, 1), (278, 1), (279, 2)]
+                entries = b"".join(struct.pack(order + "HHIHH", tag, 3, 1, value, 0) for tag, value in tags)
+                head = magic + struct.pack(order + "IH", 8, len(tags)) + entries
+                self.write(bits_tif=head.ljust(128, b"\0") + b"\xaa\xf0")
+                if "tif" in FORMATS and depth:
+                    self.clrt("compare", "bits.tif", "bits.tif")
+                elif "tif" in FORMATS:
+                    self.refuses(3, "without BitsPerSample", "compare", "bits.tif", "bits.tif")
+
 
 class Formats(SharedWork):
     """The first bytes of a file identify each format that clrt writes."""
