@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Computes the surface at a hit that is certain for a ray cone, and the cones of the rays that
 // leave the surface. The point and the normals have bounds on the difference between the tracer's
-// and the exact values.
+// and the exact values. B13 of docs/numerics.md derives the multiples of u, unless a comment names
+// another step.
 #ifndef CLRT_CERTIFY_SURFACE_CL
 #define CLRT_CERTIFY_SURFACE_CL
 #include "certify_search.cl"

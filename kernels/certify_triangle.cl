@@ -260,7 +260,7 @@ static inline bool are_coincident(const Tracer *tracer, uint index, uint other)
 // over their own triangle's plane is below 6u n.|edge|. The threshold of height_over is at least 8u
 // n.|edge|, so height_over returns zero for corners, too.
 //
-// The computed height of the start is at most the sum of these errors:
+// The computed height of the start is at most the sum of these errors (docs/numerics.md, B6, B7):
 //  - The start is a weighted sum of corners. Each corner has the height n.a over the origin. The
 //    weights add up to 1 within 4u, which gives 4u |n.a|. Rounding the sum adds 3u n.|corner|.
 //  - If the start moves into the triangle, the move adds u n.|start| and 2u n.|move|.

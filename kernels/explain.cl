@@ -77,7 +77,8 @@ static inline Real size_of3(Real3 v)
 // center|^2 - radius^2, and equals |direction|^2 * (t - first root) * (t - second root). The
 // distance of t from the nearer root is therefore at most the square root of |residual| /
 // |direction|^2. The distance is also at most twice a Newton step, which is the lesser bound unless
-// the ray grazes the sphere. The result adds 64 units of two-float rounding to the residual.
+// the ray grazes the sphere. The result adds 64 units of two-float rounding (docs/numerics.md, B15)
+// to the residual.
 static inline Real sphere_error(const Tracer *tracer, const Ray *ray, UInt index, Real t)
 {
     const Sphere sphere = fetch_sphere(tracer, index);

@@ -5,8 +5,8 @@
 // The edge tests are exact for the sheared corners (triangle.inc.cl), which neighbors share. In the
 // frame of a ray, all triangles therefore form one surface: the stored surface after each corner
 // has moved by the rounding of the shear. A Nearness is the distance to this surface with twice the
-// bits of t. docs/numerics.md proves that rays then stay inside closed surfaces, except for one
-// step that is only measured.
+// bits of t (B5 of docs/numerics.md). The same page proves that rays then stay inside closed
+// surfaces, except for one step that is only measured.
 //
 // Invariant: a Nearness depends only on the ray and on the triangle's corners, and not on the order
 // of the tests.

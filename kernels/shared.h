@@ -39,7 +39,8 @@ typedef uint64_t ulong;
 // search_behind allows another 256 units. A box at the start has nearly the origin's coordinates,
 // so the box grows as far as the origin moves. The growth and the move each cover half of these 256
 // units. Each must cover at most 34 + 8 + 54 + 128 = 224 units. search_reach (search.cl) covers
-// hits beyond the best hit. Doubling the slack costs no measurable time.
+// hits beyond the best hit. Boxes of spheres need less (B22). Doubling the slack costs no
+// measurable time.
 #define BVH_SLACK 0x1p-16f
 
 // The box around all primitives grows by this fraction of its largest coordinate. Kernels grow the
