@@ -155,15 +155,13 @@ static inline bool decide_ray(const Tracer *tracer, ConePath *path, Decisions *d
     if (CLRT_CHECKERS && !decide_check(tracer, &surface, path->ray.u, decisions))
         return false;
     const MaterialLanes material = fetch_material(tracer, surface.material);
-    const bool glass = CLRT_GLASS && is_glass(&material);
     Decisions here = {nearest.id, 0, decisions->signature};
-    if (material.shader != SHADER_SILHOUETTE && material.shader != SHADER_GLASS &&
-        !decide_lights(tracer, &surface, path->ray.u, &here))
+    if (IS_SHADED(material.shader) && !decide_lights(tracer, &surface, path->ray.u, &here))
         return false;
     *decisions =
         path->level == 0 ? here : (Decisions){decisions->first_id, decisions->lit, here.signature};
     *leads = material.reflectivity != 0.0f;
-    if (glass)
+    if (CLRT_GLASS && is_glass(&material))
         return decide_refraction(tracer, &surface, path);
     if (*leads)
         path->ray = reflected_cone(&surface, &path->ray);

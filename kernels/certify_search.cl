@@ -180,7 +180,7 @@ static inline void search_leaf(const Tracer *tracer, ConeSearch *search, uint2 r
         if (!(triangle_entry(search, triangle, cone_reach(search)) < INFINITY))
             continue;
         const Candidate candidate = leaf_candidate(tracer, search->ray, index);
-        if (CLRT_GLASS || search->ray->kind != RAY_SHADOW)
+        if (!ends_at_any_hit(search->ray->kind))
             add_triangle(tracer, search, index, &candidate);
         add_blocker(tracer, search, candidate.met, triangle->material & ~TRIANGLE_MARKS);
     }
@@ -188,7 +188,7 @@ static inline void search_leaf(const Tracer *tracer, ConeSearch *search, uint2 r
 
 static inline bool search_is_over(const ConeSearch *search)
 {
-    return !CLRT_GLASS && search->ray->kind == RAY_SHADOW && search->blocked == ANSWER_YES;
+    return ends_at_any_hit(search->ray->kind) && search->blocked == ANSWER_YES;
 }
 
 static inline void search_triangles(const Tracer *tracer, ConeSearch *search)
@@ -276,14 +276,13 @@ static inline Nearest certify_nearest_hit(const Tracer *tracer, const RayCone *r
     return search.nearest;
 }
 
-// In scenes with glass, a shadow ray can hit the sphere on which it starts.
 static inline void search_spheres(const Tracer *tracer, ConeSearch *search)
 {
     const RayCone *ray = search->ray;
     SphereVisit visit = first_sphere(tracer->frame);
     while (!search_is_over(search) && find_sphere(tracer, search, &visit)) {
         const bool is_own = visit.id == ray->own;
-        if (is_own && !CLRT_GLASS)
+        if (is_own && !may_hit_own_sphere(ray->kind))
             continue;
         const Candidate candidate = sphere_blocker(ray, &visit.sphere, is_own);
         nearest_add(&search->nearest, &candidate, visit.id, visit.id);

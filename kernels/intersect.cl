@@ -108,7 +108,7 @@ static inline void blocking_hits(const Tracer *tracer, const Ray *rays, uint cou
     for (uint i = 0; i < count; i++) {
         hits[i] = (Hit){1.0f - 16.0f * UNIT_ROUNDOFF, NOTHING, NOTHING};
         searching[i] = meet_spheres(tracer, &rays[i], &hits[i]);
-        if (!CLRT_GLASS)
+        if (ends_at_any_hit(RAY_SHADOW))
             searching[i] = searching[i] && hits[i].id == NOTHING;
     }
     if (has_search(tracer))

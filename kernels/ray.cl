@@ -19,6 +19,13 @@ static inline bool ends_at_any_hit(RayKind kind)
     return (!CLRT_GLASS && kind == RAY_SHADOW) || kind != plain_kind(kind);
 }
 
+// Returns whether rays of this kind can hit the sphere on which they start. Reflected and refracted
+// rays can hit it from inside. In scenes with glass, shadow rays can hit it, too.
+static inline bool may_hit_own_sphere(RayKind kind)
+{
+    return CLRT_GLASS || plain_kind(kind) == RAY_REFLECTED;
+}
+
 // A ray: origin + t * direction. A shadow ray leads from a surface at t = 0 to a light at t = 1.
 typedef struct {
     Real3 origin, direction;

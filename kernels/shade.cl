@@ -88,9 +88,7 @@ typedef struct {
 
 static inline Lighting lighting_of(const Surface *surface, const MaterialLanes *material, Mask met)
 {
-    Mask wanted = any_lane(met) ? met && material->shader != SHADER_SILHOUETTE : met;
-    if (CLRT_GLASS && any_lane(wanted))
-        wanted = wanted && !is_glass(material);
+    const Mask wanted = any_lane(met) ? met && IS_SHADED(material->shader) : met;
     return (Lighting){surface, material, wanted};
 }
 

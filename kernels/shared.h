@@ -50,6 +50,9 @@ typedef uint64_t ulong;
 
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG, SHADER_GLASS } Shader;
 
+// Returns whether lights shade surfaces of this shader.
+#define IS_SHADED(shader) ((shader) == SHADER_MATTE || (shader) == SHADER_BLINN_PHONG)
+
 // The most levels of a path in a scene with glass. A path's stack has a slot for each level
 // (branches.cl).
 #define GLASS_LEVELS 16

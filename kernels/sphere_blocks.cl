@@ -194,9 +194,8 @@ static inline void append_pair(SpherePairs *pairs, uint number, uint child, uint
 // There are no branches, because processors could not predict them.
 static inline Mask may_hit_sphere(const Sphere *sphere, const Ray *ray, UInt id)
 {
-    const bool may_hit_own = CLRT_GLASS || plain_kind(ray->kind) == RAY_REFLECTED;
     const Mask away = leads_away(sphere, ray->origin, ray->direction);
-    const Mask returns = may_hit_own ? !away : (Mask)(0);
+    const Mask returns = may_hit_own_sphere(ray->kind) ? !away : (Mask)(0);
     const Mask is_near = !sphere_is_passed(sphere, ray->origin, ray->direction) &&
                          !(away && plain_side(sphere, ray->origin) > 0);
     return ray->active && (ray->own == id ? returns : is_near);

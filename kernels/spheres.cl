@@ -10,17 +10,15 @@
 #include "crossings.cl"
 #include "sphere.cl"
 
-// Returns the distance to the sphere on which the ray starts. A reflected or refracted ray can hit
-// this sphere again from inside. In scenes with glass, a shadow ray can hit it again, too. The
-// shadow ray's direction is first scaled to length 1, as sphere_chord requires.
+// Returns the distance to the sphere on which the ray starts. The direction of a shadow ray is
+// first scaled to length 1, as sphere_chord requires.
 static inline Real own_sphere_distance(const Sphere *sphere, const Ray *ray, Mask is_own)
 {
-    const bool is_path = plain_kind(ray->kind) == RAY_REFLECTED;
-    if (!(is_path || CLRT_GLASS) || !any_lane(is_own))
+    if (!may_hit_own_sphere(ray->kind) || !any_lane(is_own))
         return INFINITY;
     if (!any_lane(is_own && !leads_away(sphere, ray->origin, ray->direction)))
         return INFINITY;
-    if (is_path)
+    if (plain_kind(ray->kind) == RAY_REFLECTED)
         return sphere_chord(sphere, ray->origin, ray->direction);
     const Real scale = 1.0f / sqrt(dot_product(ray->direction, ray->direction));
     return scale * sphere_chord(sphere, ray->origin, scaled3(scale, ray->direction));

@@ -9,11 +9,10 @@
 // Adds the traits of a material that a primitive uses. Unused materials set no traits.
 static void add_material(SceneTraits *traits, const Material *material)
 {
-    const bool is_glass = material->shader == SHADER_GLASS;
     traits->mirrors |= material->reflectivity > 0;
-    traits->shaded |= !is_glass && material->shader != SHADER_SILHOUETTE;
+    traits->shaded |= IS_SHADED(material->shader);
     traits->checkers |= material->check_size > 0;
-    traits->glass |= is_glass;
+    traits->glass |= material->shader == SHADER_GLASS;
 }
 
 static uint32_t material_of(const FlatScene *flat, uint32_t triangle)

@@ -162,8 +162,7 @@ static void take_surface(ExplainedRay *ray, const Notes *notes, ClrtExplainedLig
     found->material = noted_word(notes, LEVEL_MATERIAL);
     vec3_store_doubles(found->point, point);
     vec3_store_doubles(found->normal, vector_at(notes, LEVEL_NORMAL));
-    const uint32_t shader = explainer->scene->materials.data[found->material].shader;
-    if (shader != SHADER_SILHOUETTE && shader != SHADER_GLASS)
+    if (IS_SHADED(explainer->scene->materials.data[found->material].shader))
         found->light_count = explainer->frame.light_count;
     ray->diffuse = vector_at(notes, LEVEL_DIFFUSE);
     ray->lights = lights;
