@@ -78,3 +78,23 @@ def nearest(corners, origin, direction, own=None, far=math.inf, spheres=()):
     first = min(found)
     ties = [hit for hit in found if hit[0] == first[0]]
     return min(hit[2] for hit in ties), len(ties) == 1 and not first[1]
+
+
+def reach(corners, origin, direction, slack):
+    """Returns the lowest and the highest t at which the ray is within `slack` of the triangle on each
+    axis. These are the t of all triangles whose corners differ by at most `slack`. None: no such t."""
+    corners, start, way = [_exact(corner) for corner in corners], _exact(origin), _exact(direction)
+    edges = [_minus(corners[i], corners[i - 1]) for i in range(3)]
+    axes = [tuple(map(Fraction, row)) for row in np.eye(3, dtype=int).tolist()]
+    normals = axes + [_cross(*edges[:2])] + [_cross(edge, axis) for edge in edges for axis in axes]
+    low, high = -math.inf, math.inf
+    for normal in normals:  # of the planes that bound all places within `slack` of the triangle
+        heights = [_dot(normal, _minus(corner, start)) for corner in corners]
+        margin, speed = slack * sum(map(abs, normal)), _dot(normal, way)
+        ends = min(heights) - margin, max(heights) + margin
+        if speed:
+            low = max(low, min(end / speed for end in ends))
+            high = min(high, max(end / speed for end in ends))
+        elif not ends[0] <= 0 <= ends[1]:
+            return None
+    return (low, high) if low <= high else None
