@@ -27,7 +27,7 @@ NOTHING = 0xFFFFFFFF
 _NUMBERS = {"double": "a number", "_Bool": "True or False",
             "uint32_t": f"an integer from 0 to {NOTHING}"}
 ffi = cffi.FFI()
-VECTOR, NUMBER = ffi.typeof("double[3]"), ffi.typeof("uint32_t")
+VECTOR, NUMBER, _POINTER = map(ffi.typeof, ("double[3]", "uint32_t", "void *"))
 _user: list[int] = []  # the id of the first process that used a device, if any
 _kept: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()
 
@@ -115,16 +115,16 @@ def struct(kind, **members):
 
 def c_value(value, kind, what):
     """The value as the C type `kind`. Raises if the type cannot hold it."""
-    if kind.kind == "array":
-        return tuple(threes(value, np.float64, what).tolist())
-    if kind.kind == "enum":
-        return _names(kind).index(*choices(_names(kind), [value], what))
     if kind.cname == "char *":
         if "\0" in instance(value, str, what):
             raise ArgumentError(f"{what} contains a null character: {value!r}")
         return ffi.new("char[]", os.fsencode(value))
-    if kind.kind != "primitive":
-        return ffi.cast("void *", value.ctypes.data) if isinstance(value, np.ndarray) else value
+    if kind.kind == "pointer":
+        return ffi.cast(_POINTER, value.ctypes.data) if isinstance(value, np.ndarray) else value
+    if kind.kind == "array":
+        return tuple(threes(value, np.float64, what).tolist())
+    if kind.kind == "enum":
+        return _names(kind).index(*choices(_names(kind), [value], what))
     try:
         return ffi.new(kind.cname + "[1]", [value])[0]  # Also raises for None.
     except (OverflowError, TypeError):
@@ -170,8 +170,10 @@ def numbers(values, dtype, what, shape=None):
         if np.iscomplexobj(values):
             raise TypeError("the numbers are complex")
         values = values if shape is None else np.broadcast_to(values, shape)
+        if values.dtype == dtype:
+            return values
         with np.errstate(invalid="ignore"):
-            made = values.astype(dtype, copy=False)
+            made = values.astype(dtype)
     except (OverflowError, TypeError, ValueError) as fault:
         raise ArgumentError(f"{what}: {fault}") from None
     if dtype == np.uint32 and (made != values).any():
