@@ -342,15 +342,12 @@ bool adaptive_open(Adaptive *adaptive, const RefineSetup *setup, Error *error)
     if (pixels > PIXELS_MOST)
         return error_set(error, "a picture of %u x %u pixels is too large to be refined",
                          frame->width, frame->height);
-    const ThinSource thin = {
-        frame,       setup->scene, setup->pieces, setup->normalization, setup->flat->spheres,
-        setup->pool, true};
     adaptive->refined = memory_zeroed(pixels, sizeof *adaptive->refined, error);
     adaptive->centers = memory_zeroed(pixels, sizeof *adaptive->centers, error);
     const bool ok =
         adaptive->refined != NULL && adaptive->centers != NULL &&
         scan_lines_make(&adaptive->lines, error) &&
-        thin_parts_make(&adaptive->thin_parts, &thin, error) &&
+        thin_parts_make(&adaptive->thin_parts, setup, frame, true, error) &&
         sampler_draw_centers(renderer, frame, &adaptive->centers->color, setup->observer, error);
     adaptive->samples = pixels;
     if (!ok)

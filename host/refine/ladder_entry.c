@@ -225,27 +225,14 @@ static void enter_all(const Entering *entering)
                          entering->entries[row].features[stratum]);
 }
 
-// Finds the pixels that thin parts touch.
-static bool find_thin_parts(ThinParts *parts, const RefineSetup *setup, Error *error)
-{
-    FrameData frame = renderer_frame(setup->renderer, setup->camera);
-    for (int axis = 0; axis < 3; axis++) {
-        frame.camera.right_step[axis] *= (float)LADDER_GRID / REFINE_GRID;
-        frame.camera.down_step[axis] *= (float)LADDER_GRID / REFINE_GRID;
-    }
-    const ThinSource source = {
-        &frame,      setup->scene, setup->pieces, setup->normalization, setup->flat->spheres,
-        setup->pool, false};
-    return thin_parts_make(parts, &source, error);
-}
-
 bool ladder_enter(Ladder *ladder, Error *error)
 {
     const uint32_t tasks = range_count(ladder->setup.picture->height, AREA_HEIGHT);
     Entering entering = {.ladder = ladder,
                          .entries = memory_zeroed(tasks, sizeof *entering.entries, error)};
     const bool ok =
-        entering.entries != NULL && find_thin_parts(&entering.thin_parts, &ladder->setup, error);
+        entering.entries != NULL &&
+        thin_parts_make(&entering.thin_parts, &ladder->setup, &ladder->frame, false, error);
     if (ok)
         enter_all(&entering);
     free(entering.entries);

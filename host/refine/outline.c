@@ -153,8 +153,9 @@ static void project_points(void *context, uint32_t first, uint32_t end)
 
 Projection projection_of(const FrameData *frame, const Normalization *normalization)
 {
-    const Vec3 right = vec3_of_floats(frame->camera.right_step);
-    const Vec3 down = vec3_of_floats(frame->camera.down_step);
+    const double scale = (double)frame->samples / REFINE_GRID;
+    const Vec3 right = vec3_scale(vec3_of_floats(frame->camera.right_step), scale);
+    const Vec3 down = vec3_scale(vec3_of_floats(frame->camera.down_step), scale);
     const double square = vec3_dot(right, right);
     const double width = (double)frame->width * REFINE_GRID;
     const double height = (double)frame->height * REFINE_GRID;

@@ -97,7 +97,7 @@ typedef struct {
     ProjectedPoint *points;       // of the mesh's vertices
 } Projection;
 
-// Returns a projection without a mesh. The frame's camera must be made with samples = REFINE_GRID.
+// Returns a projection without a mesh. The frame's camera must be made for frame->samples samples.
 Projection projection_of(const FrameData *frame, const Normalization *normalization);
 
 // Returns the homogeneous coordinates (x * depth, y * depth, depth) of a point that is given in

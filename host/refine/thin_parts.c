@@ -103,19 +103,19 @@ static void finish_probes(ThinParts *parts)
         qsort(parts->probes.data, kept, sizeof *parts->probes.data, compare_pixels);
 }
 
-bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error)
+bool thin_parts_make(ThinParts *parts, const RefineSetup *setup, const FrameData *frame,
+                     bool has_probes, Error *error)
 {
-    const FrameData *frame = source->frame;
     const size_t pixels = (size_t)frame->width * frame->height;
     *parts = (ThinParts){.width = frame->width, .height = frame->height};
     parts->axes = memory_zeroed(pixels, sizeof *parts->axes, error);
-    const Projection projection = projection_of(frame, source->normalization);
+    const Projection projection = projection_of(frame, setup->normalization);
     bool ok = parts->axes != NULL;
     // With max_level 0, camera rays hit nothing, so there is no need for probes.
     for (uint32_t i = 0; ok && frame->max_level > 0 && i < frame->sphere_count; i++)
-        ok = add_sphere(parts, &projection, &source->spheres[i], source->has_probes, error);
+        ok = add_sphere(parts, &projection, &setup->flat->spheres[i], has_probes, error);
     if (ok && frame->max_level > 0)
-        ok = thin_triangles_find(parts, source, error);
+        ok = thin_triangles_find(parts, setup, frame, has_probes, error);
     finish_probes(parts);
     if (!ok)
         thin_parts_free(parts);

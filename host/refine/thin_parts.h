@@ -25,7 +25,10 @@
 // - pieces with too many thin triangles to list (thin_triangles.c). Such pieces have no probes.
 #pragma once
 
+#include "refine/refine_setup.h"
 #include "refine/thin_places.h"
 
-bool thin_parts_make(ThinParts *parts, const ThinSource *source, Error *error);
+// Finds the thin parts in the frame. Without `has_probes`, finds only the pixels that they touch.
+bool thin_parts_make(ThinParts *parts, const RefineSetup *setup, const FrameData *frame,
+                     bool has_probes, Error *error);
 void thin_parts_free(ThinParts *parts);

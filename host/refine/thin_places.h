@@ -3,11 +3,8 @@
 #pragma once
 
 #include "base/array.h"
-#include "base/thread_pool.h"
-#include "mesh/mesh_pieces.h"
 #include "refine/outline.h"
 #include "refine/probe.h"
-#include "scene/normalize.h"
 
 #define THIN_SAMPLES 16
 
@@ -29,17 +26,6 @@ typedef struct {
     uint64_t counts[REFINE_LEVELS]; // by level: number of probes of the level that are on a line of
                                     // this level
 } ThinParts;
-
-// The input of the search.
-typedef struct {
-    const FrameData *frame; // its camera is made for REFINE_GRID samples
-    const Scene *scene;
-    const MeshPieces *pieces;           // of each of the scene's objects
-    const Normalization *normalization; // of the scene
-    const SphereData *spheres;          // of the frame
-    ThreadPool *pool;                   // threads for the work, NULL for none
-    bool has_probes;                    // false: only the touched pixels are needed
-} ThinSource;
 
 // Returns the grid of the picture's pixels.
 static inline CellGrid thin_pixel_grid(const ThinParts *parts)

@@ -39,7 +39,7 @@ typedef struct {
 
 typedef struct {
     ThinParts *parts;
-    const ThinSource *source;
+    ThreadPool *pool;
     Projection projection;     // of the mesh
     const MeshPieces *pieces;  // of the mesh
     uint32_t first;            // of the piece's triangles, in the order of the pieces
@@ -226,7 +226,7 @@ static bool collect(ThinSearch *search, uint32_t count, uint32_t part, ThreadPoo
     search->lists = memory_zeroed(tasks, sizeof *search->lists, error);
     bool ok = search->lists != NULL;
     if (ok)
-        thread_pool_share(search->source->pool, count, part, work, search);
+        thread_pool_share(search->pool, count, part, work, search);
     for (uint32_t task = 0; search->lists != NULL && task < tasks; task++) {
         TaskList *list = &search->lists[task];
         if (ok && list->error.text[0] != '\0')
@@ -322,7 +322,7 @@ static bool search_piece(ThinSearch *search, uint32_t end, Error *error)
     search->met = 0;
     search->pairs.count = 0;
     search->levels = thin_parts_affordable(parts);
-    thread_pool_share(search->source->pool, count, TRIANGLES_OF_TASK, cover_blocks, search);
+    thread_pool_share(search->pool, count, TRIANGLES_OF_TASK, cover_blocks, search);
     bool ok = collect(search, count, TRIANGLES_OF_TASK, list_all_touched, error);
     for (size_t i = 0; ok && i < search->pairs.count; i++)
         thin_parts_touch(parts, search->pairs.data[i].pixel, THIN_TOUCHED);
@@ -336,10 +336,9 @@ static bool search_piece(ThinSearch *search, uint32_t end, Error *error)
 
 static bool search_mesh(ThinSearch *search, const MeshObject *object, Error *error)
 {
-    const ThinSource *source = search->source;
     search->first = 0;
     const uint32_t blocks = range_count((uint32_t)object->mesh.triangle_count, BLOCK_TRIANGLES);
-    bool ok = projection_begin(&search->projection, object, source->pool, error);
+    bool ok = projection_begin(&search->projection, object, search->pool, error);
     search->boxes = memory_raw(blocks, sizeof *search->boxes, error);
     ok = ok && search->boxes != NULL;
     for (uint32_t i = 0; ok && i < search->pieces->count; i++)
@@ -349,22 +348,23 @@ static bool search_mesh(ThinSearch *search, const MeshObject *object, Error *err
     return ok;
 }
 
-bool thin_triangles_find(ThinParts *parts, const ThinSource *source, Error *error)
+bool thin_triangles_find(ThinParts *parts, const RefineSetup *setup, const FrameData *frame,
+                         bool has_probes, Error *error)
 {
     ThinSearch search = {.parts = parts,
-                         .source = source,
-                         .projection = projection_of(source->frame, source->normalization)};
+                         .pool = setup->pool,
+                         .projection = projection_of(frame, setup->normalization)};
     const size_t pixels = (size_t)parts->width * parts->height;
     const uint64_t most = PAIRS_OF_PIXEL * (uint64_t)pixels;
-    search.most = source->has_probes ? (most > PAIRS_MOST ? most : PAIRS_MOST) : 0;
-    if (source->scene->objects.count == 0)
+    search.most = has_probes ? (most > PAIRS_MOST ? most : PAIRS_MOST) : 0;
+    if (setup->scene->objects.count == 0)
         return true;
     search.covered = memory_zeroed(pixels, sizeof *search.covered, error);
     search.touched = memory_zeroed(pixels, sizeof *search.touched, error);
     bool ok = search.covered != NULL && search.touched != NULL;
-    for (size_t i = 0; ok && i < source->scene->objects.count; i++) {
-        search.pieces = &source->pieces[i];
-        ok = search_mesh(&search, &source->scene->objects.data[i], error);
+    for (size_t i = 0; ok && i < setup->scene->objects.count; i++) {
+        search.pieces = &setup->pieces[i];
+        ok = search_mesh(&search, &setup->scene->objects.data[i], error);
     }
     free(search.covered);
     free(search.touched);

@@ -62,16 +62,23 @@ static void search(World *world, uint32_t threads)
     world->scene.objects.data = &world->object;
     world->scene.objects.count = 1;
     world->normalization = normalization_of(&world->scene);
-    world->frame = (FrameData){
-        .width = SIDE, .height = SIDE, .max_level = 1, .sphere_count = world->sphere.radius > 0};
+    world->frame = (FrameData){.width = SIDE,
+                               .height = SIDE,
+                               .samples = REFINE_GRID,
+                               .max_level = 1,
+                               .sphere_count = world->sphere.radius > 0};
     world->frame.camera = camera_make(&viewpoint, &world->normalization, SIDE, SIDE, REFINE_GRID);
     ThreadPool *pool = thread_pool_open(threads);
     Error error;
     FREED_BY(mesh_pieces_free) MeshPieces pieces;
     assert_true(mesh_pieces_make(&pieces, &world->object.mesh, &error));
-    const ThinSource source = {&world->frame,  &world->scene, &pieces, &world->normalization,
-                               &world->sphere, pool,          true};
-    assert_true(thin_parts_make(&world->parts, &source, &error));
+    const FlatScene flat = {.spheres = &world->sphere};
+    const RefineSetup setup = {.flat = &flat,
+                               .pool = pool,
+                               .scene = &world->scene,
+                               .pieces = &pieces,
+                               .normalization = &world->normalization};
+    assert_true(thin_parts_make(&world->parts, &setup, &world->frame, true, &error));
     thread_pool_close(pool);
 }
 
