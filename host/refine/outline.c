@@ -67,12 +67,12 @@ bool outline_is_thinner(const Outline *outline, double diameter)
     return (outline->count == 3 ? 4 : 2) * area < diameter * perimeter_of(outline);
 }
 
-// Computes the smallest and the largest x of the polygon's points with y in [low, high]. Returns
-// false if the polygon has no such point.
-static bool find_extent(const Outline *outline, double low, double high, double extent[2])
+// Stores the smallest and the largest x of the polygon's points with y in [low, high] in the box.
+// Returns false if the polygon has no such point.
+static bool find_extent(const Outline *outline, double low, double high, OutlineBox *box)
 {
-    extent[0] = INFINITY;
-    extent[1] = -INFINITY;
+    box->low[0] = INFINITY;
+    box->high[0] = -INFINITY;
     for (uint32_t i = 0; i < outline->count; i++) {
         const double *one = outline->corners[i], *other = outline->corners[i + 1];
         const double *from = one[1] < other[1] ? one : other;
@@ -82,29 +82,22 @@ static bool find_extent(const Outline *outline, double low, double high, double 
         const double slope = (to[0] - from[0]) / (to[1] - from[1]);
         const double start = from[1] < low ? from[0] + (low - from[1]) * slope : from[0];
         const double end = to[1] > high ? from[0] + (high - from[1]) * slope : to[0];
-        extent[0] = smaller(extent[0], smaller(start, end));
-        extent[1] = larger(extent[1], larger(start, end));
+        box->low[0] = smaller(box->low[0], smaller(start, end));
+        box->high[0] = larger(box->high[0], larger(start, end));
     }
-    return extent[0] <= extent[1];
+    return box->low[0] <= box->high[0];
 }
 
-CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row)
+CellRange outline_cells(const Outline *outline, const CellGrid *grid, uint32_t row, CellPart part)
 {
-    double extent[2] = {outline->box.low[0], outline->box.high[0]};
-    const double top = grid->origin[1] + row * grid->side, bottom = top + grid->side;
-    const bool is_all = outline->box.low[1] >= top && outline->box.high[1] <= bottom;
-    if (!is_all && !find_extent(outline, top, bottom, extent))
-        return (CellRange){0, 0};
-    return cells_touched(extent[0], extent[1], grid, 0);
-}
-
-CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row)
-{
-    double extent[2];
+    OutlineBox box = outline->box;
     const double middle = grid->origin[1] + (row + 0.5) * grid->side;
-    if (!find_extent(outline, middle, middle, extent))
+    const double half = part == CELL_AREA ? grid->side / 2 : 0;
+    const double top = middle - half, bottom = middle + half;
+    const bool is_all = box.low[1] >= top && box.high[1] <= bottom;
+    if (!is_all && !find_extent(outline, top, bottom, &box))
         return (CellRange){0, 0};
-    return cells_sampled(extent[0], extent[1], grid, 0);
+    return cells_along(&box, grid, 0, part);
 }
 
 // The following functions project triangles, and clip them in homogeneous coordinates. After the

@@ -49,22 +49,18 @@ static inline uint32_t cell_limit(double value, uint32_t most)
     return value > 0 ? (value < most ? (uint32_t)value : most) : 0;
 }
 
-// Returns the cells along an axis that the interval from `low` to `high` touches.
-static inline CellRange cells_touched(double low, double high, const CellGrid *grid, int axis)
-{
-    const double first = (low - grid->origin[axis]) * grid->per_length;
-    const double last = (high - grid->origin[axis]) * grid->per_length;
-    return (CellRange){cell_limit(first, grid->counts[axis]),
-                       cell_limit(last + 1, grid->counts[axis])};
-}
+// The part of a cell that counts.
+typedef enum { CELL_CENTER, CELL_AREA } CellPart;
 
-// Returns the cells along an axis whose centers lie between `low` and `high`.
-static inline CellRange cells_sampled(double low, double high, const CellGrid *grid, int axis)
+// Returns the cells along an axis whose parts meet the box.
+static inline CellRange cells_along(const OutlineBox *box, const CellGrid *grid, int axis,
+                                    CellPart part)
 {
-    const double first = (low - grid->origin[axis]) * grid->per_length;
-    const double last = (high - grid->origin[axis]) * grid->per_length;
-    return (CellRange){cell_limit(first + 0.5, grid->counts[axis]),
-                       cell_limit(last + 0.5, grid->counts[axis])};
+    const double first = (box->low[axis] - grid->origin[axis]) * grid->per_length;
+    const double last = (box->high[axis] - grid->origin[axis]) * grid->per_length;
+    const double half = part == CELL_AREA ? 0.5 : 0; // of the part's side, in cells
+    return (CellRange){cell_limit(first + (0.5 - half), grid->counts[axis]),
+                       cell_limit(last + (0.5 + half), grid->counts[axis])};
 }
 
 // Returns twice the area, negative if the corners are counterclockwise on the screen (y is down).
@@ -74,10 +70,8 @@ double outline_signed_area(const Outline *outline);
 // three corners, the result may also be true although a disk of up to twice this diameter fits.
 bool outline_is_thinner(const Outline *outline, double diameter);
 
-// outline_touched returns the cells of a row that the polygon touches. outline_sampled returns the
-// cells whose centers the polygon contains.
-CellRange outline_touched(const Outline *outline, const CellGrid *grid, uint32_t row);
-CellRange outline_sampled(const Outline *outline, const CellGrid *grid, uint32_t row);
+// Returns the cells of a row whose parts meet the polygon.
+CellRange outline_cells(const Outline *outline, const CellGrid *grid, uint32_t row, CellPart part);
 
 // The following declarations project a mesh into the picture. Triangles are clipped to the picture
 // and a margin of two pixels.

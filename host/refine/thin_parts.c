@@ -72,13 +72,15 @@ static bool add_sphere(ThinParts *parts, const Projection *projection, const Sph
     bool ok = true;
     if (!project(projection, sphere, &outline) || 2 * outline.radius >= THIN_WIDTH)
         return true;
-    const double *middle = outline.middle, outer = outline.outer;
-    const CellRange columns = cells_touched(middle[0] - outer, middle[0] + outer, &pixels, 0);
-    const CellRange rows = cells_touched(middle[1] - outer, middle[1] + outer, &pixels, 1);
-    for (uint32_t y = rows.first; ok && y < rows.end; y++)
-        for (uint32_t x = columns.first; ok && x < columns.end; x++) {
-            thin_parts_touch(parts, y * parts->width + x, THIN_ROWS);
-            ok = !has_probes || add_probes(parts, &outline, y * parts->width + x, error);
+    const double x = outline.middle[0], y = outline.middle[1], outer = outline.outer;
+    const OutlineBox box = {{x - outer, y - outer}, {x + outer, y + outer}};
+    const CellRange columns = cells_along(&box, &pixels, 0, CELL_AREA);
+    const CellRange rows = cells_along(&box, &pixels, 1, CELL_AREA);
+    for (uint32_t row = rows.first; ok && row < rows.end; row++)
+        for (uint32_t column = columns.first; ok && column < columns.end; column++) {
+            const uint32_t pixel = row * parts->width + column;
+            thin_parts_touch(parts, pixel, THIN_ROWS);
+            ok = !has_probes || add_probes(parts, &outline, pixel, error);
         }
     return ok;
 }

@@ -67,9 +67,9 @@ static void cover_pixels(const ThinSearch *search, uint32_t triangle)
     Outline outline;
     if (!projection_outline(&search->projection, triangle, &outline))
         return;
-    const CellRange rows = cells_sampled(outline.box.low[1], outline.box.high[1], &grid, 1);
+    const CellRange rows = cells_along(&outline.box, &grid, 1, CELL_CENTER);
     for (uint32_t row = rows.first; row < rows.end; row++) {
-        const CellRange columns = outline_sampled(&outline, &grid, row);
+        const CellRange columns = outline_cells(&outline, &grid, row, CELL_CENTER);
         for (uint32_t column = columns.first; column < columns.end; column++)
             atomic_store_explicit(&search->covered[(size_t)row * grid.counts[0] + column],
                                   search->number, memory_order_relaxed);
@@ -96,8 +96,8 @@ static OutlineBox cover_block(const ThinSearch *search, uint32_t first, uint32_t
         if (!projection_box(&search->projection, triangle, &box))
             continue;
         extend(&all, &box);
-        if (!range_is_empty(cells_sampled(box.low[1], box.high[1], &grid, 1)) &&
-            !range_is_empty(cells_sampled(box.low[0], box.high[0], &grid, 0)))
+        if (!range_is_empty(cells_along(&box, &grid, 1, CELL_CENTER)) &&
+            !range_is_empty(cells_along(&box, &grid, 0, CELL_CENTER)))
             cover_pixels(search, triangle);
     }
     return all;
@@ -161,8 +161,8 @@ static bool is_listed(const ThinSearch *search, uint32_t column, uint32_t row)
 static bool adds_nothing(const ThinSearch *search, const OutlineBox *box)
 {
     const CellGrid grid = thin_pixel_grid(search->parts);
-    const CellRange rows = cells_touched(box->low[1], box->high[1], &grid, 1);
-    const CellRange columns = cells_touched(box->low[0], box->high[0], &grid, 0);
+    const CellRange rows = cells_along(box, &grid, 1, CELL_AREA);
+    const CellRange columns = cells_along(box, &grid, 0, CELL_AREA);
     if (range_is_empty(rows) || range_is_empty(columns))
         return true;
     if ((uint64_t)(rows.end - rows.first) * (columns.end - columns.first) > BLOCK_TRIANGLES)
@@ -186,9 +186,9 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
         !projection_outline(&search->projection, triangle, &outline) ||
         !outline_is_thinner(&outline, THIN_WIDTH))
         return true;
-    const CellRange rows = cells_touched(outline.box.low[1], outline.box.high[1], &grid, 1);
+    const CellRange rows = cells_along(&outline.box, &grid, 1, CELL_AREA);
     for (uint32_t row = rows.first; row < rows.end; row++) {
-        const CellRange columns = outline_touched(&outline, &grid, row);
+        const CellRange columns = outline_cells(&outline, &grid, row, CELL_AREA);
         for (uint32_t column = columns.first; column < columns.end; column++) {
             const PixelTriangle pair = {row * grid.counts[0] + column, triangle};
             const bool is_old = is_listed(search, column, row);
@@ -266,11 +266,11 @@ static ThinAxis draw_triangles(const ThinSearch *search, const PixelTriangle *pa
         if (!projection_outline(&search->projection, pairs[i].triangle, &outline))
             continue;
         const OutlineBox *box = &outline.box;
-        const CellRange lines = cells_sampled(box->low[1], box->high[1], &grid, 1);
+        const CellRange lines = cells_along(box, &grid, 1, CELL_CENTER);
         for (int axis = 0; axis < 2; axis++)
             sides[axis] += box->high[axis] - box->low[axis];
         for (uint32_t line = lines.first; line < lines.end; line++) {
-            const CellRange places = outline_sampled(&outline, &grid, line);
+            const CellRange places = outline_cells(&outline, &grid, line, CELL_CENTER);
             if (places.first < places.end)
                 memset(&drawing[line][places.first], PLACE_DRAWN, places.end - places.first);
         }

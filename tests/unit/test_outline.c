@@ -71,9 +71,9 @@ TEST(exactly_the_cells_that_it_meets_are_touched)
     uint64_t random = 1;
     for (int trial = 0; trial < TRIALS; trial++) {
         const Outline outline = random_triangle(&random);
-        const CellRange rows = cells_touched(outline.box.low[1], outline.box.high[1], &grid, 1);
+        const CellRange rows = cells_along(&outline.box, &grid, 1, CELL_AREA);
         for (uint32_t row = 0; row < grid.counts[1]; row++) {
-            const CellRange columns = outline_touched(&outline, &grid, row);
+            const CellRange columns = outline_cells(&outline, &grid, row, CELL_AREA);
             for (uint32_t column = 0; column < grid.counts[0]; column++)
                 assert_int_equal(
                     is_in(rows, row) && is_in(columns, column),
@@ -87,9 +87,9 @@ TEST(exactly_the_samples_that_it_holds_are_sampled)
     uint64_t random = 2;
     for (int trial = 0; trial < TRIALS; trial++) {
         const Outline outline = random_triangle(&random);
-        const CellRange rows = cells_sampled(outline.box.low[1], outline.box.high[1], &grid, 1);
+        const CellRange rows = cells_along(&outline.box, &grid, 1, CELL_CENTER);
         for (uint32_t row = 0; row < grid.counts[1]; row++) {
-            const CellRange columns = outline_sampled(&outline, &grid, row);
+            const CellRange columns = outline_cells(&outline, &grid, row, CELL_CENTER);
             for (uint32_t column = 0; column < grid.counts[0]; column++)
                 assert_int_equal(
                     is_in(rows, row) && is_in(columns, column),
