@@ -85,12 +85,6 @@ static bool add_sphere(ThinParts *parts, const Projection *projection, const Sph
     return ok;
 }
 
-static int compare_pixels(const void *a, const void *b)
-{
-    const uint32_t one = ((const Probe *)a)->pixel, other = ((const Probe *)b)->pixel;
-    return (one > other) - (one < other);
-}
-
 // Removes the probes of levels that the sample budget does not cover. Sorts the other probes by
 // pixel.
 static void finish_probes(ThinParts *parts)
@@ -102,7 +96,7 @@ static void finish_probes(ThinParts *parts)
             parts->probes.data[kept++] = parts->probes.data[i];
     parts->probes.count = kept;
     if (kept > 0)
-        qsort(parts->probes.data, kept, sizeof *parts->probes.data, compare_pixels);
+        qsort(parts->probes.data, kept, sizeof *parts->probes.data, thin_compare_pixels);
 }
 
 bool thin_parts_make(ThinParts *parts, const RefineSetup *setup, const FrameData *frame,

@@ -2,6 +2,7 @@
 // Looks for runs of drawn places on the lines of each level, from the first level on.
 #include "refine/thin_places.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,9 +13,8 @@
 
 void thin_parts_touch(ThinParts *parts, uint32_t pixel, ThinAxis axis)
 {
-    parts->touched += parts->axes[pixel] == THIN_NONE;
-    if (parts->axes[pixel] <= THIN_TOUCHED)
-        parts->axes[pixel] = (uint8_t)axis;
+    uint8_t none = THIN_NONE;
+    parts->touched += atomic_compare_exchange_strong(&parts->axes[pixel], &none, (uint8_t)axis);
 }
 
 uint32_t thin_parts_affordable(ThinParts *parts)
@@ -46,6 +46,12 @@ size_t thin_parts_first_probe(const ThinParts *parts, uint32_t pixel)
             end = middle;
     }
     return first;
+}
+
+int thin_compare_pixels(const void *one, const void *other)
+{
+    const uint32_t first = *(const uint32_t *)one, second = *(const uint32_t *)other;
+    return (first > second) - (first < second);
 }
 
 bool probe_list_add(ProbeList *probes, const ProbeRun *run, Error *error)

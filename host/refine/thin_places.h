@@ -19,8 +19,8 @@ typedef ARRAY(Probe) ProbeList;
 
 typedef struct {
     uint32_t width, height;
-    uint8_t *axes;                  // ThinAxis by pixel
-    uint64_t touched;               // number of pixels that thin parts touch
+    _Atomic uint8_t *axes;          // ThinAxis by pixel
+    _Atomic uint64_t touched;       // number of pixels that thin parts touch
     ProbeList probes;               // sorted by pixel
     size_t counted;                 // probes in `counts`
     uint64_t counts[REFINE_LEVELS]; // by level: number of probes of the level that are on a line of
@@ -33,7 +33,8 @@ static inline CellGrid thin_pixel_grid(const ThinParts *parts)
     return (CellGrid){REFINE_GRID, 1.0 / REFINE_GRID, {parts->width, parts->height}, {0, 0}};
 }
 
-// Records that a thin part touches a pixel. The pixel keeps its axis if it has one already.
+// Records that a thin part touches a pixel. The pixel keeps its axis if it has one already. Threads
+// may call this function at the same time with the same axis.
 void thin_parts_touch(ThinParts *parts, uint32_t pixel, ThinAxis axis);
 
 // Returns the number of levels whose probes take at most THIN_SAMPLES samples per pixel of the
@@ -42,6 +43,9 @@ uint32_t thin_parts_affordable(ThinParts *parts);
 
 // Returns the index of the first probe of this pixel or of a later one, or the number of probes.
 size_t thin_parts_first_probe(const ThinParts *parts, uint32_t pixel);
+
+// Compares elements of an array by their first member, which is a pixel, as qsort needs it.
+int thin_compare_pixels(const void *one, const void *other);
 
 // The places `first` to `end` - 1 of a line, which a thin part covers. They may be outside of the
 // pixel.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Searches piece by piece, in three steps. Threads first record the pixels whose centers lie in the
-// piece. They then list the thin triangles of each pixel at which the piece is not wide
+// piece. They then record and list the thin triangles of each pixel at which the piece is not wide
 // (thin_parts.h). Finally, they draw these triangles on the pixel's grid of places, and choose
 // probes level by level.
 //
@@ -40,17 +40,16 @@ typedef struct {
 typedef struct {
     ThinParts *parts;
     ThreadPool *pool;
-    Projection projection;     // of the mesh
-    const MeshPieces *pieces;  // of the mesh
-    uint32_t first;            // of the piece's triangles, in the order of the pieces
-    uint32_t number;           // of the piece, from 1
-    uint32_t levels;           // number of levels to search for probes
-    OutlineBox *boxes;         // around each block of the piece's triangles
-    _Atomic uint32_t *covered; // by pixel: the latest piece that contains the pixel's center
-    _Atomic uint32_t *touched; // by pixel: the latest piece whose thin triangles touch it
-    uint64_t most;             // pairs that a piece may have; 0 if no probes are needed
-    _Atomic uint64_t met; // pairs of thin triangles and pixels that they touch; 0 without probes
-    TaskList *lists;      // of each task
+    Projection projection;      // of the mesh
+    const MeshPieces *pieces;   // of the mesh
+    uint32_t first;             // of the piece's triangles, in the order of the pieces
+    uint32_t number;            // of the piece, from 1
+    uint32_t levels;            // number of levels to search for probes
+    OutlineBox *boxes;          // around each block of the piece's triangles
+    _Atomic uint32_t *covered;  // by pixel: the latest piece that contains the pixel's center
+    uint64_t most;              // pairs that a piece may have; 0 if no probes are needed
+    _Atomic uint64_t met;       // pairs of thin triangles and pixels; 0 without probes
+    TaskList *lists;            // of each task
     ARRAY(PixelTriangle) pairs; // of the piece, sorted by pixel
 } ThinSearch;
 
@@ -149,16 +148,17 @@ static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
     return false;
 }
 
-static bool is_listed(const ThinSearch *search, uint32_t column, uint32_t row)
+// Returns whether a thin triangle that touches the pixel changes nothing: the piece is wide there,
+// or the pixel is recorded already and no probes are needed.
+static bool is_done(const ThinSearch *search, uint32_t column, uint32_t row)
 {
-    const _Atomic uint32_t *touched = &search->touched[(size_t)row * search->parts->width + column];
-    return atomic_load_explicit(touched, memory_order_relaxed) == search->number;
+    const _Atomic uint8_t *axis = &search->parts->axes[row * search->parts->width + column];
+    return (search->most == 0 && *axis != THIN_NONE) || is_wide(search, column, row);
 }
 
-// Returns whether triangles in the box add no pixel to the list: at all pixels that the box
-// touches, the piece is wide, or the pixel is in the list and needs no probes. Returns false
-// without a test if the box touches more than BLOCK_TRIANGLES pixels.
-static bool adds_nothing(const ThinSearch *search, const OutlineBox *box)
+// Returns whether triangles in the box change nothing at any pixel that the box touches. Returns
+// false without a test if the box touches more than BLOCK_TRIANGLES pixels.
+static bool is_box_done(const ThinSearch *search, const OutlineBox *box)
 {
     const CellGrid grid = thin_pixel_grid(search->parts);
     const CellRange rows = cells_along(box, &grid, 1, CELL_AREA);
@@ -169,20 +169,19 @@ static bool adds_nothing(const ThinSearch *search, const OutlineBox *box)
         return false;
     for (uint32_t row = rows.first; row < rows.end; row++)
         for (uint32_t column = columns.first; column < columns.end; column++)
-            if ((search->most > 0 || !is_listed(search, column, row)) &&
-                !is_wide(search, column, row))
+            if (!is_done(search, column, row))
                 return false;
     return true;
 }
 
-// If the triangle is thin, lists the pixels that it touches and at which the piece is not wide. If
-// no probes are needed, or if there are too many pairs, lists a pixel only once per piece.
-static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
+// If the triangle is thin, records the pixels that it touches and at which the piece is not wide.
+// Lists these pixels if they need probes.
+static bool touch_pixels(ThinSearch *search, uint32_t triangle, TaskList *list)
 {
     const CellGrid grid = thin_pixel_grid(search->parts);
     Outline outline;
     if (!projection_box(&search->projection, triangle, &outline.box) ||
-        adds_nothing(search, &outline.box) ||
+        is_box_done(search, &outline.box) ||
         !projection_outline(&search->projection, triangle, &outline) ||
         !outline_is_thinner(&outline, THIN_WIDTH))
         return true;
@@ -191,12 +190,10 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
         const CellRange columns = outline_cells(&outline, &grid, row, CELL_AREA);
         for (uint32_t column = columns.first; column < columns.end; column++) {
             const PixelTriangle pair = {row * grid.counts[0] + column, triangle};
-            const bool is_old = is_listed(search, column, row);
-            if (!is_old && is_wide(search, column, row))
+            if (is_done(search, column, row))
                 continue;
-            const bool is_first = !is_old && atomic_exchange(&search->touched[pair.pixel],
-                                                             search->number) != search->number;
-            if (((search->most > 0 && search->met++ < search->most) || is_first) &&
+            thin_parts_touch(search->parts, pair.pixel, THIN_TOUCHED);
+            if (search->most > 0 && search->met++ < search->most &&
                 !array_push(&list->pairs, pair, &list->error))
                 return false;
         }
@@ -204,16 +201,16 @@ static bool list_touched(ThinSearch *search, uint32_t triangle, TaskList *list)
     return true;
 }
 
-static void list_all_touched(void *context, uint32_t first, uint32_t end)
+static void touch_all(void *context, uint32_t first, uint32_t end)
 {
     ThinSearch *search = context;
     TaskList *list = &search->lists[first / TRIANGLES_OF_TASK];
     for (uint32_t next; first < end; first = next) {
         next = block_end(first, end);
-        if (adds_nothing(search, &search->boxes[first / BLOCK_TRIANGLES]))
+        if (is_box_done(search, &search->boxes[first / BLOCK_TRIANGLES]))
             continue;
         for (uint32_t i = first; i < next; i++)
-            if (!list_touched(search, triangle_at(search, i), list))
+            if (!touch_pixels(search, triangle_at(search, i), list))
                 return;
     }
 }
@@ -240,13 +237,6 @@ static bool collect(ThinSearch *search, uint32_t count, uint32_t part, ThreadPoo
     }
     free(search->lists);
     return ok;
-}
-
-static int compare_pixels(const void *a, const void *b)
-{
-    const uint32_t one = ((const PixelTriangle *)a)->pixel;
-    const uint32_t other = ((const PixelTriangle *)b)->pixel;
-    return (one > other) - (one < other);
 }
 
 // Draws the triangles of pairs of one pixel: the places whose middles they contain become
@@ -296,7 +286,7 @@ static void probe_pixels(void *context, uint32_t first, uint32_t end)
     TaskList *list = &search->lists[first / PAIRS_OF_TASK];
     const PixelTriangle *pairs = search->pairs.data;
     for (uint32_t i = first; i < end; i++) {
-        uint8_t *axis = &search->parts->axes[pairs[i].pixel];
+        _Atomic uint8_t *axis = &search->parts->axes[pairs[i].pixel];
         uint32_t count = 1;
         if (i > 0 && pairs[i - 1].pixel == pairs[i].pixel)
             continue;
@@ -316,18 +306,16 @@ static void probe_pixels(void *context, uint32_t first, uint32_t end)
 
 static bool search_piece(ThinSearch *search, uint32_t end, Error *error)
 {
-    ThinParts *parts = search->parts;
     const uint32_t count = end - search->first;
     search->number++;
     search->met = 0;
     search->pairs.count = 0;
-    search->levels = thin_parts_affordable(parts);
+    search->levels = thin_parts_affordable(search->parts);
     thread_pool_share(search->pool, count, TRIANGLES_OF_TASK, cover_blocks, search);
-    bool ok = collect(search, count, TRIANGLES_OF_TASK, list_all_touched, error);
-    for (size_t i = 0; ok && i < search->pairs.count; i++)
-        thin_parts_touch(parts, search->pairs.data[i].pixel, THIN_TOUCHED);
-    if (ok && search->most > 0 && search->met <= search->most && search->pairs.count > 0) {
-        qsort(search->pairs.data, search->pairs.count, sizeof *search->pairs.data, compare_pixels);
+    bool ok = collect(search, count, TRIANGLES_OF_TASK, touch_all, error);
+    if (ok && search->met <= search->most && search->pairs.count > 0) {
+        qsort(search->pairs.data, search->pairs.count, sizeof *search->pairs.data,
+              thin_compare_pixels);
         ok = collect(search, (uint32_t)search->pairs.count, PAIRS_OF_TASK, probe_pixels, error);
     }
     search->first = end;
@@ -360,14 +348,12 @@ bool thin_triangles_find(ThinParts *parts, const RefineSetup *setup, const Frame
     if (setup->scene->objects.count == 0)
         return true;
     search.covered = memory_zeroed(pixels, sizeof *search.covered, error);
-    search.touched = memory_zeroed(pixels, sizeof *search.touched, error);
-    bool ok = search.covered != NULL && search.touched != NULL;
+    bool ok = search.covered != NULL;
     for (size_t i = 0; ok && i < setup->scene->objects.count; i++) {
         search.pieces = &setup->pieces[i];
         ok = search_mesh(&search, &setup->scene->objects.data[i], error);
     }
     free(search.covered);
-    free(search.touched);
     free(search.pairs.data);
     return ok;
 }
