@@ -244,7 +244,8 @@ static bool divide(Adaptive *adaptive, uint32_t *first, Error *error)
     return ok;
 }
 
-#define ROWS_OF_TASK 16
+#define ROWS_OF_TASK   16
+#define PIXELS_OF_TASK 4096
 
 // Returns whether a pixel differs from a neighbor.
 static bool has_contrast(const Adaptive *adaptive, uint32_t x, uint32_t y)
@@ -287,17 +288,13 @@ static bool add_marked(Adaptive *adaptive, Error *error)
     return true;
 }
 
-// Stores the present colors of pixels in the setup's picture.
-static void store_rows(void *context, uint32_t first, uint32_t end)
+// Stores the colors of refined pixels in the picture. Pixels without samples keep their centers.
+static void store_colors(void *context, uint32_t first, uint32_t end)
 {
     const Adaptive *adaptive = context;
-    const uint32_t width = adaptive->frame.width;
-    for (uint32_t pixel = first * width; pixel < end * width; pixel++) {
-        const uint32_t number = adaptive->refined[pixel];
-        float *color = adaptive->setup.picture->pixels[pixel];
-        if (number == 0 ||
-            !scan_lines_color(&adaptive->lines, &adaptive->lines.pixels.data[number], color))
-            memcpy(color, adaptive->centers[pixel].color, 3 * sizeof *color);
+    for (uint32_t number = first + 1; number <= end; number++) {
+        const RefinedPixel *pixel = &adaptive->lines.pixels.data[number];
+        scan_lines_color(&adaptive->lines, pixel, adaptive->setup.picture->pixels[pixel->pixel]);
     }
 }
 
@@ -308,14 +305,13 @@ bool adaptive_refine(Adaptive *adaptive, float threshold, Error *error)
     adaptive->most = threshold / 2;
     ScanLines *lines = &adaptive->lines;
     ThreadPool *pool = adaptive->setup.pool;
-    const uint32_t height = adaptive->frame.height;
     PlaceList places = {0};
     uint32_t divided = 1;
     lines->probes = adaptive->thin_parts.probes.data;
     lines->threshold = GAP_PART * threshold;
     lines->bend = BEND_PART * threshold;
     if (sampler_is_whole(adaptive->setup.renderer))
-        thread_pool_share(pool, height, ROWS_OF_TASK, mark_rows, adaptive);
+        thread_pool_share(pool, adaptive->frame.height, ROWS_OF_TASK, mark_rows, adaptive);
     bool ok = add_marked(adaptive, error);
     while (ok && sampler_is_whole(adaptive->setup.renderer)) {
         if (lines->gaps.count == 0 && lines->opened == lines->lines.count)
@@ -327,7 +323,8 @@ bool adaptive_refine(Adaptive *adaptive, float threshold, Error *error)
     free(places.data);
     scan_lines_close_gaps(lines);
     if (ok)
-        thread_pool_share(pool, height, ROWS_OF_TASK, store_rows, adaptive);
+        thread_pool_share(pool, (uint32_t)lines->pixels.count - 1, PIXELS_OF_TASK, store_colors,
+                          adaptive);
     return ok;
 }
 
@@ -343,12 +340,11 @@ bool adaptive_open(Adaptive *adaptive, const RefineSetup *setup, Error *error)
         return error_set(error, "a picture of %u x %u pixels is too large to be refined",
                          frame->width, frame->height);
     adaptive->refined = memory_zeroed(pixels, sizeof *adaptive->refined, error);
-    adaptive->centers = memory_zeroed(pixels, sizeof *adaptive->centers, error);
+    adaptive->centers = (const SampleData *)setup->picture->pixels;
     const bool ok =
-        adaptive->refined != NULL && adaptive->centers != NULL &&
-        scan_lines_make(&adaptive->lines, error) &&
+        adaptive->refined != NULL && scan_lines_make(&adaptive->lines, error) &&
         thin_parts_make(&adaptive->thin_parts, setup, frame, true, error) &&
-        sampler_draw_centers(renderer, frame, &adaptive->centers->color, setup->observer, error);
+        sampler_draw_centers(renderer, frame, setup->picture->pixels, setup->observer, error);
     adaptive->samples = pixels;
     if (!ok)
         adaptive_close(adaptive);
@@ -365,7 +361,6 @@ void adaptive_close(Adaptive *adaptive)
 {
     thin_parts_free(&adaptive->thin_parts);
     scan_lines_free(&adaptive->lines);
-    free(adaptive->centers);
     free(adaptive->refined);
     *adaptive = (Adaptive){0};
 }

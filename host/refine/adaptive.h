@@ -23,8 +23,8 @@
 typedef struct {
     RefineSetup setup;
     FrameData frame;
-    SampleData *centers; // samples of the pixels' centers
-    uint32_t *refined;   // by pixel: index in lines.pixels; 0 if the pixel has one sample
+    const SampleData *centers; // of the pixels: the picture, until the last step
+    uint32_t *refined;         // by pixel: index in lines.pixels; 0 if the pixel has one sample
     ThinParts thin_parts;
     ScanLines lines;
     float most;       // largest color difference between pixels that are not refined
