@@ -45,6 +45,8 @@ static bool make_arrays(Ladder *ladder, Error *error)
     ladder->places = (LadderPlace *)(ladder->blocks + blocks);
     ladder->chosen = (uint32_t *)(ladder->places + pixels);
     ladder->strata = (uint8_t *)(ladder->chosen + pixels);
+    if (ladder->memory != NULL)
+        memset(ladder->blocks, 0, blocks * sizeof *ladder->blocks);
     return ladder->memory != NULL;
 }
 
@@ -134,7 +136,7 @@ static double feature_of(const Ladder *ladder, uint32_t pixel)
 {
     const LadderPlace *place = &ladder->places[pixel];
     const uint32_t rung = rung_of(ladder, pixel), samples = ladder_samples[rung];
-    return rung == 0 ? (double)place->feature
+    return rung == 0 ? (double)ladder_feature_of_bend(place->bend)
                      : pixel_sums_variance(&ladder->sums.data[place->sums], samples) / samples;
 }
 

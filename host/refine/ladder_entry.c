@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Assigns each pixel to a stratum of rung 0 by its bend (defined below), by the bends nearby, and
-// by whether a thin part touches it. The picture is processed in small areas, which stay in the
-// cache. The features (squared bends) of a row of areas are summed in order, and one thread then
-// adds the rows' sums in order. The result therefore does not depend on threads.
+// by whether a thin part touches it. Threads first measure all bends. They then sum the features
+// (squared bends) of each band of rows in order, and one thread adds the bands' sums in order. The
+// result therefore does not depend on threads.
 #include "refine/ladder_entry.h"
 
 #include "refine/thin_parts.h"
@@ -16,16 +16,20 @@
 // are this channel of two opposite neighbors in the row, the column or a diagonal. Pairs with a
 // neighbor outside of the picture do not count.
 
-// The size of an area without its margin of RADIUS pixels on each side.
-#define AREA_WIDTH  60
-#define AREA_HEIGHT 32
-#define RADIUS      2
+// Bends spread over this number of pixels in each direction.
+#define RADIUS 2
+
+// Rows are processed in parts of up to PART_PIXELS pixels.
+#define PART_PIXELS 60
 
 // A task has at least this many pixels, because waking a thread takes longer than processing a
 // small picture.
 #define TASK_PIXELS (1u << 16)
 
-// Statistics by stratum, for the pixels in one row of areas.
+// The rows of a band. The bands' statistics are summed in order.
+#define BAND_ROWS 32
+
+// Statistics by stratum, for the pixels of a band.
 typedef struct {
     uint32_t pixels[BEND_CLASSES];
     double features[BEND_CLASSES]; // sums
@@ -33,24 +37,18 @@ typedef struct {
 
 typedef struct {
     Ladder *ladder;
-    Entries *entries; // of each row of areas
+    Entries *entries; // of each band
     ThinParts thin_parts;
 } Entering;
-
-// The bends of an area with its margin; 0 outside of the picture.
-typedef struct {
-    uint32_t left, top; // of the area without its margin
-    float bends[AREA_HEIGHT + 2 * RADIUS][AREA_WIDTH + 2 * RADIUS];
-} Area;
-
-// A range of columns and rows.
-typedef struct {
-    uint32_t left, right, top, bottom;
-} PixelRange;
 
 static float larger(float one, float other)
 {
     return one > other ? one : other;
+}
+
+static uint32_t smaller(uint32_t one, uint32_t other)
+{
+    return one < other ? one : other;
 }
 
 // The distances from a pixel to its neighbors in the picture's array, counted in floats. At the
@@ -65,83 +63,50 @@ static inline float bend_along(const float *color, ptrdiff_t step)
     return fabsf(2 * *color - color[-step] - color[step]);
 }
 
-// Measures the bends of up to AREA_WIDTH + 2 * RADIUS pixels of a row. All of them have neighbors
-// at the distances `next`.
-static void measure_pixels(const float *colors, Neighbors next, uint32_t count, float *bends)
+// Measures the bends of up to PART_PIXELS pixels of a row. All of them have neighbors at the
+// distances `next`.
+static void measure_pixels(const float *colors, Neighbors next, uint32_t count, LadderPlace *places)
 {
-    float most[3 * (AREA_WIDTH + 2 * RADIUS)];
+    float most[3 * PART_PIXELS];
     for (uint32_t i = 0; i < 3 * count; i++)
         most[i] =
             larger(larger(bend_along(&colors[i], next.right), bend_along(&colors[i], next.down)),
                    larger(bend_along(&colors[i], next.down + next.right),
                           bend_along(&colors[i], next.down - next.right)));
     for (uint32_t i = 0; i < count; i++)
-        bends[i] = larger(larger(most[3 * i], most[3 * i + 1]), most[3 * i + 2]);
+        places[i].bend = larger(larger(most[3 * i], most[3 * i + 1]), most[3 * i + 2]);
 }
 
-// Measures the bends of the pixels `first` to `end` - 1 of row y.
-static void measure_row(const Framebuffer *picture, uint32_t y, uint32_t first, uint32_t end,
-                        float *bends)
+static void measure_rows(void *context, uint32_t first, uint32_t end)
 {
+    const Ladder *ladder = context;
+    const Framebuffer *picture = ladder->setup.picture;
     const uint32_t width = picture->width;
-    const float(*colors)[3] = (const float(*)[3]) & picture->pixels[(size_t)y * width];
-    const bool is_inside = y > 0 && y + 1 < picture->height;
-    const Neighbors edge = {0, is_inside ? 3 * (ptrdiff_t)width : 0}, inner = {3, edge.down};
-    const uint32_t left = first > 0 ? first : 1, right = end < width ? end : width - 1;
-    if (first == 0)
-        measure_pixels(colors[0], edge, 1, bends);
-    if (left < right)
-        measure_pixels(colors[left], inner, right - left, bends + (left - first));
-    if (end == width)
-        measure_pixels(colors[width - 1], edge, 1, bends + (width - 1 - first));
+    for (uint32_t y = first; y < end; y++) {
+        const bool is_inside = y > 0 && y + 1 < picture->height;
+        const Neighbors edge = {0, is_inside ? 3 * (ptrdiff_t)width : 0}, inner = {3, edge.down};
+        const float(*colors)[3] = (const float(*)[3]) & picture->pixels[(size_t)y * width];
+        LadderPlace *places = &ladder->places[(size_t)y * width];
+        measure_pixels(colors[0], edge, 1, places);
+        for (uint32_t x = 1; x + 1 < width; x += PART_PIXELS)
+            measure_pixels(colors[x], inner, smaller(width - 1 - x, PART_PIXELS), &places[x]);
+        measure_pixels(colors[width - 1], edge, 1, &places[width - 1]);
+    }
 }
 
-// Returns the picture's pixels in the area and in a margin around it.
-static PixelRange pixels_of(const Framebuffer *picture, const Area *area, uint32_t margin)
+// Fills `nearby` with the largest bend among the 5 x 5 pixels around each pixel from (x, y) on.
+static void spread_bends(const Ladder *ladder, uint32_t x, uint32_t y, float nearby[PART_PIXELS])
 {
-    const uint32_t right = area->left + AREA_WIDTH + margin,
-                   bottom = area->top + AREA_HEIGHT + margin;
-    return (PixelRange){area->left < margin ? 0 : area->left - margin,
-                        right < picture->width ? right : picture->width,
-                        area->top < margin ? 0 : area->top - margin,
-                        bottom < picture->height ? bottom : picture->height};
-}
-
-// Returns whether all pixels in the range have the same color.
-static bool is_plain(const Framebuffer *picture, const PixelRange *range)
-{
-    const size_t color = sizeof *picture->pixels, row = color * picture->width;
-    const size_t size = color * (range->right - range->left - 1);
-    const char *left = (const char *)picture->pixels + range->top * row + range->left * color;
-    const char *first = left;
-    for (uint32_t y = range->top; y < range->bottom; y++, left += row)
-        if (memcmp(left, first, color) != 0 || memcmp(left, left + color, size) != 0)
-            return false;
-    return true;
-}
-
-static void measure_area(const Framebuffer *picture, Area *area)
-{
-    const PixelRange colors = pixels_of(picture, area, RADIUS + 1);
-    const PixelRange range = pixels_of(picture, area, RADIUS);
-    memset(area->bends, 0, sizeof area->bends);
-    if (is_plain(picture, &colors))
-        return;
-    for (uint32_t y = range.top; y < range.bottom; y++)
-        measure_row(picture, y, range.left, range.right,
-                    &area->bends[y + RADIUS - area->top][range.left + RADIUS - area->left]);
-}
-
-// Fills `nearby` with the largest bend among the 5 x 5 pixels around each pixel of a row.
-static void spread_bends(const Area *area, uint32_t row, float nearby[AREA_WIDTH])
-{
-    float columns[AREA_WIDTH + 2 * RADIUS] = {0};
-    for (uint32_t i = 0; i <= 2 * RADIUS; i++)
-        for (uint32_t x = 0; x < AREA_WIDTH + 2 * RADIUS; x++)
-            columns[x] = larger(columns[x], area->bends[row + i][x]);
-    for (uint32_t x = 0; x < AREA_WIDTH; x++)
-        nearby[x] = larger(larger(larger(columns[x], columns[x + 1]), columns[x + 2]),
-                           larger(columns[x + 3], columns[x + 4]));
+    const uint32_t width = ladder->setup.picture->width, height = ladder->setup.picture->height;
+    const uint32_t left = x - smaller(x, RADIUS), right = smaller(x + PART_PIXELS + RADIUS, width);
+    const uint32_t top = y - smaller(y, RADIUS), bottom = smaller(y + 1 + RADIUS, height);
+    float columns[PART_PIXELS + 2 * RADIUS] = {0}, *start = columns + RADIUS + left - x;
+    for (uint32_t row = top; row < bottom; row++)
+        for (uint32_t i = 0; i < right - left; i++)
+            start[i] = larger(start[i], ladder->places[(size_t)row * width + left + i].bend);
+    for (uint32_t i = 0; i < PART_PIXELS; i++)
+        nearby[i] = larger(larger(larger(columns[i], columns[i + 1]), columns[i + 2]),
+                           larger(columns[i + 3], columns[i + 4]));
 }
 
 // Adds `count` consecutive pixels, from (x, y) on, to `entries`, and adds the pixels' strata to the
@@ -155,7 +120,7 @@ static void count_pixels(const Ladder *ladder, uint32_t x, uint32_t y, uint32_t 
         const uint32_t start = i, stratum = strata[i];
         double features = 0;
         for (; i < count && strata[i] == stratum; i++)
-            features += (double)ladder->places[first + i].feature;
+            features += (double)ladder_feature_of_bend(ladder->places[first + i].bend);
         entries->pixels[stratum] += i - start;
         entries->features[stratum] += features;
         for (uint32_t left = x + start - (x + start) % LADDER_BLOCK; left < x + i;
@@ -164,77 +129,62 @@ static void count_pixels(const Ladder *ladder, uint32_t x, uint32_t y, uint32_t 
     }
 }
 
-static void enter_row(const Entering *entering, const Area *area, uint32_t row, Entries *entries)
+// Assigns up to PART_PIXELS pixels of a row, from (x, y) on, to strata.
+static void enter_part(const Entering *entering, uint32_t x, uint32_t y, Entries *entries)
 {
     const Ladder *ladder = entering->ladder;
     const ThinParts *parts = &entering->thin_parts;
-    const uint32_t width = ladder->setup.picture->width, y = area->top + row;
-    const uint32_t count = width - area->left < AREA_WIDTH ? width - area->left : AREA_WIDTH;
-    const float *bends = &area->bends[row + RADIUS][RADIUS];
-    uint8_t *strata = &ladder->strata[(size_t)y * width + area->left];
-    LadderPlace *places = &ladder->places[(size_t)y * width + area->left];
-    float nearby[AREA_WIDTH];
-    uint32_t numbers[AREA_WIDTH]; // an array of 32-bit numbers, so that compilers vectorize the
-                                  // next loop
-    spread_bends(area, row, nearby);
-    for (uint32_t x = 0; x < AREA_WIDTH; x++)
-        numbers[x] = strata_of_bend(bends[x], nearby[x], false);
-    for (uint32_t x = 0; x < count; x++)
-        strata[x] = (uint8_t)numbers[x];
-    for (uint32_t x = 0; x < count; x++)
-        places[x].feature = bends[x] * bends[x];
-    for (uint32_t x = 0; x < count && parts->touched > 0; x++)
-        if (parts->axes[y * width + area->left + x] != THIN_NONE)
-            strata[x] = (uint8_t)strata_of_bend(bends[x], nearby[x], true);
-    count_pixels(ladder, area->left, y, count, entries);
+    const uint32_t width = ladder->setup.picture->width, count = smaller(width - x, PART_PIXELS);
+    const size_t first = (size_t)y * width + x;
+    const LadderPlace *places = &ladder->places[first];
+    uint8_t *strata = &ladder->strata[first];
+    float nearby[PART_PIXELS];
+    uint32_t numbers[PART_PIXELS]; // an array of 32-bit numbers, so that compilers vectorize the
+                                   // next loop
+    spread_bends(ladder, x, y, nearby);
+    for (uint32_t i = 0; i < count; i++)
+        numbers[i] = strata_of_bend(places[i].bend, nearby[i], false);
+    for (uint32_t i = 0; i < count; i++)
+        strata[i] = (uint8_t)numbers[i];
+    for (uint32_t i = 0; i < count && parts->touched > 0; i++)
+        if (parts->axes[first + i] != THIN_NONE)
+            strata[i] = (uint8_t)strata_of_bend(places[i].bend, nearby[i], true);
+    count_pixels(ladder, x, y, count, entries);
 }
 
-// Assigns the pixels of a row of areas to strata.
-static void enter_areas(const Entering *entering, uint32_t number)
+static void enter_bands(void *context, uint32_t first, uint32_t end)
 {
-    const Ladder *ladder = entering->ladder;
-    const Framebuffer *picture = ladder->setup.picture;
-    const uint32_t left_over = picture->height - number * AREA_HEIGHT;
-    const uint32_t rows = left_over < AREA_HEIGHT ? left_over : AREA_HEIGHT;
-    Area area = {.top = number * AREA_HEIGHT};
-    memset(ladder_block(ladder, 0, area.top), 0,
-           (size_t)range_count(rows, LADDER_BLOCK) * range_count(picture->width, LADDER_BLOCK) *
-               sizeof *ladder->blocks);
-    for (; area.left < picture->width; area.left += AREA_WIDTH) {
-        measure_area(picture, &area);
-        for (uint32_t row = 0; row < rows; row++)
-            enter_row(entering, &area, row, &entering->entries[number]);
-    }
+    const Entering *entering = context;
+    const Framebuffer *picture = entering->ladder->setup.picture;
+    const uint32_t bottom = smaller(end * BAND_ROWS, picture->height);
+    for (uint32_t y = first * BAND_ROWS; y < bottom; y++)
+        for (uint32_t x = 0; x < picture->width; x += PART_PIXELS)
+            enter_part(entering, x, y, &entering->entries[y / BAND_ROWS]);
 }
 
-static void enter_rows(void *context, uint32_t first, uint32_t end)
-{
-    for (; first < end; first++)
-        enter_areas(context, first);
-}
-
-static void enter_all(const Entering *entering)
+static void enter_all(Entering *entering, uint32_t bands)
 {
     Ladder *ladder = entering->ladder;
-    const uint32_t rows = range_count(ladder->setup.picture->height, AREA_HEIGHT);
-    const uint32_t part = TASK_PIXELS / (AREA_HEIGHT * ladder->setup.picture->width) + 1;
-    thread_pool_share(ladder->setup.pool, rows, part, enter_rows, (void *)entering);
-    for (uint32_t row = 0; row < rows; row++)
+    const uint32_t rows = TASK_PIXELS / ladder->setup.picture->width;
+    thread_pool_share(ladder->setup.pool, ladder->setup.picture->height, rows + 1, measure_rows,
+                      ladder);
+    thread_pool_share(ladder->setup.pool, bands, rows / BAND_ROWS + 1, enter_bands, entering);
+    for (uint32_t band = 0; band < bands; band++)
         for (uint32_t stratum = 0; stratum < BEND_CLASSES; stratum++)
-            strata_enter(&ladder->statistics, stratum, entering->entries[row].pixels[stratum],
-                         entering->entries[row].features[stratum]);
+            strata_enter(&ladder->statistics, stratum, entering->entries[band].pixels[stratum],
+                         entering->entries[band].features[stratum]);
 }
 
 bool ladder_enter(Ladder *ladder, Error *error)
 {
-    const uint32_t tasks = range_count(ladder->setup.picture->height, AREA_HEIGHT);
+    const uint32_t bands = range_count(ladder->setup.picture->height, BAND_ROWS);
     Entering entering = {.ladder = ladder,
-                         .entries = memory_zeroed(tasks, sizeof *entering.entries, error)};
+                         .entries = memory_zeroed(bands, sizeof *entering.entries, error)};
     const bool ok =
         entering.entries != NULL &&
         thin_parts_make(&entering.thin_parts, &ladder->setup, &ladder->frame, false, error);
     if (ok)
-        enter_all(&entering);
+        enter_all(&entering, bands);
     free(entering.entries);
     thin_parts_free(&entering.thin_parts);
     return ok;

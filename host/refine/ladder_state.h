@@ -8,11 +8,17 @@
 #include "refine/refine_setup.h"
 #include "render/sampler.h"
 
-// On rung 0, a pixel has a feature (ladder_strata.h). On higher rungs, it has sums of samples.
+// On rung 0, a pixel has a bend (ladder_entry.c). On higher rungs, it has sums of samples.
 typedef union {
-    float feature;
+    float bend;
     uint32_t sums; // index in Ladder::sums
 } LadderPlace;
+
+// Returns the feature of a pixel on rung 0 (ladder_strata.h).
+static inline float ladder_feature_of_bend(float bend)
+{
+    return bend * bend;
+}
 
 // The side of a block of pixels. A selection skips blocks whose masks have none of the strata from
 // which it selects pixels.
