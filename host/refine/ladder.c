@@ -27,27 +27,19 @@ uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel)
     return rung == 0 ? 1 : 1 + ladder_samples[rung];
 }
 
-// Allocates all arrays of fixed size as one block, because only large blocks get huge pages.
 static bool make_arrays(Ladder *ladder, Error *error)
 {
     const size_t pixels = ladder->statistics.pixels;
-    const size_t request_size = sizeof *ladder->answers + sizeof *ladder->requests;
-    const size_t pixel_size =
-        sizeof *ladder->places + sizeof *ladder->chosen + sizeof *ladder->strata;
     const size_t blocks = (size_t)range_count(ladder->setup.picture->width, LADDER_BLOCK) *
                           range_count(ladder->setup.picture->height, LADDER_BLOCK);
-    ladder->memory = memory_raw(REQUESTS_MOST * request_size + blocks * sizeof *ladder->blocks +
-                                    pixels * pixel_size,
-                                sizeof(char), error);
-    ladder->answers = (PixelSums *)ladder->memory;
-    ladder->requests = (PixelRequest *)(ladder->answers + REQUESTS_MOST);
-    ladder->blocks = (uint64_t *)(ladder->requests + REQUESTS_MOST);
-    ladder->places = (LadderPlace *)(ladder->blocks + blocks);
-    ladder->chosen = (uint32_t *)(ladder->places + pixels);
-    ladder->strata = (uint8_t *)(ladder->chosen + pixels);
-    if (ladder->memory != NULL)
-        memset(ladder->blocks, 0, blocks * sizeof *ladder->blocks);
-    return ladder->memory != NULL;
+    ladder->answers = memory_raw(REQUESTS_MOST, sizeof *ladder->answers, error);
+    ladder->requests = memory_raw(REQUESTS_MOST, sizeof *ladder->requests, error);
+    ladder->chosen = memory_raw(pixels, sizeof *ladder->chosen, error);
+    ladder->places = memory_raw(pixels, sizeof *ladder->places, error);
+    ladder->strata = memory_raw(pixels, sizeof *ladder->strata, error);
+    ladder->blocks = memory_zeroed(blocks, sizeof *ladder->blocks, error);
+    return ladder->answers != NULL && ladder->requests != NULL && ladder->chosen != NULL &&
+           ladder->places != NULL && ladder->strata != NULL && ladder->blocks != NULL;
 }
 
 bool ladder_open(Ladder *ladder, const RefineSetup *setup, Error *error)
@@ -77,7 +69,12 @@ bool ladder_open(Ladder *ladder, const RefineSetup *setup, Error *error)
 
 void ladder_close(Ladder *ladder)
 {
-    free(ladder->memory);
+    free(ladder->answers);
+    free(ladder->requests);
+    free(ladder->chosen);
+    free(ladder->places);
+    free(ladder->strata);
+    free(ladder->blocks);
     free(ladder->sums.data);
     *ladder = (Ladder){0};
 }

@@ -68,20 +68,10 @@ static inline uint32_t *choose_row(const Choosing *choosing, uint32_t first, uin
                                    uint32_t *chosen)
 {
     const uint8_t *strata = &choosing->ladder->strata[first];
-    uint64_t limits[LADDER_BLOCK], all = 0;
-    uint32_t hashes[LADDER_BLOCK] = {0};
     for (uint32_t i = 0; i < count; i++) {
-        limits[i] = choosing->limits[strata[i]];
-        hashes[i] = first + i + choosing->seeds[strata[i]];
-        all |= limits[i];
-    }
-    if (all == 0)
-        return chosen;
-    for (uint32_t i = 0; i < LADDER_BLOCK; i++)
-        hashes[i] = hash_of(hashes[i]);
-    for (uint32_t i = 0; i < count; i++) {
-        *chosen = first + i;
-        chosen += hashes[i] < limits[i];
+        const uint64_t limit = choosing->limits[strata[i]];
+        if (limit > 0 && hash_of(first + i + choosing->seeds[strata[i]]) < limit)
+            *chosen++ = first + i;
     }
     return chosen;
 }

@@ -30,7 +30,6 @@ static inline float ladder_feature_of_bend(float bend)
 typedef struct {
     RefineSetup setup;      // the picture has the means of the pixels' samples
     FrameData frame;        // with a camera made for LADDER_GRID samples
-    void *memory;           // of the next six arrays
     PixelSums *answers;     // to the requests of the latest trace; room for REQUESTS_MOST
     PixelRequest *requests; // room for REQUESTS_MOST; small requests come first
     uint32_t *chosen;       // room for all pixels
