@@ -34,7 +34,7 @@ static bool make_arrays(Ladder *ladder, Error *error)
                           range_count(ladder->setup.picture->height, LADDER_BLOCK);
     ladder->answers = memory_raw(REQUESTS_MOST, sizeof *ladder->answers, error);
     ladder->requests = memory_raw(REQUESTS_MOST, sizeof *ladder->requests, error);
-    ladder->chosen = memory_raw(pixels, sizeof *ladder->chosen, error);
+    ladder->chosen = memory_raw(2 * pixels, sizeof *ladder->chosen, error);
     ladder->places = memory_raw(pixels, sizeof *ladder->places, error);
     ladder->strata = memory_raw(pixels, sizeof *ladder->strata, error);
     ladder->blocks = memory_zeroed(blocks, sizeof *ladder->blocks, error);
@@ -86,12 +86,11 @@ typedef struct {
     uint32_t requests;
 } RungSamples;
 
-// Returns the samples that advance a pixel from `rung`. Requests are small until the pixel has
-// LARGE_SAMPLES samples.
+// Returns the samples that advance a pixel from `rung`.
 static RungSamples samples_from(uint32_t rung)
 {
     const uint32_t first = rung == 0 ? 0 : ladder_samples[rung];
-    const uint32_t samples = first < LARGE_SAMPLES ? SMALL_SAMPLES : LARGE_SAMPLES;
+    const uint32_t samples = ladder_is_small(rung) ? SMALL_SAMPLES : LARGE_SAMPLES;
     return (RungSamples){first, samples, (ladder_samples[rung + 1] - first) / samples};
 }
 
@@ -212,29 +211,10 @@ static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count,
     return true;
 }
 
-// Moves the pixels with small requests to the start of the list. Keeps the order of these pixels,
-// and the order of the other pixels.
-static bool part_list(const Ladder *ladder, uint32_t *pixels, uint64_t count, Error *error)
-{
-    uint32_t *later = memory_raw(count, sizeof *later, error);
-    uint64_t first = 0, laters = 0;
-    for (uint64_t i = 0; i < count && later != NULL; i++)
-        if (samples_from(rung_of(ladder, pixels[i])).samples == SMALL_SAMPLES)
-            pixels[first++] = pixels[i];
-        else
-            later[laters++] = pixels[i];
-    if (laters > 0)
-        memcpy(pixels + first, later, laters * sizeof *later);
-    free(later);
-    return later != NULL;
-}
-
 bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
 {
-    if (!ladder_choose(ladder, advanced, error))
-        return false;
-    return *advanced == 0 || (part_list(ladder, ladder->chosen, *advanced, error) &&
-                              climb_chosen(ladder, ladder->chosen, *advanced, error));
+    return ladder_choose(ladder, advanced, error) &&
+           climb_chosen(ladder, ladder->chosen, *advanced, error);
 }
 
 // After this many rounds, clrt gives up the error goal.

@@ -124,18 +124,24 @@ static void choose_rows(void *context, uint32_t first, uint32_t end)
     }
 }
 
-// Moves the selected pixels of all rows of squares to the start of the list. Returns the number of
-// these pixels.
+// Moves the selected pixels of all rows of squares to the start of the list: first the pixels with
+// small requests, and then the others. Returns the number of all these pixels.
 static uint64_t join_rows(const Choosing *choosing, uint32_t rows)
 {
-    uint32_t *pixels = choosing->ladder->chosen;
-    const size_t row_pixels = (size_t)SQUARE * choosing->ladder->setup.picture->width;
-    uint64_t count = 0;
-    for (uint32_t row = 0; row < rows; row++) {
-        memmove(pixels + count, pixels + row * row_pixels, choosing->counts[row] * sizeof *pixels);
-        count += choosing->counts[row];
-    }
-    return count;
+    const Ladder *ladder = choosing->ladder;
+    const size_t row_pixels = (size_t)SQUARE * ladder->setup.picture->width;
+    uint32_t *joined = ladder->chosen, *later = ladder->chosen + ladder->statistics.pixels;
+    uint64_t count = 0, laters = 0;
+    for (uint32_t row = 0; row < rows; row++)
+        for (uint32_t i = 0; i < choosing->counts[row]; i++) {
+            const uint32_t pixel = ladder->chosen[row * row_pixels + i];
+            if (ladder_is_small(strata_rung(ladder->strata[pixel])))
+                joined[count++] = pixel;
+            else
+                later[laters++] = pixel;
+        }
+    memcpy(joined + count, later, laters * sizeof *later);
+    return count + laters;
 }
 
 bool ladder_choose(Ladder *ladder, uint64_t *count, Error *error)

@@ -4,6 +4,6 @@
 
 #include "refine/ladder_state.h"
 
-// Fills ladder->chosen with the pixels that the strata's fractions select. Stores the number of
-// these pixels in *count.
+// Fills ladder->chosen with the pixels that the strata's fractions select. The pixels with small
+// requests come first. Stores the number of all these pixels in *count.
 bool ladder_choose(Ladder *ladder, uint64_t *count, Error *error);

@@ -32,7 +32,7 @@ typedef struct {
     FrameData frame;        // with a camera made for LADDER_GRID samples
     PixelSums *answers;     // to the requests of the latest trace; room for REQUESTS_MOST
     PixelRequest *requests; // room for REQUESTS_MOST; small requests come first
-    uint32_t *chosen;       // room for all pixels
+    uint32_t *chosen;       // pixels; room for twice all pixels
     LadderPlace *places;    // of each pixel
     uint8_t *strata;        // of each pixel
     uint64_t *blocks; // masks of blocks: bits of all strata that have or had pixels of the block
@@ -42,6 +42,13 @@ typedef struct {
     Strata chosen_by; // the statistics at the latest selection of pixels
     uint64_t samples; // taken so far
 } Ladder;
+
+// Returns whether the requests that advance a pixel from the rung are small. They are small until
+// the pixel has LARGE_SAMPLES samples.
+static inline bool ladder_is_small(uint32_t rung)
+{
+    return ladder_samples[rung] < LARGE_SAMPLES;
+}
 
 // Returns the bit of a stratum in a block's mask. Strata may share a bit.
 static inline uint64_t ladder_stratum_bit(uint32_t stratum)
