@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Runs the rounds of an error or time goal (ladder.h explains rungs and strata). A round has two
-// steps. strata_raise raises the fractions of some strata. ladder_advance then selects pixels by
-// these fractions and moves them up by one rung. The changes of the pixels' colors correct the
-// strata's estimates for the next round.
+// Runs the rounds of an error or time goal (ladder.h explains rungs and strata). A round has three
+// steps. strata_raise raises the fractions of some strata. ladder_choose selects pixels by these
+// fractions. climb_chosen moves the pixels up by one rung. The changes of the pixels' colors
+// correct the strata's estimates for the next round.
 //
-// ladder_advance lists the selected pixels in a fixed order, traces their samples, and records the
-// pixels' changes in this order. Floating-point sums therefore do not depend on threads.
+// climb_chosen traces the pixels' samples and records their changes in the list's fixed order.
+// Floating-point sums therefore do not depend on threads.
 #include "refine/ladder.h"
 
 #include "base/clock.h"
@@ -193,31 +193,25 @@ static bool climb_all(Ladder *ladder, const uint32_t *pixels, size_t count, Erro
     return ok;
 }
 
-static bool climb_chosen(Ladder *ladder, const uint32_t *pixels, uint64_t count, Error *error)
+// Moves the selected pixels up by one rung. If the observer stops the trace, some of them do not
+// move.
+static bool climb_chosen(Ladder *ladder, uint64_t count, Error *error)
 {
     const uint32_t most = samples_from(LADDER_RUNGS - 2).requests;
-    size_t listed = 0;
-    for (uint64_t i = 0; i < count; i++) {
-        list_pixel(ladder, pixels[i]);
-        listed++;
-        if (i + 1 < count && ladder->listed + most <= REQUESTS_MOST)
-            continue;
-        if (!climb_all(ladder, &pixels[i + 1 - listed], listed, error))
-            return false;
-        if (!sampler_is_whole(ladder->setup.renderer))
-            return true;
-        listed = 0;
+    const uint32_t *first = ladder->chosen;
+    bool ok = true;
+    for (uint64_t i = 0; ok && i < count && sampler_is_whole(ladder->setup.renderer); i++) {
+        const uint32_t *next = &ladder->chosen[i + 1];
+        list_pixel(ladder, ladder->chosen[i]);
+        if (i + 1 == count || ladder->listed + most > REQUESTS_MOST) {
+            ok = climb_all(ladder, first, (size_t)(next - first), error);
+            first = next;
+        }
     }
-    return true;
+    return ok;
 }
 
-bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
-{
-    return ladder_choose(ladder, advanced, error) &&
-           climb_chosen(ladder, ladder->chosen, *advanced, error);
-}
-
-// After this many rounds, clrt gives up the error goal.
+// After this many rounds, clrt gives up the goal.
 #define ROUNDS_MOST 300
 
 // A round should take at most the fraction PART_OF_ROUND of the remaining time. If less than
@@ -230,62 +224,43 @@ bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error)
 // With a time budget, a round aims at this fraction of the current bound of the mean square error.
 #define FALL_OF_ROUND 0.25
 
-static void describe(const Ladder *ladder, GoalOutcome *outcome)
+// Returns the aim of the next round. With a time budget, limits the round's samples by the speed of
+// the previous round.
+static StrataAim next_aim(const Ladder *ladder, const Goal *goal, double seconds_per_sample)
 {
-    const StrataEstimate estimate = strata_estimate(&ladder->statistics);
-    outcome->estimate = sqrt(estimate.mean);
-    outcome->bound = sqrt(estimate.bound);
+    const double left = goal->seconds - (clock_seconds() - goal->start);
+    const double part = left < PART_OF_LAST * goal->seconds ? 1 : PART_OF_ROUND;
+    if (goal->seconds <= 0)
+        return (StrataAim){goal->error * goal->error, INFINITY};
+    return (StrataAim){FALL_OF_ROUND * strata_estimate(&ladder->statistics).bound,
+                       left < PART_UNSPENT * goal->seconds ? 0 : part * left / seconds_per_sample};
 }
 
-bool ladder_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error)
-{
-    const StrataAim aim = {.mean_square = most * most, .samples = INFINITY};
-    bool ok = true, moves = true;
-    *outcome = (GoalOutcome){0};
-    for (int round = 0;
-         ok && moves && round < ROUNDS_MOST && sampler_is_whole(ladder->setup.renderer); round++) {
-        uint64_t advanced;
-        const StrataOutcome raised = strata_raise(&ladder->statistics, &aim);
-        outcome->reached = raised == STRATA_REACHED;
-        if (outcome->reached)
-            break;
-        ok = ladder_advance(ladder, &advanced, error);
-        moves = raised == STRATA_RAISED || advanced > 0;
-    }
-    describe(ladder, outcome);
-    return ok;
-}
-
-// Returns the number of samples that fit into the next round, at the previous round's speed.
-static double samples_in_time(const GoalTime *time, double seconds_per_sample)
-{
-    const double left = time->seconds - (clock_seconds() - time->start);
-    if (left < PART_UNSPENT * time->seconds)
-        return 0;
-    return (left < PART_OF_LAST * time->seconds ? 1 : PART_OF_ROUND) * left / seconds_per_sample;
-}
-
-bool ladder_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error)
+bool ladder_refine(Ladder *ladder, const Goal *goal, GoalOutcome *outcome, Error *error)
 {
     double moment = clock_seconds();
-    double seconds_per_sample = (moment - time->start) / (double)ladder->samples;
+    double seconds_per_sample = (moment - goal->start) / (double)ladder->samples;
+    const bool is_early = moment - goal->start < goal->seconds;
+    StrataOutcome raised = STRATA_RAISED;
     uint64_t advanced = 1;
     bool ok = true;
-    *outcome = (GoalOutcome){.reached = moment - time->start < time->seconds};
-    while (ok && sampler_is_whole(ladder->setup.renderer)) {
-        const StrataEstimate estimate = strata_estimate(&ladder->statistics);
-        const StrataAim aim = {FALL_OF_ROUND * estimate.bound,
-                               samples_in_time(time, seconds_per_sample)};
+    for (int round = 0; ok && round < ROUNDS_MOST && sampler_is_whole(ladder->setup.renderer);
+         round++) {
+        const StrataAim aim = next_aim(ladder, goal, seconds_per_sample);
         const uint64_t before = ladder->samples;
-        if (aim.samples < ladder_samples[1] ||
-            (strata_raise(&ladder->statistics, &aim) == STRATA_EXHAUSTED && advanced == 0))
+        if (aim.samples < ladder_samples[1])
             break;
-        ok = ladder_advance(ladder, &advanced, error);
+        raised = strata_raise(&ladder->statistics, &aim);
+        if (raised == STRATA_REACHED || (raised == STRATA_EXHAUSTED && advanced == 0))
+            break;
+        ok = ladder_choose(ladder, &advanced, error) && climb_chosen(ladder, advanced, error);
         const double now = clock_seconds();
         if (ladder->samples > before)
             seconds_per_sample = (now - moment) / (double)(ladder->samples - before);
         moment = now;
     }
-    describe(ladder, outcome);
+    const StrataEstimate estimate = strata_estimate(&ladder->statistics);
+    *outcome = (GoalOutcome){sqrt(estimate.mean), sqrt(estimate.bound),
+                             goal->seconds > 0 ? is_early : raised == STRATA_REACHED};
     return ok;
 }

@@ -9,8 +9,8 @@
 // advance even if they look finished. Their changes of color measure the errors of the pixels that
 // stay (ladder_strata.h).
 //
-// First, ladder_entry.c places all pixels on rung 0. In ladder_advance, ladder_choice.c selects
-// pixels, and ladder.c traces the samples of these pixels and assigns the pixels to new strata.
+// First, ladder_entry.c places all pixels on rung 0. In each round, ladder_choice.c selects pixels,
+// and ladder.c traces the samples of these pixels and assigns the pixels to new strata.
 //
 // Invariant: with an error goal, choices depend only on sums of samples, and sums are added in a
 // fixed order. The picture therefore depends neither on the order of work nor on the device.
@@ -27,32 +27,23 @@
 bool ladder_open(Ladder *ladder, const RefineSetup *setup, Error *error);
 void ladder_close(Ladder *ladder);
 
-// Selects pixels by the strata's fractions, and moves them up by one rung. Stores the number of
-// selected pixels in *advanced. If the observer stops the trace, some selected pixels do not move.
-bool ladder_advance(Ladder *ladder, uint64_t *advanced, Error *error);
-
 // Returns the number of samples taken in a pixel.
 uint32_t ladder_pixel_samples(const Ladder *ladder, size_t pixel);
 
-// Goals: a ladder's pixels advance until the picture meets an error goal, or until a time budget is
-// spent.
+// An error goal, or a time budget on the clock of clock_seconds.
+typedef struct {
+    double error;          // largest bound; ignored if there is a time budget
+    double start, seconds; // the time budget; there is none if `seconds` is 0
+} Goal;
 
 // The root mean square error of the picture's values, before they are rounded for a file.
 typedef struct {
     double estimate;
     double bound; // the error is lower with 95 % confidence
-    bool reached;
+    bool reached; // the error goal, or the refinement's start before the end of the time budget
 } GoalOutcome;
 
-// Refines until outcome->bound is at most `most`. Stops earlier if no pixel can advance, if too
-// many rounds have passed, or if the observer stops the trace.
-bool ladder_reach_error(Ladder *ladder, double most, GoalOutcome *outcome, Error *error);
-
-// A time budget, on the clock of clock_seconds.
-typedef struct {
-    double start, seconds;
-} GoalTime;
-
-// Refines until about time->seconds have passed since time->start, no pixel can advance, or the
-// observer stops the trace.
-bool ladder_spend_time(Ladder *ladder, const GoalTime *time, GoalOutcome *outcome, Error *error);
+// Refines until outcome->bound is at most goal->error, or until about goal->seconds have passed
+// since goal->start. Stops earlier if no pixel can advance, if too many rounds have passed, or if
+// the observer stops the trace.
+bool ladder_refine(Ladder *ladder, const Goal *goal, GoalOutcome *outcome, Error *error);

@@ -168,11 +168,9 @@ static bool refine(const PictureDrawing *drawing, Ladder *ladder, double truncat
                    GoalOutcome *outcome, Error *error)
 {
     const ClrtPicture *wanted = &drawing->request->wanted;
-    const GoalTime time = {drawing->start, wanted->seconds};
     const double left = wanted->error * wanted->error - truncated * truncated;
-    if (wanted->seconds > 0)
-        return ladder_spend_time(ladder, &time, outcome, error);
-    return left <= 0 || ladder_reach_error(ladder, sqrt(left), outcome, error);
+    const Goal goal = {sqrt(fmax(left, 0)), drawing->start, wanted->seconds};
+    return (left <= 0 && wanted->seconds <= 0) || ladder_refine(ladder, &goal, outcome, error);
 }
 
 // Returns whether the rays that max_level cut off so far take so much of the error goal that one
