@@ -9,8 +9,6 @@
 #include "refine/ladder.h"
 
 #include "base/clock.h"
-#include "refine/ladder_choice.h"
-#include "refine/ladder_entry.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -132,7 +130,7 @@ static double feature_of(const Ladder *ladder, uint32_t pixel)
 {
     const LadderPlace *place = &ladder->places[pixel];
     const uint32_t rung = rung_of(ladder, pixel), samples = ladder_samples[rung];
-    return rung == 0 ? (double)ladder_feature_of_bend(place->bend)
+    return rung == 0 ? (double)(place->bend * place->bend)
                      : pixel_sums_variance(&ladder->sums.data[place->sums], samples) / samples;
 }
 

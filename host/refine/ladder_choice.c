@@ -11,7 +11,7 @@
 //
 // Invariant: the list depends only on the strata, their fractions and the pixels' positions. Each
 // row of squares fills its own part of the list, so the order of threads does not matter.
-#include "refine/ladder_choice.h"
+#include "refine/ladder_state.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -62,18 +62,9 @@ static void set_limits(Choosing *choosing)
     }
 }
 
-// Appends the selected pixels of one row of a block to the list that ends at `chosen`. The row
-// begins at pixel `first`. Returns the new end of the list.
-static inline uint32_t *choose_row(const Choosing *choosing, uint32_t first, uint32_t count,
-                                   uint32_t *chosen)
+static uint32_t smaller(uint32_t one, uint32_t other)
 {
-    const uint8_t *strata = &choosing->ladder->strata[first];
-    for (uint32_t i = 0; i < count; i++) {
-        const uint64_t limit = choosing->limits[strata[i]];
-        if (limit > 0 && hash_of(first + i + choosing->seeds[strata[i]]) < limit)
-            *chosen++ = first + i;
-    }
-    return chosen;
+    return one < other ? one : other;
 }
 
 // Appends the selected pixels of a block to the list that ends at `chosen`. Returns the new end of
@@ -81,11 +72,17 @@ static inline uint32_t *choose_row(const Choosing *choosing, uint32_t first, uin
 static uint32_t *choose_block(const Choosing *choosing, uint32_t left, uint32_t top,
                               uint32_t *chosen)
 {
-    const uint32_t width = choosing->ladder->setup.picture->width;
-    const uint32_t height = choosing->ladder->setup.picture->height;
-    const uint32_t count = width - left < LADDER_BLOCK ? width - left : LADDER_BLOCK;
-    for (uint32_t y = top; y < top + LADDER_BLOCK && y < height; y++)
-        chosen = choose_row(choosing, y * width + left, count, chosen);
+    const Framebuffer *picture = choosing->ladder->setup.picture;
+    const uint32_t right = smaller(left + LADDER_BLOCK, picture->width);
+    const uint32_t bottom = smaller(top + LADDER_BLOCK, picture->height);
+    for (uint32_t y = top; y < bottom; y++)
+        for (uint32_t x = left; x < right; x++) {
+            const uint32_t pixel = y * picture->width + x,
+                           stratum = choosing->ladder->strata[pixel];
+            const uint64_t limit = choosing->limits[stratum];
+            if (limit > 0 && hash_of(pixel + choosing->seeds[stratum]) < limit)
+                *chosen++ = pixel;
+        }
     return chosen;
 }
 

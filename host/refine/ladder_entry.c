@@ -3,7 +3,7 @@
 // by whether a thin part touches it. Threads first measure all bends. They then sum the features
 // (squared bends) of each band of rows in order, and one thread adds the bands' sums in order. The
 // result therefore does not depend on threads.
-#include "refine/ladder_entry.h"
+#include "refine/ladder_state.h"
 
 #include "refine/thin_parts.h"
 
@@ -51,28 +51,23 @@ static uint32_t smaller(uint32_t one, uint32_t other)
     return one < other ? one : other;
 }
 
-// The distances from a pixel to its neighbors in the picture's array, counted in floats. At the
-// picture's border, a distance is 0. The pixel is then its own neighbor on both sides, and these
-// neighbors add nothing to the bend.
-typedef struct {
-    ptrdiff_t right, down;
-} Neighbors;
-
 static inline float bend_along(const float *color, ptrdiff_t step)
 {
     return fabsf(2 * *color - color[-step] - color[step]);
 }
 
-// Measures the bends of up to PART_PIXELS pixels of a row. All of them have neighbors at the
-// distances `next`.
-static void measure_pixels(const float *colors, Neighbors next, uint32_t count, LadderPlace *places)
+// Measures the bends of up to PART_PIXELS pixels of a row. `right` and `down` are the distances
+// from a pixel to its neighbors in the picture's array, counted in floats. At the picture's border,
+// a distance is 0. The pixel is then its own neighbor on both sides, and these neighbors add
+// nothing to the bend.
+static void measure_pixels(const float *colors, ptrdiff_t right, ptrdiff_t down, uint32_t count,
+                           LadderPlace *places)
 {
     float most[3 * PART_PIXELS];
     for (uint32_t i = 0; i < 3 * count; i++)
-        most[i] =
-            larger(larger(bend_along(&colors[i], next.right), bend_along(&colors[i], next.down)),
-                   larger(bend_along(&colors[i], next.down + next.right),
-                          bend_along(&colors[i], next.down - next.right)));
+        most[i] = larger(
+            larger(bend_along(&colors[i], right), bend_along(&colors[i], down)),
+            larger(bend_along(&colors[i], down + right), bend_along(&colors[i], down - right)));
     for (uint32_t i = 0; i < count; i++)
         places[i].bend = larger(larger(most[3 * i], most[3 * i + 1]), most[3 * i + 2]);
 }
@@ -84,13 +79,13 @@ static void measure_rows(void *context, uint32_t first, uint32_t end)
     const uint32_t width = picture->width;
     for (uint32_t y = first; y < end; y++) {
         const bool is_inside = y > 0 && y + 1 < picture->height;
-        const Neighbors edge = {0, is_inside ? 3 * (ptrdiff_t)width : 0}, inner = {3, edge.down};
+        const ptrdiff_t down = is_inside ? 3 * (ptrdiff_t)width : 0;
         const float(*colors)[3] = (const float(*)[3]) & picture->pixels[(size_t)y * width];
         LadderPlace *places = &ladder->places[(size_t)y * width];
-        measure_pixels(colors[0], edge, 1, places);
+        measure_pixels(colors[0], 0, down, 1, places);
         for (uint32_t x = 1; x + 1 < width; x += PART_PIXELS)
-            measure_pixels(colors[x], inner, smaller(width - 1 - x, PART_PIXELS), &places[x]);
-        measure_pixels(colors[width - 1], edge, 1, &places[width - 1]);
+            measure_pixels(colors[x], 3, down, smaller(width - 1 - x, PART_PIXELS), &places[x]);
+        measure_pixels(colors[width - 1], 0, down, 1, &places[width - 1]);
     }
 }
 
@@ -116,11 +111,12 @@ static void count_pixels(const Ladder *ladder, uint32_t x, uint32_t y, uint32_t 
 {
     const size_t first = (size_t)y * ladder->setup.picture->width + x;
     const uint8_t *strata = &ladder->strata[first];
+    const LadderPlace *places = &ladder->places[first];
     for (uint32_t i = 0; i < count;) {
         const uint32_t start = i, stratum = strata[i];
         double features = 0;
         for (; i < count && strata[i] == stratum; i++)
-            features += (double)ladder_feature_of_bend(ladder->places[first + i].bend);
+            features += (double)(places[i].bend * places[i].bend);
         entries->pixels[stratum] += i - start;
         entries->features[stratum] += features;
         for (uint32_t left = x + start - (x + start) % LADDER_BLOCK; left < x + i;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The data of a ladder (ladder.h). ladder.c, ladder_choice.c and ladder_entry.c share it.
+// The data of a ladder (ladder.h), which ladder.c, ladder_choice.c and ladder_entry.c share.
 #pragma once
 
 #include "base/array.h"
@@ -13,12 +13,6 @@ typedef union {
     float bend;
     uint32_t sums; // index in Ladder::sums
 } LadderPlace;
-
-// Returns the feature of a pixel on rung 0 (ladder_strata.h).
-static inline float ladder_feature_of_bend(float bend)
-{
-    return bend * bend;
-}
 
 // The side of a block of pixels. A selection skips blocks whose masks have none of the strata from
 // which it selects pixels.
@@ -62,3 +56,10 @@ static inline uint64_t *ladder_block(const Ladder *ladder, uint32_t x, uint32_t 
     const uint32_t columns = range_count(ladder->setup.picture->width, LADDER_BLOCK);
     return &ladder->blocks[(size_t)(y / LADDER_BLOCK) * columns + x / LADDER_BLOCK];
 }
+
+// Assigns all pixels to strata of rung 0. The picture must have the pixels' centers.
+bool ladder_enter(Ladder *ladder, Error *error);
+
+// Fills ladder->chosen with the pixels that the strata's fractions select. The pixels with small
+// requests come first. Stores the number of all these pixels in *count.
+bool ladder_choose(Ladder *ladder, uint64_t *count, Error *error);
