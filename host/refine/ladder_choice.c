@@ -37,8 +37,7 @@ typedef struct {
 
 #define HASH_BITS 32
 
-// Returns a hash of the bits (Wellons, "Prospecting for hash functions", 2018). Selections took
-// twice as long with XXH3, because SSE2 has no product of 64-bit integers.
+// Returns a hash of the bits (Wellons, "Prospecting for hash functions", 2018).
 static inline uint32_t hash_of(uint32_t bits)
 {
     bits = (bits ^ bits >> 16) * 0x21f0aaadu;
