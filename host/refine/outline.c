@@ -31,17 +31,23 @@ static double larger(double a, double b)
     return a > b ? a : b;
 }
 
+void outline_box_add(OutlineBox *box, const OutlineBox *other)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        box->low[axis] = smaller(box->low[axis], other->low[axis]);
+        box->high[axis] = larger(box->high[axis], other->high[axis]);
+    }
+}
+
 void outline_complete(Outline *outline)
 {
-    OutlineBox *box = &outline->box;
+    outline->box = (OutlineBox){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     memcpy(outline->corners[outline->count], outline->corners[0], sizeof outline->corners[0]);
-    memcpy(box->low, outline->corners[0], sizeof box->low);
-    memcpy(box->high, outline->corners[0], sizeof box->high);
-    for (uint32_t i = 1; i < outline->count; i++)
-        for (int axis = 0; axis < 2; axis++) {
-            box->low[axis] = smaller(box->low[axis], outline->corners[i][axis]);
-            box->high[axis] = larger(box->high[axis], outline->corners[i][axis]);
-        }
+    for (uint32_t i = 0; i < outline->count; i++) {
+        const double *corner = outline->corners[i];
+        const OutlineBox point = {{corner[0], corner[1]}, {corner[0], corner[1]}};
+        outline_box_add(&outline->box, &point);
+    }
 }
 
 static double perimeter_of(const Outline *outline)

@@ -25,6 +25,9 @@ typedef struct {
     OutlineBox box;                         // around the corners
 } Outline;
 
+// Extends the box so that it contains the other one.
+void outline_box_add(OutlineBox *box, const OutlineBox *other);
+
 // A grid of square cells. The cells are pixels or places.
 typedef struct {
     double side, per_length; // per_length is 1 / side

@@ -15,11 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TRIANGLES_OF_TASK 1024
-#define PAIRS_OF_TASK     1024
-
-// The number of triangles in a block. It divides TRIANGLES_OF_TASK.
 #define BLOCK_TRIANGLES 64
+#define BLOCKS_OF_TASK  16
+#define PAIRS_OF_TASK   1024
 
 typedef struct {
     uint32_t pixel, triangle;
@@ -42,7 +40,7 @@ typedef struct {
     ThreadPool *pool;
     Projection projection;      // of the mesh
     const MeshPieces *pieces;   // of the mesh
-    uint32_t first;             // of the piece's triangles, in the order of the pieces
+    uint32_t first, count;      // of the piece's triangles, in the order of the pieces
     uint32_t number;            // of the piece, from 1
     uint32_t levels;            // number of levels to search for probes
     OutlineBox *boxes;          // around each block of the piece's triangles
@@ -75,43 +73,34 @@ static void cover_pixels(const ThinSearch *search, uint32_t triangle)
     }
 }
 
-static void extend(OutlineBox *box, const OutlineBox *other)
+// Returns the piece's triangles in a block.
+static CellRange block_triangles(const ThinSearch *search, uint32_t block)
 {
-    for (int axis = 0; axis < 2; axis++) {
-        box->low[axis] = other->low[axis] < box->low[axis] ? other->low[axis] : box->low[axis];
-        box->high[axis] = other->high[axis] > box->high[axis] ? other->high[axis] : box->high[axis];
-    }
+    const uint32_t first = block * BLOCK_TRIANGLES, left = search->count - first;
+    return (CellRange){first, first + (left < BLOCK_TRIANGLES ? left : BLOCK_TRIANGLES)};
 }
 
-// Records the pixels whose centers lie in the triangles, and returns a box around the triangles.
-// Most triangles of fine meshes contain no center, and the triangles' boxes often show this.
-static OutlineBox cover_block(const ThinSearch *search, uint32_t first, uint32_t end)
-{
-    const CellGrid grid = thin_pixel_grid(search->parts);
-    OutlineBox all = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (uint32_t i = first; i < end; i++) {
-        OutlineBox box;
-        const uint32_t triangle = triangle_at(search, i);
-        if (!projection_box(&search->projection, triangle, &box))
-            continue;
-        extend(&all, &box);
-        if (!range_is_empty(cells_along(&box, &grid, 1, CELL_CENTER)) &&
-            !range_is_empty(cells_along(&box, &grid, 0, CELL_CENTER)))
-            cover_pixels(search, triangle);
-    }
-    return all;
-}
-
-static uint32_t block_end(uint32_t first, uint32_t end)
-{
-    return end - first < BLOCK_TRIANGLES ? end : first + BLOCK_TRIANGLES;
-}
-
+// Records the pixels whose centers lie in the triangles of blocks, and stores boxes around the
+// blocks. Most triangles of fine meshes contain no center, and the triangles' boxes often show
+// this.
 static void cover_blocks(void *context, uint32_t first, uint32_t end)
 {
     const ThinSearch *search = context;
-    for (; first < end; first = block_end(first, end))
-        search->boxes[first / BLOCK_TRIANGLES] = cover_block(search, first, block_end(first, end));
+    const CellGrid grid = thin_pixel_grid(search->parts);
+    for (uint32_t block = first; block < end; block++) {
+        const CellRange range = block_triangles(search, block);
+        OutlineBox all = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}}, box;
+        for (uint32_t i = range.first; i < range.end; i++) {
+            const uint32_t triangle = triangle_at(search, i);
+            if (!projection_box(&search->projection, triangle, &box))
+                continue;
+            outline_box_add(&all, &box);
+            if (!range_is_empty(cells_along(&box, &grid, 1, CELL_CENTER)) &&
+                !range_is_empty(cells_along(&box, &grid, 0, CELL_CENTER)))
+                cover_pixels(search, triangle);
+        }
+        search->boxes[block] = all;
+    }
 }
 
 // Returns a bit for each of the `count` pixels from `column` on in a row. A bit is set if the piece
@@ -201,15 +190,14 @@ static bool touch_pixels(ThinSearch *search, uint32_t triangle, TaskList *list)
     return true;
 }
 
-static void touch_all(void *context, uint32_t first, uint32_t end)
+static void touch_blocks(void *context, uint32_t first, uint32_t end)
 {
     ThinSearch *search = context;
-    TaskList *list = &search->lists[first / TRIANGLES_OF_TASK];
-    for (uint32_t next; first < end; first = next) {
-        next = block_end(first, end);
-        if (is_box_done(search, &search->boxes[first / BLOCK_TRIANGLES]))
-            continue;
-        for (uint32_t i = first; i < next; i++)
+    TaskList *list = &search->lists[first / BLOCKS_OF_TASK];
+    for (uint32_t block = first; block < end; block++) {
+        const CellRange range = block_triangles(search, block);
+        const bool is_done = is_box_done(search, &search->boxes[block]);
+        for (uint32_t i = range.first; i < range.end && !is_done; i++)
             if (!touch_pixels(search, triangle_at(search, i), list))
                 return;
     }
@@ -306,13 +294,14 @@ static void probe_pixels(void *context, uint32_t first, uint32_t end)
 
 static bool search_piece(ThinSearch *search, uint32_t end, Error *error)
 {
-    const uint32_t count = end - search->first;
+    const uint32_t blocks = range_count(end - search->first, BLOCK_TRIANGLES);
+    search->count = end - search->first;
     search->number++;
     search->met = 0;
     search->pairs.count = 0;
     search->levels = thin_parts_affordable(search->parts);
-    thread_pool_share(search->pool, count, TRIANGLES_OF_TASK, cover_blocks, search);
-    bool ok = collect(search, count, TRIANGLES_OF_TASK, touch_all, error);
+    thread_pool_share(search->pool, blocks, BLOCKS_OF_TASK, cover_blocks, search);
+    bool ok = collect(search, blocks, BLOCKS_OF_TASK, touch_blocks, error);
     if (ok && search->met <= search->most && search->pairs.count > 0) {
         qsort(search->pairs.data, search->pairs.count, sizeof *search->pairs.data,
               thin_compare_pixels);
