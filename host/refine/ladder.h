@@ -40,7 +40,7 @@ typedef struct {
 typedef struct {
     double estimate;
     double bound; // the error is lower with 95 % confidence
-    bool reached; // the error goal, or the refinement's start before the end of the time budget
+    bool reached; // the error goal was met; with a time budget: time was left at the start
 } GoalOutcome;
 
 // Refines until outcome->bound is at most goal->error, or until about goal->seconds have passed
