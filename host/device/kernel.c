@@ -104,7 +104,7 @@ static bool run_empty(const Kernel *kernel, Error *error)
     const char *kinds = kernel->entry->arguments;
     cl_mem buffer, scene[FLAT_ARRAYS];
     KernelRun run = {kernel->device->queue, &frame, scene, .items = {1, 1}};
-    if (!buffer_make(kernel->device, 64, &buffer, error))
+    if (!buffer_make(kernel->device, NULL, 64, &buffer, error))
         return false;
     for (int i = 0; i < FLAT_ARRAYS; i++)
         scene[i] = buffer;
