@@ -220,14 +220,6 @@ bool kernel_set_save(KernelSet *set)
     return ok;
 }
 
-bool kernel_set_is_saved(const KernelSet *set)
-{
-    for (size_t i = 0; i < set->programs.count; i++)
-        if (set->programs.data[i]->unsaved != NULL)
-            return false;
-    return true;
-}
-
 void kernel_set_clear(KernelSet *set)
 {
     for (size_t i = 0; i < set->kernels.count; i++)
