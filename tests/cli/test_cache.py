@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: MIT
 # Tests that clrt draws the picture with damaged, missing and full kernel caches. If no folder has
 # room, clrt must exit with status 4 and one message.
-# Usage: test_cache.py CLRT [TEST...]
+# Usage: test_cache.py CLRT NO_LOCKS [TEST...], with the library of tests/cli/no_locks.c
 import shutil
 import socket
+import sys
 import unittest
 
 from cache_work import PICTURE, CacheWork
-from work import has_private_disks, main
+from work import has_private_disks, main, preload
+
+NO_LOCKS = preload(sys.argv[2])
 
 
 class Damage(CacheWork):
@@ -64,6 +67,20 @@ class Damage(CacheWork):
         self.assertEqual([process.communicate()[1] for process in running], [""] * 4)
         self.assertEqual({self.bytes_of(name) for name in names}, {self.expected})
         self.assertEqual([path.suffix for path in self.files()], [".bin"])
+
+    def test_a_cache_on_a_disk_without_locks_stores_kernels(self):
+        shutil.rmtree(self.cache / "clrt")
+        (self.work / "tmp").mkdir()
+        names = [f"{i}.pfm" for i in range(4)]
+        settings = {**NO_LOCKS, "CLRT_NO_LOCKS": f"{self.cache}/", "TMPDIR": str(self.work / "tmp")}
+        running = [self.start_clrt(*PICTURE, "-o", name, more=settings) for name in names]
+        self.assertEqual([process.communicate()[1] for process in running], [""] * 4)
+        self.assertEqual({self.bytes_of(name) for name in names}, {self.expected})
+        self.assertEqual([path.suffix for path in self.files()], [".bin"])
+        self.assertEqual(list((self.work / "tmp").iterdir()), [])
+        compiled = self.programs()
+        self.assertEqual(self.draw(**settings), self.expected)
+        self.assertEqual(self.programs(), compiled)
 
 
 class Places(CacheWork):
@@ -136,4 +153,4 @@ class Disks(CacheWork):
 
 
 if __name__ == "__main__":
-    main(1)
+    main(2)

@@ -5,7 +5,7 @@
 import sys
 
 from pictures import read_exr
-from work import SCENE, SharedWork, main, no_fp64
+from work import SCENE, SharedWork, main, preload
 
 PICTURE = [SCENE, "-s", "128x96", "-o"]
 CERTAIN = ["--aov", "certainty"]
@@ -63,7 +63,7 @@ class Certainty(SharedWork):
             self.refuses(2, message, *PICTURE, "a.exr", *CERTAIN, *words)
 
     def test_a_device_without_fp64_is_exit_4(self):
-        told = self.clrt(SCENE, "-s", "8x8", "-o", "a.exr", *CERTAIN, code=4, **no_fp64(sys.argv[2]))
+        told = self.clrt(SCENE, "-s", "8x8", "-o", "a.exr", *CERTAIN, code=4, **preload(sys.argv[2]))
         self.assertIn("has no double arithmetic, which certainty needs", told)
 
 

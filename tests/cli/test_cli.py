@@ -6,9 +6,9 @@ import os
 import subprocess
 import sys
 
-from work import FORMATS, HAS_EXR, NO_OPENCL, ROOT, SCENE, SharedWork, Work, main, no_fp64
+from work import FORMATS, HAS_EXR, NO_OPENCL, ROOT, SCENE, SharedWork, Work, main, preload
 
-HAS_WINDOW, NO_FP64 = sys.argv[3] == "ON", no_fp64(sys.argv[4])
+HAS_WINDOW, NO_FP64 = sys.argv[3] == "ON", preload(sys.argv[4])
 CUBE = str(ROOT / "scenes/cube.ply")
 SMALL = [SCENE, "-s", "48x32", "-o"]
 # The kernels that compile fastest. All runs of QUICK write statistics, so that they share their kernels.

@@ -31,9 +31,8 @@ def main(words):
     unittest.main(module="__main__", argv=[sys.argv[0], *sys.argv[words + 1 :]], verbosity=2)
 
 
-def no_fp64(library):
-    """Returns the environment of a device without doubles. `library` is the path of the library that
-    the build makes of tests/cli/no_fp64.c."""
+def preload(library):
+    """Returns the environment that loads a library before all others."""
     # With this option, AddressSanitizer accepts libraries that are loaded before its own.
     sanitizer = "verify_asan_link_order=0:" + os.environ.get("ASAN_OPTIONS", "")
     return {"LD_PRELOAD": os.path.abspath(library), "ASAN_OPTIONS": sanitizer}
