@@ -229,7 +229,7 @@ TEST(a_name_that_is_no_channel_is_refused_with_the_nearest)
     AovSet set = 0;
     Error error = {0}, other = {0};
     assert_false(aov_read_list("depth,normals", &set, &error));
-    assert_string_equal(error.text, "--aov knows no channel 'normals', perhaps normal");
+    assert_non_null(strstr(error.text, "'normals', perhaps normal"));
     assert_false(aov_read_list("depth,", &set, &other));
     assert_non_null(strstr(other.text, "give all or a list of depth, normal, position"));
 }

@@ -243,7 +243,7 @@ static void draw_into_a_smaller_framebuffer(Explainer *explainer, const Framebuf
     Error error = {0};
     assert_true(framebuffer_make(&small, drawn->width, drawn->height - 1, &error));
     assert_false(tile_pass_draw(&renderer, &explainer->frame.camera, NULL, &small, &error));
-    assert_string_equal(error.text, "the picture has 32 x 24 pixels, and the framebuffer 32 x 23");
+    assert_non_null(strstr(error.text, "32 x 23"));
     *(bool *)context = true;
 }
 

@@ -99,7 +99,7 @@ TEST(pictures_without_colors_are_refused)
     StoredImage images[2] = {image_of(plain), image_of(plain)};
     strcpy(images[0].names[2], "red");
     assert_false(measure(&difference, images, &error));
-    assert_string_equal(error.text, "a: it has no channels R, G and B");
+    assert_non_null(strstr(error.text, "no channels R, G and B"));
 }
 
 TEST(limits_are_kept_up_to_their_value)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DAMAGED "m.obj: the output of clrt-foreign, which reads it, is damaged"
+#define DAMAGED "m.obj:", "damaged"
 
 #define TRIANGLE                                                                                   \
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"                \
@@ -95,12 +95,19 @@ static ForeignModel parsed(const Builder *builder)
     return model;
 }
 
-static void expect_failure(const Builder *builder, const char *sentence)
+// Expects a message that begins with `place` and contains `keyword`.
+static void expect_message(const Error *error, const char *place, const char *keyword)
+{
+    if (strncmp(error->text, place, strlen(place)) != 0 || strstr(error->text, keyword) == NULL)
+        fail_msg("'%s' is not at %s or lacks '%s'", error->text, place, keyword);
+}
+
+static void expect_failure(const Builder *builder, const char *place, const char *keyword)
 {
     ForeignModel model;
     Error error;
     assert_false(parse(&model, builder->bytes, builder->size, &error));
-    assert_string_equal(error.text, sentence);
+    expect_message(&error, place, keyword);
 }
 
 TEST(a_stream_becomes_files_materials_parts_and_a_note)
@@ -138,12 +145,12 @@ TEST(a_part_goes_through_the_checks_of_ply)
     const ForeignMaterial red = {.name = "red"};
     Builder plain = {0}, builder = {0};
     put_part(&plain, FOREIGN_NO_MATERIAL, bad);
-    expect_failure(&plain, "m.obj: part 0: element vertex lacks x, y or z");
+    expect_failure(&plain, "m.obj: part 0:", "lacks x");
     put_record(&builder, FOREIGN_MATERIAL, 0, &red, sizeof red);
     put_part(&builder, FOREIGN_NO_MATERIAL, TRIANGLE);
     put_part(&builder, 0, bad);
     put_text(&builder, FOREIGN_END, "");
-    expect_failure(&builder, "m.obj: part 1, material red: element vertex lacks x, y or z");
+    expect_failure(&builder, "m.obj: part 1, material red:", "lacks x");
 }
 
 TEST(messages_name_the_first_invalid_object_of_their_part)
@@ -155,14 +162,14 @@ TEST(messages_name_the_first_invalid_object_of_their_part)
     put_text(&builder, FOREIGN_OBJECT, "chair\x1b");
     put_text(&builder, FOREIGN_OBJECT, "lamp");
     put_part(&builder, FOREIGN_NO_MATERIAL, bad);
-    expect_failure(&builder, "m.obj: part 1, object chair?: element vertex lacks x, y or z");
+    expect_failure(&builder, "m.obj: part 1, object chair?:", "lacks x");
 }
 
 TEST(a_reason_is_reported_in_plain_letters)
 {
     Builder builder = {0};
     put_text(&builder, FOREIGN_FAILURE, "bad\x1b[31m\nthing \xc3\xa9");
-    expect_failure(&builder, "m.obj: bad?[31m?thing ??");
+    expect_failure(&builder, "m.obj:", "bad?[31m?thing ??");
 }
 
 TEST(colors_come_into_range_and_names_into_one_word)
@@ -200,7 +207,7 @@ TEST(every_stream_that_ends_early_is_damaged)
         ForeignModel model;
         Error error;
         assert_false(parse(&model, builder.bytes, size, &error));
-        assert_string_equal(error.text, DAMAGED);
+        expect_message(&error, DAMAGED);
     }
 }
 
