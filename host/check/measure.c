@@ -42,13 +42,13 @@ typedef struct {
     RayBlock *blocks;
     uint32_t *targets;
     HitData *hits;
-} RayBatch;
+} AimedRays;
 
-static bool make_batch(RayBatch *batch, size_t count, Error *error)
+static bool make_aimed_rays(AimedRays *batch, size_t count, Error *error)
 {
-    *batch = (RayBatch){memory_raw(count / RAY_BLOCK + 1, sizeof *batch->blocks, error),
-                        memory_raw(count, sizeof *batch->targets, error),
-                        memory_raw(count, sizeof *batch->hits, error)};
+    *batch = (AimedRays){memory_raw(count / RAY_BLOCK + 1, sizeof *batch->blocks, error),
+                         memory_raw(count, sizeof *batch->targets, error),
+                         memory_raw(count, sizeof *batch->hits, error)};
     return batch->blocks != NULL && batch->targets != NULL && batch->hits != NULL;
 }
 
@@ -57,8 +57,8 @@ static bool trace_aims(StagedMesh *staged, MeshCensus *census, RayCaster *caster
     Aims *aims = &staged->aims;
     size_t (*const make_rays[2])(Aims *, RayBlock *, uint32_t *) = {aims_shoot_from_afar,
                                                                     aims_shoot_from_close};
-    RayBatch batch;
-    bool ok = make_batch(&batch, aims->count, error);
+    AimedRays batch;
+    bool ok = make_aimed_rays(&batch, aims->count, error);
     for (int from = 0; ok && from < 2; from++) {
         const size_t rays = make_rays[from](aims, batch.blocks, batch.targets);
         for (size_t first = 0; ok && first < rays; first += CAST_RAYS) {

@@ -102,7 +102,7 @@ double normals_crease(const EdgeAngles *angles)
 typedef struct {
     Vec3 normal;      // of length 1; zero for slivers
     double angles[3]; // in radians; zero for slivers
-} Face;
+} FaceNormal;
 
 typedef struct {
     Vec3 normal;
@@ -112,8 +112,8 @@ typedef struct {
 typedef struct {
     const Mesh *mesh;
     double cosine; // edges are smooth if the cosine between their faces' normals is at least this
-    Face *faces;   // by triangle
-    Fans fans;     // after make_vertices, parents holds the vertex of each corner
+    FaceNormal *faces; // by triangle
+    Fans fans;         // after make_vertices, parents holds the vertex of each corner
     ARRAY(FanVertex) vertices;
 } Smoothing;
 
@@ -131,9 +131,9 @@ bool mesh_has_all_normals(const Mesh *mesh)
     return true;
 }
 
-static Face face_of(const Mesh *mesh, const uint32_t *triangle)
+static FaceNormal face_of(const Mesh *mesh, const uint32_t *triangle)
 {
-    Face face;
+    FaceNormal face;
     Vec3 sides[3], sum = {0, 0, 0}; // sides[i] goes from corner i to the next corner
     for (int corner = 0; corner < 3; corner++)
         sides[corner] = mesh_direction(mesh, triangle[corner], triangle[(corner + 1) % 3]);
@@ -143,7 +143,7 @@ static Face face_of(const Mesh *mesh, const uint32_t *triangle)
         face.angles[corner] = angle_between(a, b);
     }
     face.normal = vec3_normalize(sum);
-    return vec3_extent(sum) < SINE_LEAST ? (Face){.angles = {0}} : face;
+    return vec3_extent(sum) < SINE_LEAST ? (FaceNormal){.angles = {0}} : face;
 }
 
 static void make_faces(void *context, uint32_t first, uint32_t end)
@@ -184,7 +184,7 @@ static void choose_crease(Smoothing *smoothing, const Edges *edges)
 {
     Edge edge = {0};
     EdgeAngles angles = {0};
-    const Face *faces = smoothing->faces;
+    const FaceNormal *faces = smoothing->faces;
     while (edges_next(edges, &edge))
         if (edge.count == 2)
             edge_angles_add(&angles, faces[edge.sides[0].triangle].normal,
@@ -217,7 +217,7 @@ static bool make_vertices(Smoothing *smoothing, Error *error)
     smoothing->vertices.data = vertices;
     smoothing->vertices.count = smoothing->vertices.capacity = count;
     for (size_t i = 0; vertices != NULL && i < 3 * smoothing->mesh->triangle_count; i++) {
-        const Face *face = &smoothing->faces[i / 3];
+        const FaceNormal *face = &smoothing->faces[i / 3];
         FanVertex *vertex = &vertices[smoothing->fans.parents[i]];
         vertex->normal = vec3_add(vertex->normal, vec3_scale(face->normal, face->angles[i % 3]));
         vertex->old = smoothing->mesh->triangles[i / 3][i % 3];
