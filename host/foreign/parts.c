@@ -324,7 +324,7 @@ static bool add_mesh(Sender *sender, const struct aiMesh *mesh, const Placement 
         place_normals(sender, mesh, &normal_matrix);
     if (has_colors)
         copy_colors(sender, mesh);
-    if (mesh->mName.length > 0 && has_invalid_vertex(part, mesh->mNumVertices))
+    if (mesh->mName.data[0] != '\0' && has_invalid_vertex(part, mesh->mNumVertices))
         send_text(sender->stream, FOREIGN_OBJECT, "%s", mesh->mName.data);
     if (!add_triangles(sender, mesh, normal_matrix.is_mirror))
         return false;
