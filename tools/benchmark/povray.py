@@ -42,19 +42,36 @@ def settings_of(text):
     return {**SETTINGS, **{name: words for name, words in statements(text) if name in SETTINGS}}
 
 
-def finish_of(words, ambient):
-    """Returns the texture of a define statement. Ambient and diffuse light are scaled by 1 -
-    reflectivity, as in clrt. In both renderers, a cube of a checker's first color begins at the
-    origin."""
-    figures = {"diffuse": ["1", "1", "1"], "kd": ["1"], "reflectivity": ["0"], "checker": None}
-    if words[0] != "matte":
-        refuse(words[0])
+def properties_of(words, figures):
+    """Returns the properties of a define statement. `figures` contains the defaults."""
     name = None
-    for word in words[1:]:
+    for word in words:
         if word in figures:
             name, figures[word] = word, []
         else:
             figures[name].append(word)
+    return figures
+
+
+def glass_of(words):
+    """Returns the texture and the interior of glass. POV-Ray measures ior against a vacuum. clrt
+    measures it against the space around the surface, so nested glass would differ."""
+    figures = properties_of(words, {"ior": ["1.5"], "color": ["1", "1", "1"]})
+    return (f"texture {{ pigment {{ rgb {vector(figures['color'])} filter 1 }} finish {{ ambient 0 "
+            f"diffuse 0 reflection {{ 0, 1 fresnel }} conserve_energy }} }} "
+            f"interior {{ ior {figures['ior'][0]} }}")
+
+
+def finish_of(words, ambient):
+    """Returns the texture of a define statement, and the interior of glass. Ambient and diffuse light are
+    scaled by 1 - reflectivity, as in clrt. In both renderers, a cube of a checker's first color begins
+    at the origin."""
+    if words[0] == "glass":
+        return glass_of(words[1:])
+    if words[0] != "matte":
+        refuse(words[0])
+    figures = properties_of(words[1:], {"diffuse": ["1", "1", "1"], "kd": ["1"],
+                                        "reflectivity": ["0"], "checker": None})
     mirror, kd = float(figures["reflectivity"][0]), float(figures["kd"][0])
     pigment = f"rgb {vector(figures['diffuse'])}"
     if checker := figures["checker"]:
