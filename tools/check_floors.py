@@ -64,6 +64,7 @@ SHARED_HEADERS = {
     "library/clrt.h": "the public header",
     "library/handles.h": "the data behind clrt.h",
     "refine/ladder_state.h": "the ladder's data, which its files share",
+    "refine/thin_places.h": "the data of thin parts, which its files share",
     "session/session.h": "the session, whose scene has a file of its own",
     "view/viewer_inside.h": "the viewer's data, which its files share",
     "view/worker_inside.h": "the worker's data, which its files share",

@@ -66,9 +66,6 @@ static double perimeter_of(const Outline *outline)
 // at most twice this product.
 bool outline_is_thinner(const Outline *outline, double diameter)
 {
-    if (outline->box.high[0] - outline->box.low[0] < diameter ||
-        outline->box.high[1] - outline->box.low[1] < diameter)
-        return true;
     const double area = fabs(outline_signed_area(outline)) / 2;
     return (outline->count == 3 ? 4 : 2) * area < diameter * perimeter_of(outline);
 }

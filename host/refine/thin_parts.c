@@ -2,8 +2,6 @@
 // Finds the probes of thin spheres, and adds the probes that thin_triangles.c finds.
 #include "refine/thin_parts.h"
 
-#include "refine/thin_triangles.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -43,8 +41,9 @@ static bool project(const Projection *projection, const SphereData *sphere, Sphe
 // on the rows of level 1. These probes are used only if the pixel gets rows of level 1.
 static bool add_probes(ThinParts *parts, const SphereOutline *outline, uint32_t pixel, Error *error)
 {
-    const double x = outline->middle[0] - (double)(pixel % parts->width) * REFINE_GRID;
-    const double y = outline->middle[1] - (double)(pixel / parts->width) * REFINE_GRID;
+    const uint32_t width = parts->pixels.counts[0];
+    const double x = outline->middle[0] - (double)(pixel % width) * REFINE_GRID;
+    const double y = outline->middle[1] - (double)(pixel / width) * REFINE_GRID;
     const double *form = outline->form, radius = outline->radius;
     ProbeRun run = {.pixel = pixel};
     while (run.level + 1 < REFINE_LEVELS && band_height(run.level) > radius)
@@ -67,18 +66,18 @@ static bool add_probes(ThinParts *parts, const SphereOutline *outline, uint32_t 
 static bool add_sphere(ThinParts *parts, const Projection *projection, const SphereData *sphere,
                        bool has_probes, Error *error)
 {
-    const CellGrid pixels = thin_pixel_grid(parts);
+    const CellGrid *pixels = &parts->pixels;
     SphereOutline outline;
     bool ok = true;
     if (!project(projection, sphere, &outline) || 2 * outline.radius >= THIN_WIDTH)
         return true;
     const double x = outline.middle[0], y = outline.middle[1], outer = outline.outer;
     const OutlineBox box = {{x - outer, y - outer}, {x + outer, y + outer}};
-    const CellRange columns = cells_along(&box, &pixels, 0, CELL_AREA);
-    const CellRange rows = cells_along(&box, &pixels, 1, CELL_AREA);
+    const CellRange columns = cells_along(&box, pixels, 0, CELL_AREA);
+    const CellRange rows = cells_along(&box, pixels, 1, CELL_AREA);
     for (uint32_t row = rows.first; ok && row < rows.end; row++)
         for (uint32_t column = columns.first; ok && column < columns.end; column++) {
-            const uint32_t pixel = row * parts->width + column;
+            const uint32_t pixel = row * pixels->counts[0] + column;
             thin_parts_touch(parts, pixel, THIN_ROWS);
             ok = !has_probes || add_probes(parts, &outline, pixel, error);
         }
@@ -103,7 +102,8 @@ bool thin_parts_make(ThinParts *parts, const RefineSetup *setup, const FrameData
                      bool has_probes, Error *error)
 {
     const size_t pixels = (size_t)frame->width * frame->height;
-    *parts = (ThinParts){.width = frame->width, .height = frame->height};
+    *parts = (ThinParts){
+        .pixels = {REFINE_GRID, 1.0 / REFINE_GRID, {frame->width, frame->height}, {0, 0}}};
     parts->axes = memory_zeroed(pixels, sizeof *parts->axes, error);
     const Projection projection = projection_of(frame, setup->normalization);
     bool ok = parts->axes != NULL;

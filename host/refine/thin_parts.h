@@ -25,7 +25,6 @@
 // - pieces with too many thin triangles to list (thin_triangles.c). Such pieces have no probes.
 #pragma once
 
-#include "refine/refine_setup.h"
 #include "refine/thin_places.h"
 
 // Finds the thin parts in the frame. Without `has_probes`, finds only the pixels that they touch.

@@ -9,7 +9,6 @@
 // The approximate number of samples that a level takes for each probe, including samples on
 // additional lines.
 #define ADDED_SAMPLES 3
-#define REACH         3
 
 void thin_parts_touch(ThinParts *parts, uint32_t pixel, ThinAxis axis)
 {
@@ -19,7 +18,7 @@ void thin_parts_touch(ThinParts *parts, uint32_t pixel, ThinAxis axis)
 
 uint32_t thin_parts_affordable(ThinParts *parts)
 {
-    const double most = (double)THIN_SAMPLES * parts->width * parts->height;
+    const double most = (double)THIN_SAMPLES * parts->pixels.counts[0] * parts->pixels.counts[1];
     double samples = FIRST_SAMPLES * (double)parts->touched;
     uint32_t level = 0;
     for (; parts->counted < parts->probes.count; parts->counted++) {

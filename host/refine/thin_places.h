@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The pixels that thin parts touch, and the probes in these pixels (thin_parts.h).
+// The pixels that thin parts touch, and the probes in these pixels (thin_parts.h). thin_parts.c,
+// thin_places.c and thin_triangles.c share these data.
 #pragma once
 
 #include "base/array.h"
 #include "refine/outline.h"
 #include "refine/probe.h"
+#include "refine/refine_setup.h"
 
 #define THIN_SAMPLES 16
 
@@ -18,7 +20,7 @@ typedef enum { THIN_NONE, THIN_TOUCHED, THIN_ROWS, THIN_COLUMNS } ThinAxis;
 typedef ARRAY(Probe) ProbeList;
 
 typedef struct {
-    uint32_t width, height;
+    CellGrid pixels;                // of the picture
     _Atomic uint8_t *axes;          // ThinAxis by pixel
     _Atomic uint64_t touched;       // number of pixels that thin parts touch
     ProbeList probes;               // sorted by pixel
@@ -26,12 +28,6 @@ typedef struct {
     uint64_t counts[REFINE_LEVELS]; // by level: number of probes of the level that are on a line of
                                     // this level
 } ThinParts;
-
-// Returns the grid of the picture's pixels.
-static inline CellGrid thin_pixel_grid(const ThinParts *parts)
-{
-    return (CellGrid){REFINE_GRID, 1.0 / REFINE_GRID, {parts->width, parts->height}, {0, 0}};
-}
 
 // Records that a thin part touches a pixel. The pixel keeps its axis if it has one already. Threads
 // may call this function at the same time with the same axis.
@@ -68,3 +64,8 @@ typedef uint8_t ThinDrawing[REFINE_GRID][REFINE_GRID];
 // levels.
 bool thin_drawing_probe(ThinDrawing drawing, uint32_t pixel, uint32_t levels, ProbeList *probes,
                         Error *error);
+
+// Finds the thin triangles in the frame. Without `has_probes`, finds only the pixels that they
+// touch.
+bool thin_triangles_find(ThinParts *parts, const RefineSetup *setup, const FrameData *frame,
+                         bool has_probes, Error *error);

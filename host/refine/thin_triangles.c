@@ -8,7 +8,7 @@
 // of triangles, and the second step skips blocks whose boxes touch only such pixels.
 //
 // Invariant: all results are sets, so they do not depend on the order of work.
-#include "refine/thin_triangles.h"
+#include "refine/thin_places.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -24,7 +24,7 @@ typedef struct {
 } PixelTriangle;
 
 // To save memory, a piece with too many pairs of pixels and triangles has no probes. The limit is
-// PAIRS_MOST or, if this is more, PAIRS_OF_PIXEL times the number of pixels in the picture.
+// PAIRS_MOST, and PAIRS_OF_PIXEL more for each pixel of the picture.
 #define PAIRS_MOST     ((uint64_t)1 << 24)
 #define PAIRS_OF_PIXEL 32
 
@@ -60,15 +60,15 @@ static uint32_t triangle_at(const ThinSearch *search, uint32_t place)
 // Records the pixels whose centers lie in the triangle.
 static void cover_pixels(const ThinSearch *search, uint32_t triangle)
 {
-    const CellGrid grid = thin_pixel_grid(search->parts);
+    const CellGrid *grid = &search->parts->pixels;
     Outline outline;
     if (!projection_outline(&search->projection, triangle, &outline))
         return;
-    const CellRange rows = cells_along(&outline.box, &grid, 1, CELL_CENTER);
+    const CellRange rows = cells_along(&outline.box, grid, 1, CELL_CENTER);
     for (uint32_t row = rows.first; row < rows.end; row++) {
-        const CellRange columns = outline_cells(&outline, &grid, row, CELL_CENTER);
+        const CellRange columns = outline_cells(&outline, grid, row, CELL_CENTER);
         for (uint32_t column = columns.first; column < columns.end; column++)
-            atomic_store_explicit(&search->covered[(size_t)row * grid.counts[0] + column],
+            atomic_store_explicit(&search->covered[(size_t)row * grid->counts[0] + column],
                                   search->number, memory_order_relaxed);
     }
 }
@@ -86,7 +86,7 @@ static CellRange block_triangles(const ThinSearch *search, uint32_t block)
 static void cover_blocks(void *context, uint32_t first, uint32_t end)
 {
     const ThinSearch *search = context;
-    const CellGrid grid = thin_pixel_grid(search->parts);
+    const CellGrid *grid = &search->parts->pixels;
     for (uint32_t block = first; block < end; block++) {
         const CellRange range = block_triangles(search, block);
         OutlineBox all = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}}, box;
@@ -95,8 +95,8 @@ static void cover_blocks(void *context, uint32_t first, uint32_t end)
             if (!projection_box(&search->projection, triangle, &box))
                 continue;
             outline_box_add(&all, &box);
-            if (!range_is_empty(cells_along(&box, &grid, 1, CELL_CENTER)) &&
-                !range_is_empty(cells_along(&box, &grid, 0, CELL_CENTER)))
+            if (!range_is_empty(cells_along(&box, grid, 1, CELL_CENTER)) &&
+                !range_is_empty(cells_along(&box, grid, 0, CELL_CENTER)))
                 cover_pixels(search, triangle);
         }
         search->boxes[block] = all;
@@ -108,9 +108,9 @@ static void cover_blocks(void *context, uint32_t first, uint32_t end)
 static inline uint32_t covered_bits(const ThinSearch *search, uint32_t column, uint32_t row,
                                     uint32_t count)
 {
-    const uint32_t width = search->parts->width, number = search->number;
+    const uint32_t width = search->parts->pixels.counts[0], number = search->number;
     uint32_t bits = 0;
-    if (row >= search->parts->height)
+    if (row >= search->parts->pixels.counts[1])
         return 0;
     const _Atomic uint32_t *covered = &search->covered[(size_t)row * width];
     for (uint32_t i = 0; i < count; i++)
@@ -141,7 +141,8 @@ static bool is_wide(const ThinSearch *search, uint32_t column, uint32_t row)
 // or the pixel is recorded already and no probes are needed.
 static bool is_done(const ThinSearch *search, uint32_t column, uint32_t row)
 {
-    const _Atomic uint8_t *axis = &search->parts->axes[row * search->parts->width + column];
+    const _Atomic uint8_t *axis =
+        &search->parts->axes[row * search->parts->pixels.counts[0] + column];
     return (search->most == 0 && *axis != THIN_NONE) || is_wide(search, column, row);
 }
 
@@ -149,9 +150,9 @@ static bool is_done(const ThinSearch *search, uint32_t column, uint32_t row)
 // false without a test if the box touches more than BLOCK_TRIANGLES pixels.
 static bool is_box_done(const ThinSearch *search, const OutlineBox *box)
 {
-    const CellGrid grid = thin_pixel_grid(search->parts);
-    const CellRange rows = cells_along(box, &grid, 1, CELL_AREA);
-    const CellRange columns = cells_along(box, &grid, 0, CELL_AREA);
+    const CellGrid *grid = &search->parts->pixels;
+    const CellRange rows = cells_along(box, grid, 1, CELL_AREA);
+    const CellRange columns = cells_along(box, grid, 0, CELL_AREA);
     if (range_is_empty(rows) || range_is_empty(columns))
         return true;
     if ((uint64_t)(rows.end - rows.first) * (columns.end - columns.first) > BLOCK_TRIANGLES)
@@ -167,18 +168,18 @@ static bool is_box_done(const ThinSearch *search, const OutlineBox *box)
 // Lists these pixels if they need probes.
 static bool touch_pixels(ThinSearch *search, uint32_t triangle, TaskList *list)
 {
-    const CellGrid grid = thin_pixel_grid(search->parts);
+    const CellGrid *grid = &search->parts->pixels;
     Outline outline;
     if (!projection_box(&search->projection, triangle, &outline.box) ||
         is_box_done(search, &outline.box) ||
         !projection_outline(&search->projection, triangle, &outline) ||
         !outline_is_thinner(&outline, THIN_WIDTH))
         return true;
-    const CellRange rows = cells_along(&outline.box, &grid, 1, CELL_AREA);
+    const CellRange rows = cells_along(&outline.box, grid, 1, CELL_AREA);
     for (uint32_t row = rows.first; row < rows.end; row++) {
-        const CellRange columns = outline_cells(&outline, &grid, row, CELL_AREA);
+        const CellRange columns = outline_cells(&outline, grid, row, CELL_AREA);
         for (uint32_t column = columns.first; column < columns.end; column++) {
-            const PixelTriangle pair = {row * grid.counts[0] + column, triangle};
+            const PixelTriangle pair = {row * grid->counts[0] + column, triangle};
             if (is_done(search, column, row))
                 continue;
             thin_parts_touch(search->parts, pair.pixel, THIN_TOUCHED);
@@ -232,7 +233,7 @@ static bool collect(ThinSearch *search, uint32_t count, uint32_t part, ThreadPoo
 static ThinAxis draw_triangles(const ThinSearch *search, const PixelTriangle *pairs, uint32_t count,
                                ThinDrawing drawing)
 {
-    const uint32_t width = search->parts->width;
+    const uint32_t width = search->parts->pixels.counts[0];
     const uint32_t column = pairs->pixel % width, row = pairs->pixel / width;
     const CellGrid grid = {1,
                            1,
@@ -331,9 +332,8 @@ bool thin_triangles_find(ThinParts *parts, const RefineSetup *setup, const Frame
     ThinSearch search = {.parts = parts,
                          .pool = setup->pool,
                          .projection = projection_of(frame, setup->normalization)};
-    const size_t pixels = (size_t)parts->width * parts->height;
-    const uint64_t most = PAIRS_OF_PIXEL * (uint64_t)pixels;
-    search.most = has_probes ? (most > PAIRS_MOST ? most : PAIRS_MOST) : 0;
+    const size_t pixels = (size_t)frame->width * frame->height;
+    search.most = has_probes ? PAIRS_MOST + PAIRS_OF_PIXEL * pixels : 0;
     if (setup->scene->objects.count == 0)
         return true;
     search.covered = memory_zeroed(pixels, sizeof *search.covered, error);
