@@ -61,21 +61,14 @@ static void set_limits(Choosing *choosing)
     }
 }
 
-static uint32_t smaller(uint32_t one, uint32_t other)
-{
-    return one < other ? one : other;
-}
-
 // Appends the selected pixels of a block to the list that ends at `chosen`. Returns the new end of
 // the list.
 static uint32_t *choose_block(const Choosing *choosing, uint32_t left, uint32_t top,
                               uint32_t *chosen)
 {
     const Framebuffer *picture = choosing->ladder->setup.picture;
-    const uint32_t right = smaller(left + LADDER_BLOCK, picture->width);
-    const uint32_t bottom = smaller(top + LADDER_BLOCK, picture->height);
-    for (uint32_t y = top; y < bottom; y++)
-        for (uint32_t x = left; x < right; x++) {
+    for (uint32_t y = top; y < top + LADDER_BLOCK && y < picture->height; y++)
+        for (uint32_t x = left; x < left + LADDER_BLOCK && x < picture->width; x++) {
             const uint32_t pixel = y * picture->width + x,
                            stratum = choosing->ladder->strata[pixel];
             const uint64_t limit = choosing->limits[stratum];
@@ -91,31 +84,22 @@ static uint32_t even_bits(uint32_t number)
     return (number & 1) | (number >> 1 & 2) | (number >> 2 & 4);
 }
 
-// Appends the selected pixels of a square to the list that ends at `chosen`. Returns the new end of
-// the list.
-static uint32_t *choose_square(const Choosing *choosing, uint32_t left, uint32_t top,
-                               uint32_t *chosen)
-{
-    const Ladder *ladder = choosing->ladder;
-    const Framebuffer *picture = ladder->setup.picture;
-    for (uint32_t i = 0; i < SQUARE_SIDE * SQUARE_SIDE; i++) {
-        const uint32_t x = left + LADDER_BLOCK * even_bits(i);
-        const uint32_t y = top + LADDER_BLOCK * even_bits(i >> 1);
-        if (x < picture->width && y < picture->height &&
-            (*ladder_block(ladder, x, y) & choosing->strata) != 0)
-            chosen = choose_block(choosing, x, y, chosen);
-    }
-    return chosen;
-}
-
+// Lists the selected pixels of rows of squares.
 static void choose_rows(void *context, uint32_t first, uint32_t end)
 {
     const Choosing *choosing = context;
-    const uint32_t width = choosing->ladder->setup.picture->width;
+    const Ladder *ladder = choosing->ladder;
+    const Framebuffer *picture = ladder->setup.picture;
     for (uint32_t row = first; row < end; row++) {
-        uint32_t *start = choosing->ladder->chosen + (size_t)row * SQUARE * width, *chosen = start;
-        for (uint32_t left = 0; left < width; left += SQUARE)
-            chosen = choose_square(choosing, left, row * SQUARE, chosen);
+        uint32_t *start = ladder->chosen + (size_t)row * SQUARE * picture->width, *chosen = start;
+        for (uint32_t left = 0; left < picture->width; left += SQUARE)
+            for (uint32_t i = 0; i < SQUARE_SIDE * SQUARE_SIDE; i++) {
+                const uint32_t x = left + LADDER_BLOCK * even_bits(i);
+                const uint32_t y = row * SQUARE + LADDER_BLOCK * even_bits(i >> 1);
+                if (x < picture->width && y < picture->height &&
+                    (*ladder_block(ladder, x, y) & choosing->strata) != 0)
+                    chosen = choose_block(choosing, x, y, chosen);
+            }
         choosing->counts[row] = (uint32_t)(chosen - start);
     }
 }

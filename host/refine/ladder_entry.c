@@ -158,29 +158,24 @@ static void enter_bands(void *context, uint32_t first, uint32_t end)
             enter_part(entering, x, y, &entering->entries[y / BAND_ROWS]);
 }
 
-static void enter_all(Entering *entering, uint32_t bands)
-{
-    Ladder *ladder = entering->ladder;
-    const uint32_t rows = TASK_PIXELS / ladder->setup.picture->width;
-    thread_pool_share(ladder->setup.pool, ladder->setup.picture->height, rows + 1, measure_rows,
-                      ladder);
-    thread_pool_share(ladder->setup.pool, bands, rows / BAND_ROWS + 1, enter_bands, entering);
-    for (uint32_t band = 0; band < bands; band++)
-        for (uint32_t stratum = 0; stratum < BEND_CLASSES; stratum++)
-            strata_enter(&ladder->statistics, stratum, entering->entries[band].pixels[stratum],
-                         entering->entries[band].features[stratum]);
-}
-
 bool ladder_enter(Ladder *ladder, Error *error)
 {
-    const uint32_t bands = range_count(ladder->setup.picture->height, BAND_ROWS);
+    const uint32_t height = ladder->setup.picture->height, bands = range_count(height, BAND_ROWS);
+    const uint32_t rows = TASK_PIXELS / ladder->setup.picture->width;
+    ThreadPool *pool = ladder->setup.pool;
     Entering entering = {.ladder = ladder,
                          .entries = memory_zeroed(bands, sizeof *entering.entries, error)};
     const bool ok =
         entering.entries != NULL &&
         thin_parts_make(&entering.thin_parts, &ladder->setup, &ladder->frame, false, error);
-    if (ok)
-        enter_all(&entering, bands);
+    if (ok) {
+        thread_pool_share(pool, height, rows + 1, measure_rows, ladder);
+        thread_pool_share(pool, bands, rows / BAND_ROWS + 1, enter_bands, &entering);
+    }
+    for (uint32_t band = 0; ok && band < bands; band++)
+        for (uint32_t stratum = 0; stratum < BEND_CLASSES; stratum++)
+            strata_enter(&ladder->statistics, stratum, entering.entries[band].pixels[stratum],
+                         entering.entries[band].features[stratum]);
     free(entering.entries);
     thin_parts_free(&entering.thin_parts);
     return ok;
