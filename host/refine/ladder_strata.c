@@ -10,14 +10,12 @@
 #include <math.h>
 
 // A pixel is in BENT_SOME if its bend (ladder_entry.c) exceeds SOME_BEND, or if a thin part touches
-// it. It is in BENT_MUCH if its bend exceeds LARGE_BEND. Without BENT_MUCH, pictures took 4, 9 and
-// 3 % more samples for errors of 1, 0.5 and 0.2 %.
+// it. It is in BENT_MUCH if its bend exceeds LARGE_BEND.
 #define SOME_BEND  0.05
 #define LARGE_BEND 0.5
 
-// Weights of the priors, in pixels. With a STRATUM_WEIGHT of 2, pictures took 4, 9 and 6 % more
-// samples for errors of 1, 0.5 and 0.2 %. With 1, more than 5 % of the errors in a test exceeded
-// their bounds.
+// Weights of the priors, in pixels. With a STRATUM_WEIGHT of 1, more than 5 % of the errors in a
+// test exceeded their bounds.
 #define RUNG_WEIGHT    4
 #define STRATUM_WEIGHT 1.3
 
@@ -37,16 +35,13 @@
 
 // A mirror may show detail that is nowhere else in the picture. The detail's contrast is at most
 // the mirror's reflectivity. Instead of LEAST_FAR and LEAST_SAMPLED, it therefore gets the
-// following values times the squared reflectivity, if these are larger. In a test, a perfect mirror
-// showed dots behind the eye. Without this increase, 6 % of the test's pictures had errors above
-// 1.1 times the goal.
+// following values times the squared reflectivity, if these are larger (docs/accuracy.md).
 #define LEAST_FAR_MIRROR     0.2
 #define LEAST_SAMPLED_MIRROR 0.1
 
 // The minimum of a rung's largest mean feature is EDGE_CENTER on rung 0, and EDGE_SAMPLED /
 // ladder_samples[i] on a higher rung i. Without this minimum, the bound would be 0 if all pixel
-// centers miss the objects. For an error goal of 0.5 %, an easy scene takes 2.3 % more samples than
-// without the minimum. With an EDGE_CENTER of 1, it would take 4 % more.
+// centers miss the objects.
 #define EDGE_CENTER  0.75
 #define EDGE_SAMPLED 0.0625
 
@@ -72,8 +67,7 @@
 #define FIRST_MOST   (1.0 / 32)
 #define FIRST_PIXELS 32
 
-// Each step after the first multiplies the fraction by this factor. With a factor of 2, more rounds
-// were necessary, and pictures took 6 to 10 % longer.
+// Each step after the first multiplies the fraction by this factor.
 #define FRACTION_GROWTH 4
 
 // A stratum without controls must advance some pixels if it is on rung 0, or if its expected error
@@ -150,13 +144,12 @@ static double mean_feature(const Stratum *stratum)
 
 // Returns the ratio of change to feature that is expected before any pixel advances. Features
 // shrink like the squared error of independent samples. The squared error of Sobol points shrinks
-// faster, so the ratio falls from rung to rung.
+// faster, so the ratio falls from rung to rung. A rung has twice as many samples as the one below.
 static double first_ratio(const Rung rungs[], uint32_t rung)
 {
     if (rung < 2)
         return rung == 0 ? CENTER_RATIO : FIRST_RATIO;
-    const double growth = (double)ladder_samples[rung] / ladder_samples[rung - 1];
-    return rungs[rung - 1].ratio / sqrt(growth);
+    return rungs[rung - 1].ratio / sqrt(2);
 }
 
 // Computes the statistics of a rung. Requires the statistics of the lower rungs.
@@ -254,19 +247,6 @@ static double step_cost(uint32_t stratum)
     return rung == 0 ? ladder_samples[1] : ladder_samples[rung + 1] - ladder_samples[rung];
 }
 
-static void measure_step(Step *step, const Strata *strata, const Forecast *forecast)
-{
-    const Stratum *stratum = &strata->strata[step->stratum];
-    const Outlook *outlook = &forecast->strata[step->stratum];
-    const double now = stratum->fraction;
-    step->pixels = outlook->left * (step->fraction - now) / (1 - now);
-    const double variance = forecast->variance - variance_after(stratum, outlook, 0) +
-                            variance_after(stratum, outlook, step->pixels);
-    step->gain = GAIN_PART * step->pixels * outlook->mean +
-                 DEVIATIONS * (sqrt(forecast->variance) - sqrt(fmax(variance, 0)));
-    step->score = step->gain / (step->pixels * step_cost(step->stratum));
-}
-
 // Returns the fraction of a stratum that its first step selects.
 static double first_fraction(const Stratum *stratum, const Outlook *outlook, double aim)
 {
@@ -285,12 +265,17 @@ static bool next_step(Step *step, uint32_t number, const Strata *strata, const F
     const uint32_t rung = strata_rung(number);
     if (rung + 1 == LADDER_RUNGS || outlook->left < 1 || stratum->fraction >= 1)
         return false;
-    const bool is_first = stratum->fraction == 0;
-    const double fraction = is_first ? first_fraction(stratum, outlook, aim)
-                                     : fmax(FIRST_MOST, FRACTION_GROWTH * stratum->fraction);
-    *step = (Step){.stratum = number, .fraction = fmin(fraction, 1)};
-    step->is_forced = is_first && (rung == 0 || outlook->left * outlook->mean > FORCED_PART * aim);
-    measure_step(step, strata, forecast);
+    const double now = stratum->fraction;
+    const double wanted =
+        now == 0 ? first_fraction(stratum, outlook, aim) : fmax(FIRST_MOST, FRACTION_GROWTH * now);
+    const double fraction = fmin(wanted, 1), pixels = outlook->left * (fraction - now) / (1 - now);
+    const double variance = forecast->variance - variance_after(stratum, outlook, 0) +
+                            variance_after(stratum, outlook, pixels);
+    const double gain = GAIN_PART * pixels * outlook->mean +
+                        DEVIATIONS * (sqrt(forecast->variance) - sqrt(fmax(variance, 0)));
+    const bool is_forced =
+        now == 0 && (rung == 0 || outlook->left * outlook->mean > FORCED_PART * aim);
+    *step = (Step){number, fraction, pixels, gain, gain / (pixels * step_cost(number)), is_forced};
     return true;
 }
 
@@ -353,16 +338,15 @@ StrataOutcome strata_raise(Strata *strata, const StrataAim *aim)
     if (is_reached(strata, &forecast, wanted))
         return STRATA_REACHED;
     for (uint32_t i = 0; i < STRATA_COUNT; i++) {
+        const Step *step = &steps[count];
         if (!next_step(&steps[count], i, strata, &forecast, wanted))
             continue;
-        const Step *step = &steps[count];
-        if (!step->is_forced) {
-            count++;
-            continue;
+        count += !step->is_forced;
+        if (step->is_forced) {
+            is_forced = true;
+            strata->strata[i].fraction = step->fraction;
+            samples -= step->pixels * step_cost(i);
         }
-        is_forced = true;
-        strata->strata[i].fraction = step->fraction;
-        samples -= step->pixels * step_cost(i);
     }
     take_steps(strata, steps, count, COVERED_PART * excess, samples);
     if (!is_forced && excess <= 0)

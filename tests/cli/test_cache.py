@@ -60,11 +60,11 @@ class Damage(CacheWork):
         running.communicate()
         self.assertEqual(self.private_folders(), [])
 
-    def test_four_processes_that_start_at_once_draw_from_an_empty_cache(self):
+    def test_eight_processes_that_start_at_once_draw_from_an_empty_cache(self):
         shutil.rmtree(self.cache / "clrt")
-        names = [f"{i}.pfm" for i in range(4)]
+        names = [f"{i}.pfm" for i in range(8)]
         running = [self.start_clrt(*PICTURE, "-o", name) for name in names]
-        self.assertEqual([process.communicate()[1] for process in running], [""] * 4)
+        self.assertEqual([process.communicate()[1] for process in running], [""] * 8)
         self.assertEqual({self.bytes_of(name) for name in names}, {self.expected})
         self.assertEqual([path.suffix for path in self.files()], [".bin"])
 
