@@ -34,9 +34,9 @@ class CacheWork(Work):
     def environment(self, **more):
         return dict.fromkeys(CHOSEN) | {"XDG_CACHE_HOME": str(self.cache)} | more
 
-    def start_clrt(self, *words, more=None, **settings):
+    def start_clrt(self, *words, **settings):
         kept = {name: value for name, value in os.environ.items() if name not in CHOSEN}
-        return self.start(*words, env={**kept, "XDG_CACHE_HOME": str(self.cache), **(more or {})}, **settings)
+        return self.start(*words, env={**kept, "XDG_CACHE_HOME": str(self.cache)}, **settings)
 
     def run_picture(self, *words, before=(), **more):
         """Returns the exit status, standard error, and the picture or None."""
