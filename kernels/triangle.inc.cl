@@ -53,13 +53,19 @@ static inline Edges OVERLOAD edges_of(const Corners *sheared)
     return edges;
 }
 
-// Returns whether the ray passes inside all edges. A zero edge function counts as either sign, so a
-// ray through an edge hits both triangles.
-static inline Mask OVERLOAD edges_contain(const Edges *edges)
+// Returns whether no two edge functions have opposite signs. A zero edge function counts as either
+// sign, so a ray through an edge hits both triangles.
+static inline Mask OVERLOAD edges_agree(const Edges *edges)
 {
     const Real smallest = min(min(edges->u, edges->v), edges->w);
     const Real largest = max(max(edges->u, edges->v), edges->w);
-    return (smallest >= 0.0f || largest <= 0.0f) && edges->determinant != 0.0f;
+    return smallest >= 0.0f || largest <= 0.0f;
+}
+
+// Returns whether the ray passes inside all edges.
+static inline Mask OVERLOAD edges_contain(const Edges *edges)
+{
+    return edges_agree(edges) && edges->determinant != 0.0f;
 }
 
 // Returns whether an edge function counts as positive. If a ray meets the edge from `p` to `q`

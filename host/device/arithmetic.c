@@ -144,7 +144,7 @@ static bool launch(const Device *device, cl_program program, Results found[CASES
     cl_kernel kernel = clCreateKernel(program, "repeat_arithmetic", &status);
     bool ok = cl_succeeded(status, "create the kernel of the arithmetic test", error) &&
               buffer_upload(device, &array, &operands, error) &&
-              buffer_make(device, sizeof(Results) * CASES, &results, error);
+              buffer_make(device, NULL, sizeof(Results) * CASES, &results, error);
     if (ok) {
         clSetKernelArg(kernel, 0, sizeof operands, &operands);
         clSetKernelArg(kernel, 1, sizeof results, &results);

@@ -104,7 +104,7 @@ static bool run_empty(const Kernel *kernel, Error *error)
     const char *kinds = kernel->entry->arguments;
     cl_mem buffer, scene[FLAT_ARRAYS];
     KernelRun run = {kernel->device->queue, &frame, scene, .items = {1, 1}};
-    if (!buffer_make(kernel->device, 64, &buffer, error))
+    if (!buffer_make(kernel->device, NULL, 64, &buffer, error))
         return false;
     for (int i = 0; i < FLAT_ARRAYS; i++)
         scene[i] = buffer;
@@ -218,14 +218,6 @@ bool kernel_set_save(KernelSet *set)
     for (size_t i = 0; i < set->programs.count; i++)
         ok = program_save(set->programs.data[i]) && ok;
     return ok;
-}
-
-bool kernel_set_is_saved(const KernelSet *set)
-{
-    for (size_t i = 0; i < set->programs.count; i++)
-        if (set->programs.data[i]->unsaved != NULL)
-            return false;
-    return true;
 }
 
 void kernel_set_clear(KernelSet *set)

@@ -57,8 +57,5 @@ bool kernel_run(const Kernel *kernel, const KernelRun *run, Error *error);
 // Saves new programs to the cache. Returns false if a program could not be saved.
 bool kernel_set_save(KernelSet *set);
 
-// Returns whether kernel_set_save has nothing to do.
-bool kernel_set_is_saved(const KernelSet *set);
-
 // Saves new programs, and releases all programs and kernels.
 void kernel_set_clear(KernelSet *set);

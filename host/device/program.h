@@ -58,9 +58,9 @@ bool program_make(Program *program, const ProgramSource *source, const FirstRun 
 // Returns whether the cache has a file for the program.
 bool program_is_compiled(const ProgramSource *source);
 
-// Writes the binary of an unsaved program to its cache, and returns false if this fails. PoCL takes
-// 0.4 to 0.8 s to make the binary, because PoCL then also compiles the kernels for work-groups of
-// any size.
+// Writes the binary of an unsaved program to its cache, and returns false if this fails. In the
+// library, PoCL takes 0.4 to 0.8 s to make the binary, because PoCL then also compiles the kernels
+// for work-groups of any size. In the executable, it takes 1 ms (cache_private_open).
 bool program_save(Program *program);
 
 // Saves and releases the program.

@@ -77,7 +77,7 @@ static bool open_slot(Slot *slot, const TilePass *pass, const Renderer *renderer
         const size_t size = pass->sizes[i] > 0 ? count * pass->sizes[i] : 64;
         ok = (is_read_in_place(pass, renderer, i) ||
               host_memory_make(&slot->values[i], pool, size, error)) &&
-             buffer_make(device, size, &slot->outputs[i], error);
+             buffer_make(device, NULL, size, &slot->outputs[i], error);
     }
     return ok;
 }

@@ -57,8 +57,8 @@ static bool make_room(Explainer *explainer, uint32_t room, Error *error)
     explainer->host_values = memory_raw(values, 1, error);
     explainer->host_words = memory_raw(words, 1, error);
     return explainer->host_values != NULL && explainer->host_words != NULL &&
-           buffer_make(device, values, &explainer->values, error) &&
-           buffer_make(device, words, &explainer->words, error);
+           buffer_make(device, NULL, values, &explainer->values, error) &&
+           buffer_make(device, NULL, words, &explainer->words, error);
 }
 
 static const KernelEntry explain_entry = {"explain_sample", explain_source,  NULL,

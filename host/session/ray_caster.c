@@ -18,16 +18,21 @@ static const KernelEntry entries[RAY_QUERIES] = {
                   .dimensions = 1},
     [RAYS_CERTAIN] = {"certify_rays", certify_rays_source, NULL, ARGUMENTS, .dimensions = 1}};
 
-// Makes the arrays that do not exist. An earlier call may have failed after it made some of them.
+// Makes the array unless it exists. An earlier call may have failed after it made a part.
+static bool make_array(CastArray *array, const Device *device, size_t size, Error *error)
+{
+    if (array->data == NULL)
+        array->data = memory_raw(size, 1, error);
+    return array->buffer != NULL ||
+           (array->data != NULL && buffer_make(device, array->data, size, &array->buffer, error));
+}
+
 static bool make_arrays(RayCaster *caster, const Device *device, Error *error)
 {
-    static const size_t sizes[] = {CAST_RAYS / RAY_BLOCK * sizeof(RayBlock),
-                                   HITS_MAX * sizeof(HitData), CAST_RAYS * sizeof(uint32_t)};
-    SharedArray *const arrays[] = {&caster->blocks, &caster->hits, &caster->counts};
-    bool ok = true;
-    for (int i = 0; ok && i < 3; i++)
-        ok = arrays[i]->buffer != NULL || shared_array_make(arrays[i], device, sizes[i], error);
-    return ok;
+    const size_t blocks = CAST_RAYS / RAY_BLOCK * sizeof(RayBlock);
+    return make_array(&caster->blocks, device, blocks, error) &&
+           make_array(&caster->hits, device, HITS_MAX * sizeof(HitData), error) &&
+           make_array(&caster->counts, device, CAST_RAYS * sizeof(uint32_t), error);
 }
 
 bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, bool has_spheres,
@@ -47,12 +52,18 @@ bool ray_caster_open(RayCaster *caster, Session *session, RayQuery query, bool h
     return caster->kernels[query] != NULL;
 }
 
+static void free_array(CastArray *array)
+{
+    buffer_release(&array->buffer);
+    free(array->data);
+}
+
 void ray_caster_close(RayCaster *caster)
 {
     ray_caster_free_scenes(caster);
-    shared_array_free(&caster->blocks);
-    shared_array_free(&caster->hits);
-    shared_array_free(&caster->counts);
+    free_array(&caster->blocks);
+    free_array(&caster->hits);
+    free_array(&caster->counts);
     *caster = (RayCaster){0};
 }
 
@@ -143,20 +154,23 @@ static bool launch(const RayCaster *caster, const RayCast *cast, Error *error)
     return kernel_run(kernel, &run, error);
 }
 
-// Only the first call of shared_array_receive waits for the device.
-bool ray_caster_cast(RayCaster *caster, const RayCast *cast, Error *error)
+// The write and the launch return at once, and the reads wait for the device.
+bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, Error *error)
 {
-    const size_t blocks = (cast->count + RAY_BLOCK - 1) / RAY_BLOCK * sizeof(RayBlock);
-    const size_t hits =
-        cast->query == RAYS_CERTAIN ? 0 : (size_t)cast->count * cast->room * sizeof(HitData);
-    const size_t counts = cast->query == RAYS_NEAREST ? 0 : cast->count * sizeof(uint32_t);
-    bool ok = shared_array_send(&caster->blocks, blocks, error) &&
-              shared_array_send(&caster->hits, 0, error) &&
-              shared_array_send(&caster->counts, 0, error) && launch(caster, cast, error);
-    ok = shared_array_receive(&caster->hits, ok ? hits : 0, error) && ok;
-    ok = shared_array_receive(&caster->counts, ok ? counts : 0, error) && ok;
-    ok = shared_array_receive(&caster->blocks, 0, error) && ok;
+    const Device *device = caster->kernels[cast->query]->device;
+    const CastArray *blocks = &caster->blocks, *hits = &caster->hits, *counts = &caster->counts;
+    const size_t size = (cast->count + RAY_BLOCK - 1) / RAY_BLOCK * sizeof(RayBlock);
+    const size_t found = (size_t)cast->count * cast->room * sizeof(HitData);
+    const bool ok =
+        cl_succeeded(clEnqueueWriteBuffer(device->queue, blocks->buffer, CL_FALSE, 0, size,
+                                          blocks->data, 0, NULL, NULL),
+                     "write rays", error) &&
+        launch(caster, cast, error) &&
+        (cast->query == RAYS_CERTAIN || found == 0 ||
+         buffer_read(device, hits->buffer, hits->data, found, error)) &&
+        (cast->query == RAYS_NEAREST ||
+         buffer_read(device, counts->buffer, counts->data, cast->count * sizeof(uint32_t), error));
     if (!ok)
-        clFinish(caster->kernels[cast->query]->device->queue); // the device may still read rays
+        clFinish(device->queue); // the device may still use the arrays
     return ok;
 }

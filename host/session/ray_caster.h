@@ -28,12 +28,18 @@ typedef struct {
     bool one_sided;
 } RayScene;
 
+// An array of the host, and the buffer that kernels use.
+typedef struct {
+    void *data;
+    cl_mem buffer;
+} CastArray;
+
 // An empty caster, without kernels, buffers and scenes, is {0}.
 typedef struct {
     const Kernel *kernels[RAY_QUERIES]; // by query, from its last ray_caster_open
-    SharedArray blocks;                 // of RayBlock, for CAST_RAYS rays
-    SharedArray hits;                   // of HitData, for HITS_MAX hits
-    SharedArray counts;                 // of uint32_t, for CAST_RAYS rays
+    CastArray blocks;                   // of RayBlock, for CAST_RAYS rays
+    CastArray hits;                     // of HitData, for HITS_MAX hits
+    CastArray counts;                   // of uint32_t, for CAST_RAYS rays
     RayScene scenes[NODE_LAYOUTS];
 } RayCaster;
 
@@ -67,4 +73,4 @@ typedef struct {
 // Casts the rays in caster->blocks. Stores the hits in caster->hits and, for RAYS_ALL, the numbers
 // of hits in caster->counts. For RAYS_CERTAIN, stores in caster->counts which hits of the preceding
 // cast are certain. The preceding cast must have been RAYS_NEAREST with the same rays.
-bool ray_caster_cast(RayCaster *caster, const RayCast *cast, Error *error);
+bool ray_caster_cast(const RayCaster *caster, const RayCast *cast, Error *error);

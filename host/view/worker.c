@@ -58,13 +58,7 @@ static Job await_job(Worker *worker)
         job.kind = next_kind(worker, &job.pass);
         if (job.kind != JOB_PASS || job.pass.kind != PASS_NONE)
             break;
-        if (kernel_set_is_saved(&worker->session.kernels)) {
-            pthread_cond_wait(&worker->changed, &worker->mutex);
-            continue;
-        }
-        pthread_mutex_unlock(&worker->mutex);
-        kernel_set_save(&worker->session.kernels);
-        pthread_mutex_lock(&worker->mutex);
+        pthread_cond_wait(&worker->changed, &worker->mutex);
     }
     pthread_mutex_unlock(&worker->mutex);
     return job;
@@ -78,8 +72,10 @@ static void *work(void *context)
                                                          [JOB_ENCODE] = jobs_encode,
                                                          [JOB_PASS] = jobs_trace};
     Worker *worker = context;
-    for (Job job = await_job(worker); job.kind != JOB_STOP; job = await_job(worker))
+    for (Job job = await_job(worker); job.kind != JOB_STOP; job = await_job(worker)) {
         run[job.kind](worker, &job);
+        kernel_set_save(&worker->session.kernels);
+    }
     session_close(&worker->session);
     model_release(worker->traced);
     return NULL;

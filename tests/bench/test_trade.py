@@ -15,7 +15,8 @@ import unittest
 import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-SCENE = ROOT / "scenes" / "reflections.scn"
+# This scene uses every feature of the general kernels, which other tests compile too.
+SCENE = ROOT / "tests" / "image" / "painted.scn"
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests/cli")]
 from pictures import read_pfm  # noqa: E402
 from tradeoff import front, goals, labels, measure, uniform  # noqa: E402
@@ -196,11 +197,11 @@ class Trade(unittest.TestCase):
                 rmse = {row["setting"]: row["rmse"] for row in rows if row["kind"] != "time"}
                 self.assertEqual(rmse, {name: row["rmse"] for name, row in self.rows.items() if name in rmse})
                 self.assertEqual(len(rows), len(self.rows))
-                pathlib.Path(folder, "reflections", "2.row").unlink()
+                pathlib.Path(folder, "painted", "2.row").unlink()
 
     def squares_of(self, name):
         """Returns the squared errors of a setting's pixels."""
-        pictures = [sum(read_pfm(self.folder / "reflections" / file), [])
+        pictures = [sum(read_pfm(self.folder / "painted" / file), [])
                     for file in ("reference.pfm", self.rows[name]["picture"])]
         squares = [(a - b) ** 2 for a, b in zip(*pictures)]
         return [sum(squares[i:i + 3]) / 3 for i in range(0, len(squares), 3)]
@@ -221,7 +222,7 @@ class Trade(unittest.TestCase):
     def test_each_step_is_announced(self):
         steps = ["reference", *(f"setting {number} of 7" for number in range(1, 8)),
                  "round 1 of 2", "round 2 of 2"]
-        self.assertEqual(re.findall(r"reflections\.scn: (\w+.*)", self.said), steps)
+        self.assertEqual(re.findall(r"painted\.scn: (\w+.*)", self.said), steps)
 
     def test_every_setting_is_timed_in_every_round(self):
         for row in self.rows.values():

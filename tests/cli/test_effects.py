@@ -54,7 +54,7 @@ TRIALS = {
     "tune kernel": (PICTURE + ["--tune", "kernel=packet"], PICTURE + ["--tune", "kernel=pair"]),
     "tune tile": (PICTURE, PICTURE + ["--tune", "tile=16x8"]),
     "tune group": (PICTURE, PICTURE + ["--tune", "group=4x2"]),
-    "tune specialize": (PICTURE, PICTURE + ["--tune", "specialize=always"]),
+    "tune specialize": (PICTURE + ["--tune", "kernel=pair"], PICTURE + ["--tune", "kernel=pair,specialize=always"]),
     "tune bvh": (PICTURE, PICTURE + ["--tune", "bvh=midpoint"]),
     "turntable": (PLAIN, PLAIN + ["--turntable", "2"]),
     "frames": (PLAIN, PLAIN + ["--frames", "2-3"]),

@@ -32,7 +32,7 @@ COMMANDS = [
     ["-o", "-", "--format", "pfm", "--tune=bvh=none", *REFERENCE],
     ["explain", "20,20"],
     ["explain"],
-    ["warm", "-q"],
+    ["warm", "-q", "--tune=specialize=never"],
     ["check"],
     ["convert", "a.scn"],
 ]

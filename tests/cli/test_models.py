@@ -156,7 +156,7 @@ class Formats(Work):
 
     def test_warm_and_statistics_read_models(self):
         self.write(a_stl=models.stl(POINTS, TRIANGLES))
-        self.clrt("warm", "a.stl")
+        self.clrt("warm", "a.stl", "--tune=specialize=never")
         self.picture("a.stl", "-q", "--json=stats.json")
         self.assertIn(f'"triangles": {len(TRIANGLES)}', (self.work / "stats.json").read_text())
 

@@ -236,7 +236,7 @@ class Schemas(Talk):
     def test_statistics(self):
         picture = ["-o", "a.pfm", "--json=-"]
         for words in ([], ["--tune=bvh=none"], ["--precision", "fp64"], ["--repeat", "3", "--aa"], ["--reference"],
-                      ["--aa-adaptive"]):
+                      ["--aa-adaptive", "--tune=kernel=pair"]):
             schema, found = self.validate("statistics", *SMALL, *picture, *words)
         self.validate("statistics", "open.ply", "-s", "8x8", *picture)
         found["rays"]["lost"] = 1

@@ -43,9 +43,10 @@ static void open_bench(Bench *bench, const char *path, const char *device)
         clBuildProgram(bench->program, 1, &bench->device.id, "-cl-std=CL1.2", NULL, NULL);
     require(cl_succeeded(status, "build the kernels", &error), "kernels", &error);
     bench->items = (size_t)bench->device.facts.compute_units * 4096;
-    require(buffer_make(&bench->device, BYTES, &bench->values, &error) &&
-                buffer_make(&bench->device, bench->items * sizeof(float), &bench->sums, &error),
-            "memory", &error);
+    require(
+        buffer_make(&bench->device, NULL, BYTES, &bench->values, &error) &&
+            buffer_make(&bench->device, NULL, bench->items * sizeof(float), &bench->sums, &error),
+        "memory", &error);
     const cl_float zero = 0;
     status = clEnqueueFillBuffer(bench->device.queue, bench->values, &zero, sizeof zero, 0, BYTES,
                                  0, NULL, NULL);

@@ -84,6 +84,7 @@ class Installed(unittest.TestCase):
         cls.addClassCleanup(cls.folder.cleanup)
         cls.work = pathlib.Path(cls.folder.name)
         cls.prefix = cls.work / "installed"
+        cls.cache = cls.work / "cache"
         run("cmake", "--install", BUILD, "--prefix", cls.prefix)
         (pc,) = cls.prefix.rglob("clrt.pc")
         cls.libraries = pc.parents[1]
@@ -135,21 +136,26 @@ class Installed(unittest.TestCase):
         self.build_by_pkg_config(program, "-g", source=source)
         return self.draw_with_the_program("80x60")
 
-    # This is one test, because compiling the example's kernels takes long. HOME is /proc, where not
-    # even root can create a folder. PoCL therefore has no cache at first.
-    def test_kernels_lie_in_the_chosen_folder_and_a_damaged_one_is_compiled_again(self):
-        program, cache, home = (self.work / name for name in ("cached", "cache", "home"))
-        expected = self.build_small_example(program)
+    def private_environment(self):
+        """Returns the environment of the tests that share self.cache. Valgrind's virtual processor has no
+        AVX-512, so the kernels are for AVX2 or SSE2. HOME is /proc, where not even root can create a folder."""
         hidden = ("POCL_CACHE_DIR", "XDG_CACHE_HOME", "POCL_WORK_GROUP_SPECIALIZATION")
-        environment = {k: v for k, v in self.environment.items() if k not in hidden}
-        environment["HOME"] = "/proc"
+        target = "avx2" if " avx2 " in pathlib.Path("/proc/cpuinfo").read_text() else "sse2"
+        return {**{k: v for k, v in self.environment.items() if k not in hidden},
+                "HOME": "/proc", "POCL_KERNELLIB_NAME": target}
+
+    # This is one test, because compiling the example's kernels takes long. At first, PoCL has no cache.
+    def test_kernels_lie_in_the_chosen_folder_and_a_damaged_one_is_compiled_again(self):
+        program, home = self.work / "cached", self.work / "home"
+        expected = self.build_small_example(program)
+        environment = self.private_environment()
         failed = subprocess.run([program], capture_output=True, env=environment)
         self.assertNotEqual(failed.returncode, 0)
         self.assertIn(b"set POCL_CACHE_DIR to a folder", failed.stderr)
 
-        environment["POCL_CACHE_DIR"] = str(cache)
+        environment["POCL_CACHE_DIR"] = str(self.cache)
         self.assertEqual(run(program, env={**environment, "XDG_CACHE_HOME": str(home)}), expected)
-        sizes = {kernel: kernel.stat().st_size for kernel in cache.glob("clrt/*.bin")}
+        sizes = {kernel: kernel.stat().st_size for kernel in self.cache.glob("clrt/*.bin")}
         self.assertGreater(len(sizes), 0)
         self.assertFalse((home / "clrt").exists())
 
@@ -212,14 +218,8 @@ class Installed(unittest.TestCase):
             self.skipTest("valgrind is not installed")
         program = self.work / "for-valgrind"
         expected = self.build_small_example(program)
-        # Valgrind's virtual processor has no AVX-512. Kernels for AVX2 or SSE2 are equal with and
-        # without valgrind. The first run compiles them without valgrind, because valgrind is fifty
-        # times as slow.
-        target = "avx2" if " avx2 " in pathlib.Path("/proc/cpuinfo").read_text() else "sse2"
-        cache = pathlib.Path(os.environ["XDG_CACHE_HOME"]) / "valgrind"
-        cache.mkdir(parents=True, exist_ok=True)
-        environment = {**self.environment, "XDG_CACHE_HOME": str(cache), "POCL_CACHE_DIR": str(cache),
-                       "POCL_KERNELLIB_NAME": target}
+        # Valgrind is fifty times as slow, so the first run compiles kernels without valgrind.
+        environment = {**self.private_environment(), "POCL_CACHE_DIR": str(self.cache)}
         options = ["--error-exitcode=9", "--leak-check=full", f"--suppressions={TESTS / 'memory/drivers.supp'}"]
         self.assertEqual(run(program, env=environment), expected)
         self.assertEqual(run("valgrind", "-q", *options, program, env=environment), expected)
