@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Computes a mesh's bounds, drops its faulty triangles, and rotates it.
+// Computes a mesh's bounds, drops its faulty triangles, and turns it so that z is up.
 #include "mesh/mesh.h"
 
 #include <stdbool.h>
