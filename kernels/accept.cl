@@ -75,8 +75,9 @@ static NOT_INLINE Mask stops_on_neighbor(const Search *search, UInt index, Mask 
 }
 
 // In each lane of `candidates`, makes the triangle the best hit if it precedes the best hit so far.
-// Returns the lanes whose hits changed. A tie can change a hit's t but not its id. If all hits
-// count, adds crossings instead, and returns no lanes.
+// Returns the lanes whose hits changed. In a tie, the hit gets the lesser t of both triangles, so
+// its t can change even if its triangle does not. If all hits count, adds crossings instead, and
+// returns no lanes.
 static inline Mask accept_triangle(const Search *search, Mask candidates, Hit *triangle, Hit *best)
 {
     if (CLRT_ALL_HITS) {

@@ -187,7 +187,7 @@ static NOT_INLINE void find_level(Beam *beam, const Ray *rays)
 }
 
 // Stores which triangles the rays skip. Returns false if the rays skip all triangles of the scene,
-// for example when they leave a floor under spheres.
+// for example if they start on a floor and all other objects are spheres.
 static inline bool beam_start(Beam *beam, const Tracer *tracer, const Ray *rays)
 {
     beam->tracer = tracer;

@@ -18,8 +18,8 @@
 #define CLRT_MATERIAL_CL
 #include "surface.cl"
 
-// The move in cubes is CHECK_MOVE * (rate + 1), where rate is the number of cubes in a normalized
-// unit.
+// The point moves behind the surface by CHECK_MOVE * (rate + 1) cubes. rate is the number of cubes
+// in a normalized unit.
 #define CHECK_MOVE 0x1p-19f
 
 // A surface counts as parallel to an axis if its unit normal has at most this component on the

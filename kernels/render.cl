@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes the colors of pixels and samples. Each kernel's file follows this one in its program.
+// Computes the colors of pixels and samples. A program consists of this file and the file of a
+// kernel, such as tile.cl.
 // With pair nodes, a work-item has one pixel. With wide nodes, it has a block of BLOCK x BLOCK
 // pixels, and traces PACKETS packets of these pixels at a time.
 //

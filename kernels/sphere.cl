@@ -149,9 +149,9 @@ static inline Real sphere_discriminant(TwoFloat3 f, Real3 d, Real s, Real dd, Tw
 }
 
 // Returns |f|^2 - radius^2, which is the product of the origin's distances to both walls along the
-// line through the center. At height 1 over a sphere of radius 1e9, squares of 48 bits would put
-// the hit off by 6e-6. The largest component z of f therefore adds (z - radius) (z + radius)
-// instead of z^2 - radius^2.
+// line through the center. If the origin is at height 1 over a sphere of radius 1e9, squares of 48
+// bits would move the hit by 6e-6. For the largest component z of f, the sum therefore contains
+// (z - radius) (z + radius) instead of z^2 - radius^2.
 static inline Real sphere_power(TwoFloat3 f, TwoFloat radius)
 {
     const Mask z_first = fabs(f.z.high) >= max(fabs(f.x.high), fabs(f.y.high));

@@ -114,7 +114,8 @@ static NOT_INLINE void walk_spheres(const Tracer *tracer, const Ray *ray, Hit *b
     }
 }
 
-// On GPUs, one loop for both cases needs 176 registers, and two loops 182.
+// On GPUs, walk_spheres also serves scenes without a tree over spheres, because one loop needs 176
+// registers and two loops 182.
 static inline void intersect_spheres(const Tracer *tracer, const Ray *ray, Hit *best)
 {
     if (CLRT_GPU || tracer->frame->sphere_entries > tracer->frame->sphere_count)

@@ -32,9 +32,10 @@ static inline uint lowest_bit(uint bits)
 #endif
 }
 
-// Returns the entry distances as integers that sort in reverse order. The bits of nonnegative
-// floats sort like the floats. Children that are not hit come last. The child's index replaces the
-// lowest three bits. This shortens the distance by less than 2^-20 of its value.
+// Returns an integer for each child. A child with a smaller entry distance has a larger integer,
+// and children that are not hit have the smallest ones. The bits of nonnegative floats sort like
+// the floats. The child's index replaces the lowest three bits. This shortens the distance by less
+// than 2^-20 of its value.
 static inline uint8 entry_order(float8 entry, int8 met)
 {
     const uint8 place = (uint8)(0, 1, 2, 3, 4, 5, 6, 7);

@@ -15,8 +15,9 @@ void picture_warn_of_few_tiles(const Options *options, const RenderSettings *set
 // also prints the number of tiles that earlier runs have finished.
 void picture_print_beginning(const Picture *picture);
 
-// On a terminal, and without --quiet, prints the file's name, the picture's size and the seconds
-// since picture->moment. Sets picture->moment to the current time.
+// On a terminal, without --quiet, and unless the picture goes to standard output, prints the file's
+// name, the picture's size and the seconds since picture->moment. Sets picture->moment to the
+// current time.
 void picture_print_end(Picture *picture);
 
 // These functions fill *error for a picture that misses its goal or is stopped. They return the

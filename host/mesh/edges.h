@@ -71,5 +71,5 @@ bool fans_make(Fans *fans, const Mesh *mesh, const Edges *edges, Error *error);
 void fans_join(const Fans *fans, uint32_t point, uint32_t triangle, uint32_t other);
 
 // Replaces each parent by the index of the corner's fan. Fans are numbered in the order of their
-// lowest corners. Returns the number of fans, which can no longer be joined.
+// lowest corners. Returns the number of fans. Afterwards, fans cannot be joined.
 uint32_t fans_number(Fans *fans);

@@ -30,8 +30,8 @@ static const double ends[ANGLE_WINDOWS] = {
     0.70710678118654752, 0.64278760968653933, 0.57357643635104610, 0.50000000000000000,
     0.42261826174069944, 0.34202014332566873, 0.25881904510252076};
 
-// Adds an edge between two triangles with the normals `a` and `b`, of length 1, or zero for
-// slivers.
+// Adds an edge between two triangles. `a` and `b` are the triangles' unit normals. A triangle
+// without area has a zero vector instead.
 static void edge_angles_add(EdgeAngles *angles, Vec3 a, Vec3 b)
 {
     int window = 0;

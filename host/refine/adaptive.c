@@ -225,8 +225,9 @@ static LineMean line_beside(const Adaptive *adaptive, const RefinedPixel *pixel,
     return mean;
 }
 
-// Adds lines to the pixels of the opened lines from *first on, if necessary. No gap may be open.
-// New lines of a pixel follow each other, so each pixel is considered once.
+// Visits the opened lines from the index *first on, and adds further lines to their pixels where
+// scan_lines_divide requires them. No gap may be open. New lines of a pixel follow each other, so
+// each pixel is considered once.
 static bool divide(Adaptive *adaptive, uint32_t *first, Error *error)
 {
     ScanLines *lines = &adaptive->lines;

@@ -49,6 +49,6 @@ void renderer_add_tallies(Renderer *renderer, const uint32_t *stored, size_t cou
 // Returns the kernel's parameters for a picture. Callers set the tile (tile_aim).
 FrameData renderer_frame(const Renderer *renderer, const CameraData *camera);
 
-// Returns a bound on the root mean square error that cut rays cause in the `samples` samples
-// counted in renderer->progress. The scene must have glass.
+// Returns a bound on the root mean square error of omitting the rays that max_level cuts off. The
+// tallies in renderer->progress must be those of `samples` samples. The scene must have glass.
 double renderer_truncation(const Renderer *renderer, uint64_t samples);

@@ -135,8 +135,8 @@ static uint32_t max_level_of(const ClrtPicture *wanted, const Scene *scene)
 }
 
 // Returns the max_level of the picture's reference, which is at least the max_level of the scene.
-// If an error bound determines the picture's max_level, the reference has enough levels for the
-// accuracy of floats.
+// If an error bound determines the picture's max_level, the rays that the reference cuts off change
+// colors by at most FLOAT_HALF_STEP, unless the scene's highest level is reached.
 static uint32_t reference_level(const ClrtPicture *wanted, const Scene *scene)
 {
     const uint32_t level = chooses_level(wanted) ? truncation_level(scene, FLOAT_HALF_STEP)

@@ -31,7 +31,8 @@ static bool is_free(const char *stem, const char *ending)
     return access(path, F_OK) != 0;
 }
 
-// Stores the name of the files without an ending: the start of the scene file's name, and a number.
+// Stores the common name of the two files, without an ending: the start of the scene file's name,
+// and a number.
 static void write_stem(char stem[NAME_SIZE], const char *scene_path)
 {
     const char *name = text_file_name(scene_path);

@@ -73,7 +73,7 @@ static const struct {
 };
 
 // Returns whether this test covers the option. Other tests cover the rest. --help and --version
-// ignore the other options. Each key of --tune is a row of its own. A second -o is an error.
+// ignore the other options. Keys of --tune have rows of their own. A second -o is an error.
 static bool is_walked(const Option *option)
 {
     return option->kind != OPTION_ACTION && option->set != set_tune && option->set != set_output;

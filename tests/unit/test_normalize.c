@@ -200,7 +200,8 @@ TEST(only_a_picture_narrower_than_the_width_widens)
     assert_memory_equal(&broad, &plain, sizeof plain);
 }
 
-// 300 rows divide half the height, 3, into 300 half steps. Normalization scales these steps.
+// The height is 6, so each of 300 rows has a height of 0.02. Half of it is the length of down_step,
+// which normalization scales.
 TEST(orthographic_pictures_have_their_height_in_scene_units)
 {
     Viewpoint flat = {.eye = {4, 0, 0}, .up = {0, 0, 1}, .height = 6};

@@ -19,7 +19,7 @@ bool rays_move_origin(size_t i, size_t bundle);
 // Returns a camera ray between two points. Rounds `from` to float, and then the direction.
 TestRay ray_between(Vec3 from, Vec3 to);
 
-// Returns a camera ray between two points in scene coordinates, rounded as in ray_between.
+// Returns the ray of ray_between for two points that are given in scene coordinates.
 TestRay ray_between_in(const Stage *stage, Vec3 from, Vec3 to);
 
 // The targets of rays that start at random points of a room.
