@@ -20,8 +20,7 @@ typedef uint64_t ulong;
 #define CLRT_SAME_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type);
 #endif
 
-// The id that stands for no primitive. Ids number the spheres first and then the triangles, each in
-// file order.
+// The id of no primitive. Ids number the spheres, then the triangles, each in file order.
 #define NOTHING 0xffffffffu
 
 // Builders limit trees to BVH_MAX_DEPTH levels. The traversal stack of a binary tree has
@@ -39,8 +38,7 @@ typedef uint64_t ulong;
 // search_behind allows another 256 units. A box at the start has nearly the origin's coordinates,
 // so the box grows as far as the origin moves. The growth and the move each cover half of these 256
 // units. Each must cover at most 34 + 8 + 54 + 128 = 224 units. search_reach (search.cl) covers
-// hits beyond the best hit. Boxes of spheres need less (B22). Doubling the slack costs no
-// measurable time.
+// hits beyond the best hit. Boxes of spheres need less (B22). Twice the slack takes no longer.
 #define BVH_SLACK 0x1p-16f
 
 // The box around all primitives grows by this fraction of its largest coordinate. Kernels grow the
@@ -48,13 +46,11 @@ typedef uint64_t ulong;
 // grown box hit nothing (docs/numerics.md, B17).
 #define SKY_SLACK 0x1p-12f
 
+// Lights shade surfaces for which IS_SHADED is true.
 typedef enum { SHADER_SILHOUETTE, SHADER_MATTE, SHADER_BLINN_PHONG, SHADER_GLASS } Shader;
-
-// Returns whether lights shade surfaces of this shader.
 #define IS_SHADED(shader) ((shader) == SHADER_MATTE || (shader) == SHADER_BLINN_PHONG)
 
-// The most levels of a path in a scene with glass. A path's stack has a slot for each level
-// (branches.cl).
+// The most levels of a path in a scene with glass: the slots of its stack (branches.cl).
 #define GLASS_LEVELS 16
 
 // Color seen = (1 - reflectivity) * clamp(shaded) + reflectivity * reflected. With a checker, cubes

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests that the window reloads changed scenes, meshes and kernels, and that it shows errors over the
-last valid picture. Usage: CLRT=path/to/clrt test_reload.py"""
+"""Tests that the window reloads changed scenes, meshes and kernels, shows errors over the last
+valid picture, and stores new kernels while it is open. Usage: CLRT=path/to/clrt test_reload.py"""
 
 import os
 import pathlib
 import shutil
+import unittest.mock
 
 from screen import ROOT, expect, opened, run_tests
 
@@ -120,6 +121,12 @@ def changed_kernels_trace_the_next_picture(screen, folder):
         window.close()
     finally:
         del os.environ["CLRT_KERNEL_DIR"]
+
+
+def new_kernels_are_stored_before_the_window_closes(screen, folder):
+    with unittest.mock.patch.dict(os.environ, XDG_CACHE_HOME=str(folder)):
+        window = opened(screen, ROOT / "scenes" / "ball.scn", "--tune=kernel=pair")  # compiles fastest
+    window.until(lambda _: list(folder.glob("clrt/*.bin")), "stores its kernels")
 
 
 if __name__ == "__main__":
