@@ -124,7 +124,7 @@ def changed_kernels_trace_the_next_picture(screen, folder):
 
 
 def new_kernels_are_stored_before_the_window_closes(screen, folder):
-    with unittest.mock.patch.dict(os.environ, XDG_CACHE_HOME=str(folder)):
+    with unittest.mock.patch.dict(os.environ, POCL_CACHE_DIR=str(folder)):
         window = opened(screen, ROOT / "scenes" / "ball.scn", "--tune=kernel=pair")  # compiles fastest
     window.until(lambda _: list(folder.glob("clrt/*.bin")), "stores its kernels")
 
